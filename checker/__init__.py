@@ -1,0 +1,1 @@
+"""Check robot simulation packages: read, judge, drive, report."""

@@ -1,0 +1,136 @@
+"""The command `subt-check`. Every command is named in this file; each loads what it needs."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+EXIT_CLEAN, EXIT_FINDINGS, EXIT_USAGE, EXIT_CRASH = 0, 1, 2, 3
+COMMANDS = ("check", "rule", "rules")
+PROFILES = ("subt", "sdf", "urdf", "gazebo-harmonic")
+
+_EXITS = """exit codes:
+  0  nothing at or above --fail-on
+  1  findings at or above --fail-on
+  2  wrong usage, or input that cannot be read
+  3  a rule could not run because of the checker itself
+"""
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """Return the parser of all commands."""
+    parser = argparse.ArgumentParser(
+        prog="subt-check",
+        description="Check robot model packages for simulation. "
+        "`subt-check PATH` is short for `subt-check check PATH`.",
+        epilog=_EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="store_true", help="print the version and exit")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND")
+    _add_check(commands)
+    one = commands.add_parser("rule", help="explain a rule")
+    one.add_argument("id", help="such as SEN005 or lidar-scan-resolution")
+    every = commands.add_parser("rules", help="list all rules")
+    every.add_argument("--format", choices=("text", "json"), default="text")
+    return parser
+
+
+def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    check = commands.add_parser(
+        "check",
+        help="check packages",
+        epilog=_EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    check.add_argument(
+        "paths",
+        nargs="+",
+        metavar="PATH",
+        help="a package folder, an archive (.zip, .tar.gz), a folder of packages, or a model file",
+    )
+    check.add_argument("--format", choices=("text", "json"), default="text")
+    check.add_argument("--output", metavar="FILE", help="write the result there, not to stdout")
+    check.add_argument("--report", metavar="DIR", help="also write report.json into this folder")
+    check.add_argument("--profile", choices=PROFILES, help="what to judge (default: subt)")
+    check.add_argument("--select", metavar="IDS", type=_ids, help="only these rules or groups")
+    check.add_argument("--ignore", metavar="IDS", type=_ids, help="leave out rules or groups")
+    check.add_argument("--fail-on", choices=("error", "warning"), help="(default: error)")
+    check.add_argument("--jobs", type=_positive, default=1, metavar="N", help="processes")
+    check.add_argument("--color", choices=("auto", "always", "never"), default="auto")
+
+
+def _ids(text: str) -> tuple[str, ...]:
+    return tuple(word.strip() for word in text.split(",") if word.strip())
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of processes, expected 1 or more")
+    return int(text)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command and return its exit code; no traceback ever reaches the user."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words and words[0] not in COMMANDS and not words[0].startswith("-"):
+        words.insert(0, "check")
+    parser = build_parser()
+    options = parser.parse_args(words)
+    if options.version:
+        from checker.versions import tool_version
+
+        print(f"subt-check {tool_version()}")
+        return EXIT_CLEAN
+    if options.command is None:
+        parser.print_help()
+        return EXIT_USAGE
+    return _guarded(options)
+
+
+def _guarded(options: argparse.Namespace) -> int:
+    from checker.errors import CheckerError
+
+    try:
+        return _run(options)
+    except CheckerError as error:
+        print(f"subt-check: {error}", file=sys.stderr)
+        return EXIT_USAGE
+    except BrokenPipeError:
+        # The reader went away; point stdout at nothing so that the exit is silent too.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return EXIT_CLEAN
+    except KeyboardInterrupt:
+        print("subt-check: interrupted", file=sys.stderr)
+        return EXIT_USAGE
+    except Exception as error:
+        if os.environ.get("SUBT_CHECK_DEBUG"):
+            raise
+        print(
+            f"subt-check: internal error ({type(error).__name__}: {error}); please report it "
+            "with the output of the same command under SUBT_CHECK_DEBUG=1",
+            file=sys.stderr,
+        )
+        return EXIT_CRASH
+
+
+def _run(options: argparse.Namespace) -> int:
+    match options.command:
+        case "check":
+            from checker.commands import check
+
+            return check(options)
+        case "rule":
+            from checker.commands import explain_rule
+
+            return explain_rule(options.id)
+        case _:
+            from checker.commands import list_rules
+
+            return list_rules(options.format)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,58 @@
+"""What the user gave on the command line and the checker cannot read at all.
+
+Faults inside a package are findings; these exceptions are for input that holds no package to
+find anything in.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class CheckerError(Exception):
+    """Something that the user can mend; its text is one sentence and reaches the terminal."""
+
+
+class InvalidSettings(CheckerError):
+    """Settings that name what does not exist, or have the wrong type.
+
+    Attributes:
+        path: The settings file; None when the command line says it.
+        problem: What is wrong, and what is known instead.
+    """
+
+    def __init__(self, path: Path | None, problem: str) -> None:
+        super().__init__(path, problem)
+        self.path = path
+        self.problem = problem
+
+    def __str__(self) -> str:
+        """Give the file, if it is one, and the problem."""
+        return f"{self.path}: {self.problem}" if self.path else self.problem
+
+
+class UnreadableInput(CheckerError):
+    """An argument that is no package, archive or model file, or cannot be opened.
+
+    Attributes:
+        path: As the user gave it.
+        reason: What is wrong with it, as the end of a sentence that starts with the path.
+        advice: What to do about it, in the imperative.
+    """
+
+    def __init__(self, path: Path, reason: str, advice: str) -> None:
+        super().__init__(path, reason, advice)
+        self.path = path
+        self.reason = reason
+        self.advice = advice
+
+    def __str__(self) -> str:
+        """Give path, reason and advice in one sentence."""
+        shown = "".join(
+            c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(self.path)
+        )
+        return f"{shown} {self.reason}; {self.advice}."
+
+
+class RefusedArchive(UnreadableInput):
+    """An archive that could do harm when unpacked, or is larger than any package."""

@@ -1,0 +1,1 @@
+"""One robot model, read from SDF or URDF, in which everything knows its place."""

@@ -1,0 +1,25 @@
+"""Faults that a reader met and went on: rules turn them into findings."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+from checker.source.text import Span
+
+
+class FaultKind(enum.Enum):
+    """What sort of fault a reader met."""
+
+    VALUE = "a value does not read as its type"
+    FRAME = "a frame is unknown or depends on itself"
+    INCLUDE = "an included model cannot be read"
+
+
+@dataclass(frozen=True, eq=False)
+class Fault:
+    """One fault in a user's file."""
+
+    kind: FaultKind
+    span: Span
+    message: str

@@ -1,0 +1,1 @@
+"""The launch graph: what roslaunch would start, every part with its place."""

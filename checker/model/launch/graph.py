@@ -1,0 +1,181 @@
+"""What a launch file starts: nodes, remaps, parameters, and what could not be followed.
+
+Texts hold what roslaunch would put there. What depends on the machine that launches (`$(env X)`,
+`$(find p)`, `$(anon x)`) is kept as written, so a text that still holds `$(` is not known.
+"""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from checker.model.launch.bridge import Bridge
+from checker.model.launch.names import resolve_name
+from checker.source.text import Located, Span
+
+
+class LaunchFaultKind(enum.Enum):
+    """What sort of fault stands in a launch file."""
+
+    UNDECLARED_ARG = "an arg is used but not declared"
+    MISSING_ARG = "a required arg is not given"
+    UNKNOWN_ARG = "an arg is given that the included file does not declare"
+    CONSTANT_ARG = "an arg is given that the file sets to a constant"
+    REPEATED_ARG = "an arg is declared twice"
+    CONDITION = "a condition is neither true nor false"
+    SUBSTITUTION = "a substitution cannot be read"
+    MISSING_FILE = "an included file does not exist"
+    INCLUDE_LOOP = "a file includes itself"
+    BRIDGE = "an argument of a bridge cannot be read"
+    LIMIT = "the launch file is larger than this reader follows"
+
+
+@dataclass(frozen=True, eq=False)
+class LaunchFault:
+    """One fault of a launch file."""
+
+    kind: LaunchFaultKind
+    span: Span
+    message: str
+
+
+@dataclass(frozen=True, eq=False)
+class Remap:
+    """A `<remap>` that is in force for a node.
+
+    Attributes:
+        source: The name that the node asks for (`from`).
+        target: The name that it gets (`to`).
+        span: The start tag.
+        inherited: Whether it stands outside the node, in a group or in the file.
+    """
+
+    source: str
+    target: str
+    span: Span
+    inherited: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A node that the launch file starts; those that a condition leaves out are not here.
+
+    Attributes:
+        package: Package that holds the program (`pkg`).
+        type: Name of the program.
+        name: Name of the node, without its namespace.
+        namespace: Absolute, `/` or `/X1`.
+        args: Command line, substitutions made.
+        remaps: Those in force: the node's own and those around it.
+        span: The start tag.
+    """
+
+    package: str
+    type: str
+    name: str
+    namespace: str
+    args: str
+    remaps: tuple[Remap, ...]
+    span: Span
+
+    @property
+    def file(self) -> str:
+        """The launch file in which the node stands."""
+        return self.span.source.file
+
+    @property
+    def full_name(self) -> str:
+        """Namespace and name: `/X1/pose_tf_broadcaster`."""
+        return resolve_name(self.name, self.namespace)
+
+    def resolve(self, name: str) -> str:
+        """Return the absolute name that the node gets when it asks for `name`."""
+        wanted = resolve_name(name, self.namespace, self.name)
+        for remap in self.remaps:
+            if resolve_name(remap.source, self.namespace, self.name) == wanted:
+                return resolve_name(remap.target, self.namespace, self.name)
+        return wanted
+
+
+@dataclass(frozen=True, eq=False)
+class Param:
+    """A parameter that the launch file sets.
+
+    Attributes:
+        name: Absolute name; the namespace for a `<rosparam>` without `param`.
+        value: The value, the command, the file name or the YAML text.
+        kind: `value`, `command`, `textfile`, `binfile`, `yaml` or `load`.
+        span: The start tag.
+    """
+
+    name: str
+    value: str
+    kind: str
+    span: Span
+
+
+@dataclass(frozen=True, eq=False)
+class EnvironmentVariable:
+    """An `<env>` tag."""
+
+    name: str
+    value: str
+    span: Span
+
+
+@dataclass(frozen=True, eq=False)
+class Include:
+    """An `<include>` that was followed: its file by the path the reader knows it under."""
+
+    file: str
+    arguments: Mapping[str, str]
+    span: Span
+
+
+@dataclass(frozen=True, eq=False)
+class UnresolvedInclude:
+    """An `<include>` of a file that is not at hand.
+
+    Attributes:
+        package: Package of `$(find …)`; empty when the file is named otherwise.
+        file: Path within the package, or what the attribute says.
+        arguments: What is handed over, by name.
+        namespace: Where the nodes of the file would stand.
+        reason: Why it is not at hand.
+        span: The start tag.
+    """
+
+    package: str
+    file: str
+    arguments: Mapping[str, str]
+    namespace: str
+    reason: str
+    span: Span
+
+
+@dataclass(frozen=True, eq=False)
+class LaunchGraph:
+    """All that a launch file starts, files that it includes among it.
+
+    Attributes:
+        nodes: In the order of the files.
+        bridges: Topics that the nodes pass between ROS and Gazebo.
+        params: Parameters set.
+        environment: Environment variables set.
+        includes: Files followed.
+        unresolved_includes: Files not at hand.
+        arguments: Args that the entry file declares, with their values.
+        undecided: Conditions whose value is not known here; what they guard is left out.
+        faults: What is wrong.
+    """
+
+    nodes: tuple[Node, ...] = ()
+    bridges: tuple[Bridge, ...] = ()
+    params: tuple[Param, ...] = ()
+    environment: tuple[EnvironmentVariable, ...] = ()
+    includes: tuple[Include, ...] = ()
+    unresolved_includes: tuple[UnresolvedInclude, ...] = ()
+    arguments: Mapping[str, Located[str]] = field(default_factory=dict)
+    undecided: tuple[Located[str], ...] = ()
+    faults: tuple[LaunchFault, ...] = ()

@@ -1,0 +1,113 @@
+"""Attributes of launch elements as roslaunch reads them: substitutions, conditions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from checker.model.launch.graph import LaunchFault, LaunchFaultKind
+from checker.model.launch.scope import Scope
+from checker.model.launch.substitution import is_known, substitute
+from checker.source.text import Located, Span
+from checker.source.xml import Element
+
+MAX_STEPS = 100_000
+_TRUTH = {"true": True, "1": True, "false": False, "0": False}
+_WORD = re.compile(r"(?:\$\([^()]*\)|\S)+")
+
+
+def truth_of(text: str) -> bool | None:
+    """Read a truth value as roslaunch does; None for any other text."""
+    return _TRUTH.get(text.strip().lower())
+
+
+class Reader:
+    """Reads attributes, collects faults, and counts steps.
+
+    Attributes:
+        faults: What was wrong so far.
+        undecided: Conditions whose value is not known here.
+    """
+
+    def __init__(self) -> None:
+        self.faults: list[LaunchFault] = []
+        self.undecided: list[Located[str]] = []
+        self._steps = MAX_STEPS
+
+    @property
+    def exhausted(self) -> bool:
+        """Whether all steps are used up."""
+        return self._steps <= 0
+
+    def fault(self, kind: LaunchFaultKind, where: Element | Span, message: str) -> None:
+        """Remember a fault."""
+        self.faults.append(LaunchFault(kind, where.span, message))
+
+    def charge(self, element: Element, steps: int) -> bool:
+        """Count steps, and say whether there are any left; the last one is a fault, once."""
+        before, self._steps = self._steps, self._steps - steps
+        if before > 0 >= self._steps:
+            message = f"the launch file takes more than {MAX_STEPS} steps to follow"
+            self.fault(LaunchFaultKind.LIMIT, element, message)
+        return not self.exhausted
+
+    def text(self, element: Element, attribute: str, scope: Scope) -> Located[str] | None:
+        """Return an attribute with its substitutions made; None when it is absent."""
+        if element.get(attribute) is None:
+            return None
+        written = element.attribute(attribute)
+        if written is None or "$(" not in written.value:
+            return written
+        result = substitute(written.value, scope.args, scope.file.directory)
+        for fault in result.faults:
+            span = written.span
+            if span.text == written.value:
+                start, end = span.start + fault.start, span.start + fault.end
+                span = Span(span.source, start, end, span.element)
+            self.fault(fault.kind, span, fault.message)
+        return Located(result.text, written.span)
+
+    def value(self, element: Element, attribute: str, scope: Scope, default: str = "") -> str:
+        """Return the text of an attribute without its place."""
+        found = self.text(element, attribute, scope)
+        return default if found is None else found.value
+
+    def enabled(self, element: Element, scope: Scope) -> bool:
+        """Whether `if` and `unless` let an element count; what is not known does not."""
+        for attribute, wanted in (("if", True), ("unless", False)):
+            condition = self.text(element, attribute, scope)
+            if condition is None:
+                continue
+            truth = truth_of(condition.value)
+            if truth is None:
+                self._neither(attribute, condition)
+            if truth is not wanted:
+                return False
+        return True
+
+    def _neither(self, attribute: str, condition: Located[str]) -> None:
+        if not is_known(condition.value):
+            self.undecided.append(condition)
+            return
+        message = f"{attribute}={condition.value!r} is none of true, false, 1, 0"
+        self.fault(LaunchFaultKind.CONDITION, condition.span, message)
+
+
+def words(written: Located[str], scope: Scope) -> Iterator[Located[str]]:
+    """Yield the words of an attribute, substituted, each with the text it was written as.
+
+    Faults of the substitutions are said where the attribute is read as a whole.
+    """
+    text, span = written.value, written.span
+    # Character references and line endings are written longer than they read.
+    exact = len(span.text) == len(text) and span.text.split() == text.split()
+    pieces = _WORD.finditer(text)
+    if text.startswith("$(eval "):
+        exact, pieces = False, re.finditer(r".+", text, re.DOTALL)
+    for piece in pieces:
+        place = span
+        if exact:
+            place = Span(span.source, span.start + piece.start(), span.start + piece.end())
+        result = substitute(piece.group(), scope.args, scope.file.directory).text
+        for word in _WORD.findall(result):
+            yield Located(word, place)

@@ -1,0 +1,115 @@
+"""The SDFormat schema: which element may stand where, with which attributes.
+
+The tables are described in `checker/data/README.md`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache, cached_property
+from typing import Any
+
+from checker.resources import table
+from checker.source.xml import Element
+
+VERSIONS = ("1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12")
+
+
+@dataclass(frozen=True)
+class ElementType:
+    """What the specification says of one element at one place.
+
+    Attributes:
+        name: The tag.
+        description: The table's entry.
+        version: SDF version.
+        enclosing: Entries around this one, outermost first.
+    """
+
+    name: str
+    description: dict[str, Any]
+    version: str
+    enclosing: tuple[dict[str, Any], ...] = ()
+
+    @property
+    def free(self) -> bool:
+        """Whether anything may stand inside (plugins)."""
+        return bool(self.description.get("free"))
+
+    @property
+    def attributes(self) -> dict[str, list[str]]:
+        """Attribute name → type, default, required (`1`) or not."""
+        return dict(self.description.get("attrs", {}))
+
+    @cached_property
+    def children(self) -> dict[str, ElementType]:
+        """Elements that may stand directly inside, by tag."""
+        return {child.name: child for child in self._children()}
+
+    def _children(self) -> Iterator[ElementType]:
+        types = _types(self.version)
+        around = (*self.enclosing, self.description)
+        for kid in self.description.get("kids", ()):
+            if "ref" in kid:
+                description = types[kid["ref"]]
+            elif "self" in kid:
+                description = next(d for d in reversed(around) if d["name"] == kid["self"])
+            else:
+                description = kid
+            recursive = "self" in kid
+            yield ElementType(
+                description["name"], description, self.version, () if recursive else around
+            )
+
+
+def _types(version: str) -> dict[str, Any]:
+    types: dict[str, Any] = table(f"sdf_spec_{version}")["types"]
+    return types
+
+
+@cache
+def sdf_root(version: str) -> ElementType:
+    """Return the type of `<sdf>` in a version; that of 1.6 for a version that is not known."""
+    known = version if version in VERSIONS else "1.6"
+    root = table(f"sdf_spec_{known}")["root"]
+    return ElementType("sdf", _types(known)[root], known)
+
+
+@cache
+def all_tags(version: str) -> frozenset[str]:
+    """Return every tag that occurs anywhere in a version."""
+    tags: set[str] = set()
+    stack: list[Any] = [*_types(version).values()]
+    while stack:
+        entry = stack.pop()
+        if "name" in entry:
+            tags.add(entry["name"])
+        stack.extend(entry.get("kids", ()))
+    return frozenset(tags)
+
+
+def walk(root: Element, version: str) -> Iterator[tuple[Element, ElementType | None]]:
+    """Yield each element with its type, in document order; None for one that has no place there.
+
+    What stands below an unknown or a free element is passed over, and so are elements with a
+    namespace prefix, which SDFormat leaves to others.
+    """
+    stack: list[tuple[Element, ElementType | None]] = [(root, sdf_root(version))]
+    while stack:
+        element, kind = stack.pop()
+        yield element, kind
+        if kind is None or kind.free:
+            continue
+        stack.extend(
+            (child, kind.children.get(child.tag))
+            for child in reversed(element.children)
+            if ":" not in child.tag
+        )
+
+
+def nearest(word: str, choices: Iterator[str] | list[str] | frozenset[str]) -> str | None:
+    """Return the known word that a misspelt one stands for, if one is near enough."""
+    matches = get_close_matches(word, list(choices), n=1, cutoff=0.8)
+    return matches[0] if matches else None

@@ -1,0 +1,98 @@
+"""Links of SDF, and what hangs on them."""
+
+from __future__ import annotations
+
+from checker.model.frames import FrameNode
+from checker.model.robot import (
+    Collision,
+    Inertial,
+    Light,
+    Link,
+    Plugin,
+    Sensor,
+    Visual,
+)
+from checker.model.sdf.geometry import read_geometry, read_material
+from checker.model.sdf.scope import Scope
+from checker.source.text import Located
+from checker.source.xml import Element
+
+_MOMENTS = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1.0}
+"""SDFormat's defaults, kg·m²."""
+
+
+def read_link(element: Element, scope: Scope) -> Link:
+    """Read a `<link>` and enter its frame into the graph."""
+    name = scope.values.name(element)
+    pose = scope.pose(element)
+    scoped_name = scope.scoped(name.value)
+    scope.graph.add(
+        scoped_name,
+        FrameNode(
+            pose.relative_to or scope.model_frame, pose.transform, pose.span, f"link '{name.value}'"
+        ),
+    )
+    return Link(
+        name,
+        element,
+        scoped_name,
+        pose,
+        _read_inertial(element, scope),
+        tuple(_read_collision(child, scope) for child in element.all("collision")),
+        tuple(_read_visual(child, scope) for child in element.all("visual")),
+        tuple(read_sensor(child, scoped_name, scope) for child in element.all("sensor")),
+        tuple(_read_light(child, scoped_name, scope) for child in element.all("light")),
+    )
+
+
+def _read_inertial(link: Element, scope: Scope) -> Inertial | None:
+    element = link.child("inertial")
+    if element is None:
+        return None
+    inertia = element.child("inertia") or element
+    moments = tuple(
+        scope.values.number(inertia, name, default) for name, default in _MOMENTS.items()
+    )
+    mass = scope.values.number(element, "mass", 1.0)
+    return Inertial(scope.pose(element), mass, moments, element.span)
+
+
+def _read_collision(element: Element, scope: Scope) -> Collision:
+    geometry = read_geometry(element, scope.values)
+    return Collision(scope.values.name(element), element, scope.pose(element), geometry)
+
+
+def _read_visual(element: Element, scope: Scope) -> Visual:
+    return Visual(
+        scope.values.name(element),
+        element,
+        scope.pose(element),
+        read_geometry(element, scope.values),
+        read_material(element, scope.values),
+    )
+
+
+def read_sensor(element: Element, owner: str, scope: Scope) -> Sensor:
+    """Read a `<sensor>` of a link or joint."""
+    name = scope.values.name(element)
+    return Sensor(
+        name,
+        element,
+        element.attribute("type") or Located("", element.span, stated=False),
+        owner,
+        scope.pose(element),
+        scope.values.text(element, "topic"),
+        tuple(read_plugin(child, owner=name.value) for child in element.all("plugin")),
+    )
+
+
+def _read_light(element: Element, link: str, scope: Scope) -> Light:
+    name = scope.values.name(element)
+    return Light(name, element, element.get("type") or "", link, scope.pose(element))
+
+
+def read_plugin(element: Element, nested_in: str = "", owner: str = "") -> Plugin:
+    """Read a `<plugin>` of a model or sensor."""
+    name = element.attribute("name") or Located("", element.span, stated=False)
+    filename = element.attribute("filename") or Located("", element.span, stated=False)
+    return Plugin(name, element, filename, owner, nested_in)

@@ -1,0 +1,180 @@
+"""A whole SDF file: the models in it, with nested models and includes laid out flat."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from checker.model.faults import FaultKind
+from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
+from checker.model.robot import Frame, Joint, Link, Model, Plugin, Robot
+from checker.model.sdf.joints import read_frame, read_joint
+from checker.model.sdf.links import read_link, read_plugin
+from checker.model.sdf.scope import Scope
+from checker.model.transform import Transform
+from checker.model.values import ValueReader
+from checker.source.text import Located
+from checker.source.xml import Element, XmlDocument
+
+MAX_NESTING = 40
+
+IncludeReader = Callable[[str], "XmlDocument | str"]
+"""Gives the model file behind the URI of an `<include>`, or says why it cannot be read."""
+
+
+def not_at_hand(uri: str) -> XmlDocument | str:
+    """Read no include at all."""
+    return f"{uri} is not at hand"
+
+
+def sdf_version(document: XmlDocument) -> tuple[int, int]:
+    """Return the version that `<sdf>` states, as (1, 6); (1, 6) when it cannot be read."""
+    major, _, minor = (document.root.get("version") or "").strip().partition(".")
+    if major.isdecimal() and minor.isdecimal():
+        return int(major), int(minor)
+    return 1, 6
+
+
+def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tuple[Robot, ...]:
+    """Read the models that stand at the top of a file or directly in its worlds."""
+    root = document.root
+    holders = [root, *root.all("world")]
+    if root.tag == "world":
+        holders = [root]
+    models = [model for holder in holders for model in holder.all("model")]
+    if root.tag == "model":
+        models = [root]
+    return tuple(read_robot(model, include) for model in models)
+
+
+def read_robot(element: Element, include: IncludeReader = not_at_hand) -> Robot:
+    """Read one `<model>` as a robot of its own."""
+    document = element.document
+    values, graph = ValueReader(), FrameGraph()
+    scope = Scope("", MODEL_FRAME, sdf_version(document), values, graph)
+    pose = scope.pose(element)
+    graph.add(MODEL_FRAME, FrameNode(None, Transform(), pose.span, "the model"))
+    collected = _Collected(include)
+    collected.read(element, scope, 0)
+    robot = Robot(
+        values.name(element),
+        element,
+        document,
+        "sdf",
+        document.root.get("version") or "",
+        pose,
+        tuple(collected.links),
+        tuple(collected.joints),
+        tuple(collected.frames),
+        tuple(collected.models),
+        tuple(collected.plugins),
+        graph,
+        unresolved_includes=tuple(collected.unresolved),
+    )
+    for name in graph.nodes:
+        graph.pose(name)
+    return replace(robot, faults=(*values.faults, *graph.faults))
+
+
+@dataclass
+class _Collected:
+    """The parts of a robot while it is being read."""
+
+    include: IncludeReader
+    links: list[Link] = field(default_factory=list)
+    joints: list[Joint] = field(default_factory=list)
+    frames: list[Frame] = field(default_factory=list)
+    models: list[Model] = field(default_factory=list)
+    plugins: list[Plugin] = field(default_factory=list)
+    unresolved: list[Located[str]] = field(default_factory=list)
+
+    def read(self, model: Element, scope: Scope, depth: int) -> None:
+        """Read the inside of a model."""
+        for child in model.children:
+            match child.tag:
+                case "link":
+                    self.links.append(read_link(child, scope))
+                case "joint":
+                    self.joints.append(read_joint(child, scope))
+                case "frame":
+                    self.frames.append(read_frame(child, scope))
+                case "plugin":
+                    self.plugins.append(read_plugin(child, scope.prefix.removesuffix("::")))
+                case "model":
+                    self._read_nested(child, child, scope, depth + 1)
+                case "include":
+                    self._read_include(child, scope, depth + 1)
+
+    def _read_include(self, include: Element, scope: Scope, depth: int) -> None:
+        uri = scope.values.text(include, "uri")
+        document = self.include(uri.value) if uri.stated else "an <include> without <uri>"
+        if isinstance(document, str):
+            self.unresolved.append(uri)
+            return
+        model = next(iter(document.root.all("model")), None)
+        if model is None:
+            scope.values.fault(FaultKind.INCLUDE, uri.span, f"{uri.value} holds no <model>")
+            return
+        self._read_nested(model, include, scope, depth, uri)
+
+    def _read_nested(
+        self,
+        model: Element,
+        placed: Element,
+        scope: Scope,
+        depth: int,
+        included_from: Located[str] | None = None,
+    ) -> None:
+        """Read a model inside another; `placed` is the element that poses and names it."""
+        if depth > MAX_NESTING:
+            message = f"models are nested deeper than {MAX_NESTING} levels"
+            scope.values.fault(FaultKind.INCLUDE, placed.span, message)
+            return
+        name = _name_of(model, placed, scope)
+        inside = self._scope_inside(model, placed, name.value, scope)
+        pose_holder = placed if placed.child("pose") is not None else model
+        pose = scope.pose(pose_holder)
+        self.read(model, inside, depth)
+        if placed is not model:
+            names = inside.prefix.removesuffix("::")
+            self.plugins.extend(read_plugin(child, names) for child in placed.all("plugin"))
+        transform = pose.transform @ _placement(model, placed, inside)
+        node = FrameNode(
+            pose.relative_to or scope.model_frame, transform, pose.span, f"model '{name.value}'"
+        )
+        inside.graph.add(inside.model_frame, node)
+        self.models.append(Model(name, placed, inside.model_frame, pose, included_from))
+
+    @staticmethod
+    def _scope_inside(model: Element, placed: Element, name: str, scope: Scope) -> Scope:
+        """Return the scope of a nested model; a merged one (SDF 1.9) shares its parent's names."""
+        version = sdf_version(model.document)
+        if placed.get("merge") in ("true", "1"):
+            frame = f"{scope.prefix}_merged__{name}__model__"
+            return Scope(scope.prefix, frame, version, scope.values, scope.graph)
+        frame = scope.scoped(name)
+        return Scope(f"{frame}::", frame, version, scope.values, scope.graph)
+
+
+def _name_of(model: Element, placed: Element, scope: Scope) -> Located[str]:
+    """Return the name of a nested model: an include may give it another one."""
+    if placed is not model and (name := scope.values.text(placed, "name")).stated:
+        return name
+    return scope.values.name(model)
+
+
+def _placement(model: Element, placed: Element, inside: Scope) -> Transform:
+    """Return the model's frame in its placement frame (SDF 1.8), which `<pose>` then places."""
+    stated = placed.child("placement_frame") if placed is not model else None
+    frame = stated.text.value if stated is not None else model.get("placement_frame")
+    if not frame:
+        return Transform()
+    nodes = dict(inside.graph.nodes)
+    root = FrameNode(None, Transform(), placed.span, "the model")
+    nodes[inside.model_frame] = root
+    pose = FrameGraph(nodes).pose(inside.scoped(frame))
+    if pose is None:
+        message = f"placement frame {frame!r} does not exist in the model"
+        inside.values.fault(FaultKind.FRAME, placed.span, message)
+        return Transform()
+    return pose.inverse

@@ -1,0 +1,79 @@
+"""Names inside models: how a name as written becomes one that is unique in the robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import radians
+
+from checker.model.faults import FaultKind
+from checker.model.frames import MODEL_FRAME, FrameGraph
+from checker.model.robot import Pose
+from checker.model.transform import Transform, Vector, rotation_from_quaternion
+from checker.model.values import ValueReader
+from checker.source.text import Located
+from checker.source.xml import Element
+
+_ZEROS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Scope:
+    """A model whose inside is being read.
+
+    Attributes:
+        prefix: What goes in front of names inside: empty for the robot, `arm::` for a model in it.
+        model_frame: Scoped name of the model's own frame.
+        version: SDF version of the file, as (1, 6).
+        values: Reads values, collects faults.
+        graph: Takes the frames.
+    """
+
+    prefix: str
+    model_frame: str
+    version: tuple[int, int]
+    values: ValueReader
+    graph: FrameGraph
+
+    def scoped(self, name: str) -> str:
+        """Return the unique name of a frame as written inside this model."""
+        if name in (MODEL_FRAME, ""):
+            return self.model_frame
+        return name if name == "world" else self.prefix + name
+
+    def pose(self, parent: Element) -> Pose:
+        """Read the `<pose>` of an element; zeros when it has none.
+
+        SDF 1.5 and 1.6 name the other frame in `frame`, 1.7 and later in `relative_to`.
+        """
+        element = parent.child("pose")
+        if element is None:
+            numbers = tuple(Located(0.0, parent.span, stated=False) for _ in _ZEROS)
+            return Pose(Transform(), "", numbers, parent.span)
+        attribute = "relative_to" if self.version >= (1, 7) else "frame"
+        written = element.get(attribute) or ""
+        numbers, transform = self._numbers(element)
+        return Pose(transform, self.scoped(written) if written else "", numbers, element.span)
+
+    def _numbers(self, element: Element) -> tuple[tuple[Located[float], ...], Transform]:
+        if not element.text.stated:
+            return tuple(Located(0.0, element.span, stated=False) for _ in _ZEROS), Transform()
+        if element.get("rotation_format") == "quat_xyzw":
+            numbers = self.values.numbers_of(element, (*_ZEROS, 1.0))
+            x, y, z, qx, qy, qz, qw = (number.value for number in numbers)
+            return numbers, self._from_quaternion(element, (x, y, z), (qw, qx, qy, qz))
+        numbers = self.values.numbers_of(element, _ZEROS)
+        x, y, z, roll, pitch, yaw = (number.value for number in numbers)
+        if element.get("degrees") in ("true", "1"):
+            roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
+        return numbers, Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
+
+    def _from_quaternion(
+        self,
+        element: Element,
+        xyz: Vector,
+        quaternion: tuple[float, float, float, float],
+    ) -> Transform:
+        if not any(quaternion):
+            self.values.fault(FaultKind.VALUE, element.span, "a quaternion of zeros is no rotation")
+            return Transform(translation=xyz)
+        return Transform(rotation_from_quaternion(*quaternion), xyz)

@@ -1,0 +1,150 @@
+"""The specification sheet as a whole: its sections, and the claims in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from checker.model.specification.endurance import durations, endurance
+from checker.model.specification.line_references import LineReference, line_references
+from checker.model.specification.mass import masses, total_mass
+from checker.model.specification.motion import (
+    Limit,
+    MotionQuantity,
+    limit_of,
+    limits,
+    turning_radii,
+)
+from checker.model.specification.quantities import Quantity
+from checker.model.specification.sensors import ListedSensor, listed_sensors
+from checker.source.markdown import Markdown, Passage, PassageKind, read_markdown
+from checker.source.text import SourceText, Span
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """A heading and what stands below it.
+
+    Attributes:
+        title: Visible text of the heading.
+        level: 1 to 6.
+        span: The heading's words.
+        passages: All below it, sections of lower levels with their headings among them.
+    """
+
+    title: str
+    level: int
+    span: Span
+    passages: tuple[Passage, ...]
+
+    @property
+    def text(self) -> str:
+        """Visible text of the section."""
+        return "\n".join(passage.words for passage in self.passages)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing but headings stands below it."""
+        return all(passage.kind is PassageKind.HEADING for passage in self.passages)
+
+
+@dataclass(frozen=True, eq=False)
+class Specification:
+    """A specification sheet.
+
+    Attributes:
+        source: The file.
+        markdown: Its passages.
+    """
+
+    source: SourceText
+    markdown: Markdown
+
+    @cached_property
+    def sections(self) -> tuple[Section, ...]:
+        """All sections, in order of their headings."""
+        return tuple(_sections(self.markdown.passages))
+
+    @property
+    def title(self) -> str:
+        """The first heading; empty when there is none."""
+        return self.sections[0].title if self.sections else ""
+
+    def section(self, words: str) -> Section | None:
+        """Return the section whose heading is `words`, else the first that contains them."""
+        wanted = words.casefold()
+        titles = [(section.title.casefold(), section) for section in self.sections]
+        exact = (section for title, section in titles if title == wanted)
+        containing = (section for title, section in titles if _contains(title, wanted))
+        return next(exact, None) or next(containing, None)
+
+    def _passages_of(self, word: str) -> tuple[Passage, ...]:
+        section = self.section(word)
+        return section.passages if section else ()
+
+    @cached_property
+    def sensors(self) -> tuple[ListedSensor, ...]:
+        """What the list of the section "Sensors" names, sensors and payloads."""
+        return tuple(listed_sensors(self._passages_of("sensors")))
+
+    @cached_property
+    def masses(self) -> tuple[Quantity, ...]:
+        """All masses."""
+        return tuple(masses(self.markdown.passages))
+
+    @cached_property
+    def total_mass(self) -> Quantity | None:
+        """Mass of the robot in kg; None when the sheet gives none or several."""
+        return total_mass(self.masses)
+
+    @cached_property
+    def durations(self) -> tuple[Quantity, ...]:
+        """Durations of the endurance section that say how long the robot runs."""
+        return tuple(durations(self._passages_of("endurance")))
+
+    @cached_property
+    def endurance(self) -> Quantity | None:
+        """How long the model is said to run, in s; None when the sheet is not clear."""
+        return endurance(self.durations)
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Limits of the motion section."""
+        return tuple(limits(self._passages_of("motion")))
+
+    def limit(self, quantity: MotionQuantity, axis: str) -> Limit | None:
+        """Return the limit for an axis (`x`, `y`, `z`); None when there is none or several."""
+        return limit_of(self.limits, quantity, axis)
+
+    @cached_property
+    def turning_radii(self) -> tuple[Quantity, ...]:
+        """Turning radii of the motion section, in m."""
+        return tuple(turning_radii(self._passages_of("motion")))
+
+    @cached_property
+    def line_references(self) -> tuple[LineReference, ...]:
+        """Claims about lines of files."""
+        return tuple(line_references(self.markdown.passages))
+
+
+def read_specification(source: SourceText) -> Specification:
+    """Read a specification sheet."""
+    return Specification(source, read_markdown(source))
+
+
+def _contains(title: str, wanted: str) -> bool:
+    return f" {wanted} " in f" {title} "
+
+
+def _sections(passages: tuple[Passage, ...]) -> Iterator[Section]:
+    headings = [i for i, each in enumerate(passages) if each.kind is PassageKind.HEADING]
+    # From the back, so that the end of each level is known when a heading is met.
+    ends = [len(passages)] * 7
+    found = []
+    for index in reversed(headings):
+        heading = passages[index]
+        below = passages[index + 1 : ends[heading.level]]
+        found.append(Section(heading.words, heading.level, heading.span, below))
+        ends[heading.level :] = [index] * (7 - heading.level)
+    yield from reversed(found)

@@ -1,0 +1,108 @@
+"""Rigid transforms in plain Python: 12 numbers, so that reading a model needs no numpy."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+Vector = tuple[float, float, float]
+Rotation = tuple[Vector, Vector, Vector]
+
+_IDENTITY: Rotation = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Rotation:
+    """Return R = Rz(yaw)·Ry(pitch)·Rx(roll), angles in radians (SDF and URDF convention)."""
+    cr, sr = math.cos(roll), math.sin(roll)
+    cp, sp = math.cos(pitch), math.sin(pitch)
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    return (
+        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+        (-sp, cp * sr, cp * cr),
+    )
+
+
+def rotation_from_quaternion(w: float, x: float, y: float, z: float) -> Rotation:
+    """Return the rotation of a quaternion, which is normalised first.
+
+    Raises:
+        ValueError: All four numbers are zero.
+    """
+    norm = math.sqrt(w * w + x * x + y * y + z * z)
+    if norm == 0.0:
+        raise ValueError("a quaternion of zeros is no rotation")
+    w, x, y, z = w / norm, x / norm, y / norm, z / norm
+    return (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+
+
+@dataclass(frozen=True)
+class Transform:
+    """The pose of a frame B in a frame A: p_A = rotation · p_B + translation.
+
+    Attributes:
+        rotation: 3×3, as rows.
+        translation: Origin of B in A, metres.
+    """
+
+    rotation: Rotation = _IDENTITY
+    translation: Vector = (0.0, 0.0, 0.0)
+
+    @classmethod
+    def from_xyz_rpy(cls, xyz: Vector, rpy: Vector) -> Transform:
+        """Make a transform of a position (metres) and roll, pitch, yaw (radians)."""
+        return cls(rotation_from_rpy(*rpy), xyz)
+
+    def rotate(self, vector: Vector) -> Vector:
+        """Return a direction of B in A."""
+        x, y, z = vector
+        rows = self.rotation
+        return (
+            rows[0][0] * x + rows[0][1] * y + rows[0][2] * z,
+            rows[1][0] * x + rows[1][1] * y + rows[1][2] * z,
+            rows[2][0] * x + rows[2][1] * y + rows[2][2] * z,
+        )
+
+    def apply(self, point: Vector) -> Vector:
+        """Return a point of B in A, metres."""
+        turned, origin = self.rotate(point), self.translation
+        return (turned[0] + origin[0], turned[1] + origin[1], turned[2] + origin[2])
+
+    def __matmul__(self, other: Transform) -> Transform:
+        """Chain: the pose of C in A, from that of B in A and that of C in B."""
+        columns = tuple(zip(*other.rotation, strict=True))
+        turned = [self.rotate((c[0], c[1], c[2])) for c in columns]
+        rows = tuple(zip(*turned, strict=True))
+        rotation: Rotation = (_vector(rows[0]), _vector(rows[1]), _vector(rows[2]))
+        return Transform(rotation, self.apply(other.translation))
+
+    @cached_property
+    def inverse(self) -> Transform:
+        """The pose of A in B."""
+        columns = tuple(zip(*self.rotation, strict=True))
+        transposed: Rotation = (_vector(columns[0]), _vector(columns[1]), _vector(columns[2]))
+        x, y, z = Transform(transposed).rotate(self.translation)
+        return Transform(transposed, (-x, -y, -z))
+
+    @property
+    def rpy(self) -> Vector:
+        """Roll, pitch and yaw in radians; roll is 0 where pitch is ±π/2."""
+        rows = self.rotation
+        cos_pitch = math.hypot(rows[0][0], rows[1][0])
+        pitch = math.atan2(-rows[2][0], cos_pitch)
+        if cos_pitch < 1e-12:
+            return (0.0, pitch, math.atan2(-rows[0][1], rows[1][1]))
+        return (
+            math.atan2(rows[2][1], rows[2][2]),
+            pitch,
+            math.atan2(rows[1][0], rows[0][0]),
+        )
+
+
+def _vector(values: tuple[float, ...]) -> Vector:
+    return (values[0], values[1], values[2])

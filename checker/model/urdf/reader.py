@@ -1,0 +1,132 @@
+"""A URDF file as a robot. Its joints carry the poses: a child link's frame is its joint's."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
+from checker.model.robot import Axis, Joint, Link, Plugin, Pose, Robot, Sensor
+from checker.model.sdf.links import read_plugin, read_sensor
+from checker.model.sdf.scope import Scope
+from checker.model.transform import Transform
+from checker.model.urdf.links import read_link, read_origin
+from checker.model.values import ValueReader
+from checker.source.text import Located
+from checker.source.xml import Element, XmlDocument
+
+
+def read_urdf(document: XmlDocument) -> Robot:
+    """Read a URDF file; SDF inside its `<gazebo>` tags is read as SDF."""
+    root = document.root
+    values, graph = ValueReader(), FrameGraph()
+    graph.add(MODEL_FRAME, FrameNode(None, Transform(), root.span, "the model"))
+    joints = tuple(_read_joint(element, values) for element in root.all("joint"))
+    links = tuple(
+        _with_sensors(read_link(element, values), _sensors(root, values, graph))
+        for element in root.all("link")
+    )
+    _place(graph, links, joints)
+    for name in graph.nodes:
+        graph.pose(name)
+    return Robot(
+        values.name(root),
+        root,
+        document,
+        "urdf",
+        root.get("version") or "1.0",
+        Pose(Transform(), "", (), root.span),
+        links,
+        joints,
+        (),
+        (),
+        tuple(_plugins(root)),
+        graph,
+        (*values.faults, *graph.faults),
+    )
+
+
+def _read_joint(element: Element, values: ValueReader) -> Joint:
+    name = values.name(element)
+    return Joint(
+        name,
+        element,
+        name.value,
+        "",
+        element.attribute("type") or Located("", element.span, stated=False),
+        _end(element, "parent"),
+        _end(element, "child"),
+        read_origin(element, values),
+        tuple(_read_axis(element, values)),
+    )
+
+
+def _end(joint: Element, tag: str) -> Located[str]:
+    end = joint.child(tag)
+    if end is None:
+        return Located("", joint.span, stated=False)
+    return end.attribute("link") or Located("", end.span, stated=False)
+
+
+def _read_axis(joint: Element, values: ValueReader) -> Iterator[Axis]:
+    """Yield the axis of a joint that moves; URDF's default is x."""
+    if joint.get("type") in ("fixed", "floating"):
+        return
+    axis = joint.child("axis") or joint
+    limit = joint.child("limit") or joint
+    dynamics = joint.child("dynamics") or joint
+    unlimited = joint.get("type") == "continuous" or limit is joint
+
+    def number(element: Element, name: str, default: float) -> Located[float]:
+        return values.attribute_numbers(element, name, (default,))[0]
+
+    yield Axis(
+        values.attribute_numbers(axis, "xyz", (1.0, 0.0, 0.0)),
+        "",
+        number(limit, "lower", -math.inf if unlimited else 0.0),
+        number(limit, "upper", math.inf if unlimited else 0.0),
+        number(limit, "effort", math.inf),
+        number(limit, "velocity", math.inf),
+        number(dynamics, "damping", 0.0),
+        number(dynamics, "friction", 0.0),
+        axis.span,
+    )
+
+
+def _place(graph: FrameGraph, links: tuple[Link, ...], joints: tuple[Joint, ...]) -> None:
+    """Enter the links into the graph; names of joints may repeat names of links."""
+    above = {joint.child.value: joint for joint in reversed(joints)}
+    for link in links:
+        name = link.name.value
+        joint = above.get(name)
+        if joint is None:
+            graph.add(name, FrameNode(MODEL_FRAME, Transform(), link.span, f"link {name!r}"))
+        else:
+            pose = joint.pose
+            label = f"joint {joint.name.value!r}"
+            graph.add(name, FrameNode(joint.parent.value, pose.transform, pose.span, label))
+    for joint in joints:
+        node = FrameNode(joint.child.value, Transform(), joint.span, f"joint {joint.name.value!r}")
+        graph.add(joint.scoped_name, node)
+
+
+def _sensors(root: Element, values: ValueReader, graph: FrameGraph) -> dict[str, list[Sensor]]:
+    """Return the sensors of `<gazebo reference=…>` tags, by link."""
+    scope = Scope("", MODEL_FRAME, (1, 6), values, graph)
+    sensors: dict[str, list[Sensor]] = {}
+    for tag in root.all("gazebo"):
+        link = tag.get("reference") or ""
+        for sensor in tag.all("sensor"):
+            sensors.setdefault(link, []).append(read_sensor(sensor, link, scope))
+    return sensors
+
+
+def _with_sensors(link: Link, sensors: dict[str, list[Sensor]]) -> Link:
+    return replace(link, sensors=tuple(sensors.get(link.name.value, ())))
+
+
+def _plugins(root: Element) -> Iterator[Plugin]:
+    for tag in root.all("gazebo"):
+        for plugin in tag.all("plugin"):
+            yield read_plugin(plugin)

@@ -1,0 +1,127 @@
+"""Numbers, vectors, colours and booleans out of XML text, each with its own place."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+from checker.model.faults import Fault, FaultKind
+from checker.source.text import Located, Span
+from checker.source.xml import Element
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\Z", re.ASCII)
+_INFINITE = {"inf", "+inf", "-inf", "infinity", "-infinity"}
+_WORD = re.compile(r"\S+")
+_TRUE = {"1", "true"}
+_FALSE = {"0", "false"}
+
+
+def parse_number(text: str) -> float | None:
+    """Read a decimal number (`-1.5e3`, `inf`); None for anything else, and for an overflow."""
+    if _NUMBER.match(text):
+        value = float(text)
+        return None if math.isinf(value) else value
+    return float(text) if text.lower() in _INFINITE else None
+
+
+class ValueReader:
+    """Reads values and collects what does not read as its type.
+
+    A value that cannot be read counts as its default, so that the reading goes on.
+    """
+
+    def __init__(self) -> None:
+        self.faults: list[Fault] = []
+
+    def fault(self, kind: FaultKind, span: Span, message: str) -> None:
+        """Remember a fault."""
+        self.faults.append(Fault(kind, span, message))
+
+    def numbers_in(self, text: Located[str]) -> tuple[Located[float], ...]:
+        """Split a text at its blanks and read each word as a number."""
+        if not text.stated:
+            return ()
+        read = []
+        for word in _WORD.finditer(text.span.text):
+            start = text.span.start + word.start()
+            span = Span(text.span.source, start, start + len(word.group()), text.span.element)
+            value = parse_number(word.group())
+            if value is None:
+                self.fault(FaultKind.VALUE, span, f"{_short(word.group())!r} is not a number")
+            read.append(Located(0.0 if value is None else value, span))
+        return tuple(read)
+
+    def number(self, parent: Element | None, tag: str, default: float) -> Located[float]:
+        """Read the number in the child `tag`; the default, placed at the parent, when absent."""
+        return self.numbers(parent, tag, (default,))[0]
+
+    def numbers(
+        self, parent: Element | None, tag: str, default: Sequence[float]
+    ) -> tuple[Located[float], ...]:
+        """Read the numbers in the child `tag`, as many as the default has."""
+        child = parent.child(tag) if parent is not None else None
+        if child is None:
+            if parent is None:
+                raise ValueError(f"nothing holds <{tag}>")
+            return tuple(Located(value, parent.span, stated=False) for value in default)
+        return self.numbers_of(child, default)
+
+    def numbers_of(self, element: Element, default: Sequence[float]) -> tuple[Located[float], ...]:
+        """Read the numbers that an element's text holds, as many as the default has."""
+        read = self.numbers_in(element.text)
+        return self._expect(element.text, read, default, f"<{element.tag}>")
+
+    def attribute_numbers(
+        self, element: Element, name: str, default: Sequence[float]
+    ) -> tuple[Located[float], ...]:
+        """Read the numbers in an attribute, as many as the default has."""
+        text = element.attribute(name)
+        if text is None:
+            return tuple(Located(value, element.span, stated=False) for value in default)
+        return self._expect(text, self.numbers_in(text), default, name)
+
+    def _expect(
+        self,
+        text: Located[str],
+        read: tuple[Located[float], ...],
+        default: Sequence[float],
+        label: str,
+    ) -> tuple[Located[float], ...]:
+        if len(read) == len(default):
+            return read
+        count = f"{len(default)} number{'s' if len(default) > 1 else ''}"
+        self.fault(FaultKind.VALUE, text.span, f"{label} holds {len(read)}, expected {count}")
+        padded = [*read[: len(default)]]
+        padded += [Located(value, text.span, stated=False) for value in default[len(padded) :]]
+        return tuple(padded)
+
+    def boolean(self, parent: Element, tag: str, default: bool) -> Located[bool]:
+        """Read `true`, `false`, `1` or `0` in the child `tag`."""
+        child = parent.child(tag)
+        if child is None:
+            return Located(default, parent.span, stated=False)
+        word = child.text.value.lower()
+        if word in _TRUE or word in _FALSE:
+            return Located(word in _TRUE, child.text.span)
+        self.fault(
+            FaultKind.VALUE,
+            child.text.span,
+            f"<{tag}> is {_short(child.text.value)!r}, expected true or false",
+        )
+        return Located(default, child.text.span, stated=False)
+
+    def text(self, parent: Element, tag: str, default: str = "") -> Located[str]:
+        """Read the text of the child `tag`."""
+        child = parent.child(tag)
+        if child is None:
+            return Located(default, parent.span, stated=False)
+        return child.text
+
+    def name(self, element: Element) -> Located[str]:
+        """Read the `name` attribute; empty when there is none."""
+        return element.attribute("name") or Located("", element.span, stated=False)
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 40 else text[:37] + "..."

@@ -1,0 +1,1 @@
+"""Packages as files: opening what the user gives, indexing it, and finding inherited parts."""

@@ -1,0 +1,99 @@
+"""Unpacking a stranger's archive: its whole index is checked before the first byte is written."""
+
+from __future__ import annotations
+
+import struct
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Protocol
+
+from checker.errors import UnreadableInput
+from checker.package.archive_index import ArchiveIndex, ArchiveLimits, DamagedArchive, Member
+from checker.package.tar_archive import read_tar_index, tar_contents
+from checker.package.zip_archive import read_zip_index, zip_contents
+
+ARCHIVE_SUFFIXES = (".zip", ".tar.gz", ".tgz")
+CHUNK = 65_536
+# What zipfile and zlib raise on bytes that are no archive.
+_DAMAGE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    struct.error,
+    DamagedArchive,
+    EOFError,
+    NotImplementedError,
+    OverflowError,
+    RuntimeError,
+    ValueError,
+)
+
+
+class _Readable(Protocol):
+    def read(self, size: int, /) -> bytes: ...
+
+
+def unpack_archive(
+    archive: Path, target: Path, name: str = "", limits: ArchiveLimits | None = None
+) -> None:
+    """Unpack a zip or gzipped tar archive into an empty folder.
+
+    Args:
+        archive: The file.
+        target: An empty folder of our own.
+        name: The archive's name as the user knows it, when the file is stored under another;
+            its suffix tells the format.
+        limits: What the archive may hold.
+
+    Raises:
+        RefusedArchive: An entry could do harm, or there is more than a package holds.
+        UnreadableInput: The archive is truncated, damaged, empty, or cannot be written out.
+    """
+    is_zip = (name or archive.name).lower().endswith(".zip")
+    read_index, contents = (
+        (read_zip_index, zip_contents) if is_zip else (read_tar_index, tar_contents)
+    )
+    with _damage_reported(archive, "zip" if is_zip else "tar.gz"):
+        index = ArchiveIndex(archive, archive.stat().st_size, limits or ArchiveLimits())
+        read_index(archive, index)
+        for member in index.members:
+            if member.is_folder:
+                (target / member.path).mkdir(parents=True, exist_ok=True)
+        for member, content in contents(archive, index):
+            _write(target / member.path, member, content)
+    if all(member.is_folder for member in index.members):
+        raise UnreadableInput(archive, "holds no files", "pack the package folder itself")
+
+
+def _write(path: Path, member: Member, content: _Readable) -> None:
+    """Write one file, and never more than its index entry says."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    left = member.size
+    # "x" refuses whatever stands there already.
+    with path.open("xb") as file:
+        while piece := content.read(CHUNK):
+            left -= len(piece)
+            if left < 0:
+                break
+            file.write(piece)
+    if left:
+        raise DamagedArchive(f"says that '{member.path}' has {member.size} bytes, which is not so")
+
+
+@contextmanager
+def _damage_reported(archive: Path, form: str) -> Iterator[None]:
+    try:
+        yield
+    except DamagedArchive as error:
+        raise _damaged(archive, f"is a damaged {form} archive: it {error}") from None
+    except _DAMAGE as error:
+        raise _damaged(archive, f"is no {form} archive, or a truncated one ({error})") from None
+    except OSError as error:
+        reason = f"cannot be unpacked: {error.strerror or error}"
+        raise UnreadableInput(archive, reason, "check the file and the free disk space") from None
+
+
+def _damaged(archive: Path, reason: str) -> UnreadableInput:
+    return UnreadableInput(archive, reason, "pack or download it again")

@@ -1,0 +1,135 @@
+"""What a folder holds: every file, folder and link, by its path."""
+
+from __future__ import annotations
+
+import posixpath
+from dataclasses import dataclass, field
+from enum import StrEnum
+from functools import cached_property
+from pathlib import Path
+
+
+class EntryKind(StrEnum):
+    """What an entry is; `SPECIAL` are devices, pipes and sockets, which are never opened."""
+
+    FILE = "file"
+    FOLDER = "folder"
+    LINK = "link"
+    SPECIAL = "special"
+
+
+class LinkState(StrEnum):
+    """Where a symbolic link leads.
+
+    `OK`: within the package. `SIBLING`: into another package of the workspace. Both are followed.
+    `OUTSIDE`, `DANGLING` and `LOOP` (also: to a folder around the link) are not.
+    """
+
+    OK = "ok"
+    SIBLING = "sibling"
+    DANGLING = "dangling"
+    OUTSIDE = "outside"
+    LOOP = "loop"
+
+
+@dataclass(frozen=True, slots=True)
+class FileEntry:
+    """A file, folder or link.
+
+    Attributes:
+        path: Relative to the package folder, with `/`.
+        kind: What stands at the path.
+        size: Of the file, in bytes; of the target when a link is followed; 0 for folders.
+        location: Where the content lies on disk, links resolved.
+        content: `FILE` or `FOLDER` when there is content to read, a followed link's target
+            included; otherwise the kind.
+        target_state: Where a link leads; None for other entries.
+        target: The link's text.
+    """
+
+    path: str
+    kind: EntryKind
+    size: int
+    location: Path = field(repr=False)
+    content: EntryKind
+    target_state: LinkState | None = None
+    target: str = ""
+
+    @property
+    def is_file(self) -> bool:
+        """Whether it can be read as a file."""
+        return self.content is EntryKind.FILE
+
+    @property
+    def is_folder(self) -> bool:
+        """Whether it is a folder, or a followed link to one."""
+        return self.content is EntryKind.FOLDER
+
+
+@dataclass(frozen=True, slots=True)
+class IndexFault:
+    """What of a folder could not be indexed or read, and why."""
+
+    path: str
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class FileIndex:
+    """What a folder holds.
+
+    Attributes:
+        entries: By path, sorted.
+        faults: What could not be looked at: unreadable files and folders, limits exceeded.
+    """
+
+    entries: dict[str, FileEntry] = field(repr=False)
+    faults: tuple[IndexFault, ...] = ()
+
+    def find(self, path: str) -> FileEntry | None:
+        """Return the entry at a normal path (see `normal_path`), or None."""
+        return self.entries.get(path)
+
+    @cached_property
+    def files(self) -> tuple[FileEntry, ...]:
+        """Everything that can be read as a file."""
+        return tuple(entry for entry in self.entries.values() if entry.is_file)
+
+    @cached_property
+    def links(self) -> tuple[FileEntry, ...]:
+        """All symbolic links, wherever they lead."""
+        return tuple(entry for entry in self.entries.values() if entry.kind is EntryKind.LINK)
+
+    def with_suffix(self, *suffixes: str) -> tuple[FileEntry, ...]:
+        """Return the files that end in one of the suffixes (`.sdf`), in any case."""
+        return tuple(entry for entry in self.files if entry.path.lower().endswith(suffixes))
+
+    def similar(self, path: str) -> tuple[str, ...]:
+        """Return files that may be meant by a path that does not exist.
+
+        First those that differ in case only, then those of other extension (`.jpg` for `.png`).
+        """
+        path = posixpath.normpath(path)
+        alike = self._by_stem.get(_stem(path), ())
+        return tuple(sorted(alike, key=lambda other: other.casefold() != path.casefold()))
+
+    @cached_property
+    def _by_stem(self) -> dict[str, list[str]]:
+        stems: dict[str, list[str]] = {}
+        for entry in self.files:
+            stems.setdefault(_stem(entry.path), []).append(entry.path)
+        return stems
+
+
+def _stem(path: str) -> str:
+    return posixpath.splitext(path)[0].casefold()
+
+
+def normal_path(path: str) -> str | None:
+    """Return a relative path without `.` and inner `..`, or None when it is absolute or empty.
+
+    A path that leaves the folder keeps its leading `..`.
+    """
+    if not path or path.startswith("/") or "\0" in path or "\\" in path or path[1:2] == ":":
+        return None
+    return posixpath.normpath(path)

@@ -1,0 +1,179 @@
+"""Parts that a package takes from a sibling: the model, launch files, Ruby code, specification.
+
+A second configuration of a robot often has a spawner only: the launcher hands it the model of
+the sibling that its roslaunch commands name, and everything else comes from there as well.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from checker.finding import Place
+from checker.package.model_file import own_model
+from checker.package.references import Reference, ReferenceKind
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+SPAWNER = "launch/spawner.rb"
+SUBMISSION_NAME = re.compile(r"_sensor_config_\d+\Z")
+NEVER_INHERITED = frozenset({"package.xml", "CMakeLists.txt", SPAWNER})
+ROBOT_LAUNCH_FILES = frozenset({"description.launch", "vehicle_topics.launch"})
+
+
+class Part(StrEnum):
+    """A part that a sibling may lend, as reports call it."""
+
+    MODEL = "model"
+    SPAWNER = "spawner"
+    TOPICS = "launch/vehicle_topics.launch"
+    DESCRIPTION = "launch/description.launch"
+    SPECIFICATION = "specifications.md"
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """Where a part is.
+
+    Attributes:
+        package: The package that holds it.
+        path: From the package that asked: `model.sdf`, or `../<sibling>/model.sdf`.
+    """
+
+    package: Package = field(repr=False)
+    path: str
+
+    @property
+    def is_inherited(self) -> bool:
+        """Whether a sibling holds it."""
+        return self.path.startswith("../")
+
+
+@dataclass(frozen=True, slots=True)
+class Missing:
+    """A part that is not there.
+
+    Attributes:
+        part: Its path, or `model`.
+        reason: A clause that says why.
+        package_not_at_hand: The sibling it comes from, when that is not at hand: then nothing is
+            known about the part. None when the package itself lacks it.
+    """
+
+    part: str
+    reason: str
+    package_not_at_hand: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Inherited:
+    """A part that comes from a sibling.
+
+    Attributes:
+        part: Which one.
+        package_name: The sibling that holds it, at the end of a chain of siblings.
+        how: The text that says so, in the package that inherits.
+        at_hand: Whether the sibling could be looked at.
+    """
+
+    part: Part
+    package_name: str
+    how: Place
+    at_hand: bool
+
+
+def base_of(package: Package) -> Reference | None:
+    """Return the mention of the sibling whose model a package without its own is given.
+
+    The first roslaunch command that names another robot says it, else a sibling's Ruby file
+    that is loaded, else a dependency on another submission.
+    """
+    if own_model(package) is not None or not package.exists(SPAWNER):
+        return None
+    others = [other for other in package.references if other.package_name != package.name]
+    for kind in (ReferenceKind.ROSLAUNCH, ReferenceKind.REQUIRE, ReferenceKind.DEPENDENCY):
+        for other in others:
+            if other.kind is kind and _may_lend_model(package, other):
+                return other
+    return None
+
+
+def _may_lend_model(package: Package, other: Reference) -> bool:
+    if SUBMISSION_NAME.search(other.package_name):
+        return True
+    if other.kind is ReferenceKind.DEPENDENCY:
+        return False
+    if other.file in ROBOT_LAUNCH_FILES and other.package_name != "subt_ros":
+        return True
+    sibling = package.workspace.package(other.package_name)
+    return sibling is not None and own_model(sibling) is not None
+
+
+def lender_of(package: Package, part: str) -> Reference | None:
+    """Return the mention of the sibling that a part comes from when the package lacks it."""
+    if part in NEVER_INHERITED:
+        return None
+    folder, _, file = part.rpartition("/")
+    if folder == "launch":
+        for other in package.references:
+            loaded = other.kind is ReferenceKind.REQUIRE and file.endswith(".rb")
+            started = other.kind is ReferenceKind.ROSLAUNCH and other.file == file
+            if (loaded or started) and other.package_name != package.name:
+                return other
+    return package.base
+
+
+Holding = Callable[["Package"], str | None]
+"""Returns the path at which a package itself holds a part."""
+
+
+def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:
+    """Look for a part in a package, then in the siblings that it inherits from, one by one."""
+    holder = package
+    seen = [package.name]
+    while (path := holding(holder)) is None:
+        reference = lender_of(holder, part)
+        if reference is None:
+            return Missing(
+                part, f"{' and '.join(seen)} {'has' if len(seen) == 1 else 'have'} no {part}"
+            )
+        name = reference.package_name
+        sibling = holder.workspace.package(name)
+        if sibling is None:
+            return Missing(part, f"{part} is inherited from {name}, which is not at hand", name)
+        if sibling.name in seen:
+            chain = " → ".join([*seen, sibling.name])
+            return Missing(part, f"{part} is inherited in a circle: {chain}")
+        holder = sibling
+        seen.append(sibling.name)
+    return Found(holder, path if holder is package else f"../{holder.name}/{path}")
+
+
+def inherited_parts(package: Package) -> Iterator[Inherited]:
+    """Yield what a package takes from siblings, at hand or not."""
+    for part in Part:
+        if part is Part.SPAWNER:
+            yield from _loaded_ruby(package)
+            continue
+        found = package.model_path if part is Part.MODEL else package.part(part)
+        reference = lender_of(package, part)
+        if reference is None:
+            continue
+        if isinstance(found, Found) and found.is_inherited:
+            yield Inherited(part, found.package.name, reference.place, at_hand=True)
+        elif isinstance(found, Missing) and found.package_not_at_hand:
+            yield Inherited(part, found.package_not_at_hand, reference.place, at_hand=False)
+
+
+def _loaded_ruby(package: Package) -> Iterator[Inherited]:
+    for name, other in {
+        other.package_name: other
+        for other in reversed(package.references)
+        if other.kind is ReferenceKind.REQUIRE and other.package_name != package.name
+    }.items():
+        at_hand = package.workspace.package(name) is not None
+        yield Inherited(Part.SPAWNER, name, other.place, at_hand)

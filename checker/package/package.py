@@ -1,0 +1,189 @@
+"""One package: its files, read at most once, its kind, and the parts it has or inherits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from checker.finding import Place
+from checker.package.index import (
+    EntryKind,
+    FileEntry,
+    FileIndex,
+    normal_path,
+)
+from checker.package.inheritance import (
+    SPAWNER,
+    Found,
+    Inherited,
+    Missing,
+    base_of,
+    find_part,
+    inherited_parts,
+)
+from checker.package.kind import PackageKind, kind_of
+from checker.package.model_file import own_model
+from checker.package.reading import NotReadable, read_bytes, read_text
+from checker.package.references import Reference, dependencies, spawner_references
+from checker.package.walk import build_index, entry_at
+from checker.source.positions import XmlFault
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument, parse_xml
+
+if TYPE_CHECKING:
+    from checker.package.workspace import Workspace
+
+XML_SUFFIXES = (".sdf", ".world", ".config", ".launch", ".xml", ".urdf", ".xacro")
+BYTES_LIMIT = 200_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Package:
+    """A robot package.
+
+    Paths are relative to its folder, with `/`; a sibling's file is `../<sibling>/…`.
+
+    Attributes:
+        root: Its folder, links resolved.
+        workspace: Where its siblings are looked up.
+        only: For a single file, its name; then the index holds nothing else, and neighbours
+            are looked for when a path names them.
+    """
+
+    root: Path
+    workspace: Workspace = field(repr=False)
+    only: str = ""
+    _texts: dict[str, SourceText | NotReadable] = field(
+        default_factory=dict, init=False, repr=False
+    )
+    _documents: dict[str, XmlDocument | XmlFault | NotReadable] = field(
+        default_factory=dict, init=False, repr=False
+    )
+
+    @property
+    def name(self) -> str:
+        """The folder's name; of a single file, the file's."""
+        return self.only or self.root.name
+
+    @cached_property
+    def index(self) -> FileIndex:
+        """All files, folders and links."""
+        if self.only:
+            entry = entry_at(self.root / self.only, self.only, self.root, self.workspace.holds)
+            return FileIndex({self.only: entry} if entry else {})
+        return build_index(self.root, self.workspace.holds)
+
+    @cached_property
+    def kind(self) -> PackageKind:
+        """What the package is meant to be."""
+        return kind_of(self)
+
+    def folder_place(self) -> Place:
+        """Return the place of the package as a whole, for findings about what is missing."""
+        return Place("")
+
+    def resolve(self, path: str) -> FileEntry | None:
+        """Return the file or folder at a path, or None when there is none in the workspace."""
+        normal = normal_path(path)
+        if normal is None:
+            return None
+        entry = self.index.find(normal)
+        if entry is None and (self.only or self._below_link(normal)):
+            entry = entry_at(self.root / normal, normal, self.root, self.workspace.holds)
+        if entry is None and normal.startswith("../"):
+            return self._resolve_in_sibling(normal)
+        return entry if entry and (entry.is_file or entry.is_folder) else None
+
+    def _resolve_in_sibling(self, normal: str) -> FileEntry | None:
+        name, _, rest = normal.removeprefix("../").partition("/")
+        if name == "..":
+            return None
+        if name == self.root.name:
+            return self.resolve(rest)
+        sibling = self.workspace.package(name)
+        return sibling.resolve(rest) if sibling else None
+
+    def _below_link(self, normal: str) -> bool:
+        parts = normal.split("/")
+        above = (self.index.find("/".join(parts[:end])) for end in range(1, len(parts)))
+        return any(entry.target_state and entry.is_folder for entry in above if entry)
+
+    def exists(self, path: str) -> bool:
+        """Say whether a file or folder is there."""
+        return self.resolve(path) is not None
+
+    def read(self, path: str) -> SourceText | NotReadable:
+        """Return a file's text, read once."""
+        path = self._canonical(path)
+        if path not in self._texts:
+            entry = self._file(path)
+            self._texts[path] = (
+                entry if isinstance(entry, NotReadable) else read_text(entry.location, path)
+            )
+        return self._texts[path]
+
+    def read_bytes(self, path: str, limit: int = BYTES_LIMIT) -> bytes | NotReadable:
+        """Return a file's content, of at most `limit` bytes; it is not kept."""
+        entry = self._file(path)
+        return entry if isinstance(entry, NotReadable) else read_bytes(entry.location, path, limit)
+
+    def _canonical(self, path: str) -> str:
+        """Return the one spelling of a path under which its file is kept."""
+        return (normal_path(path) or path).removeprefix(f"../{self.root.name}/")
+
+    def _file(self, path: str) -> FileEntry | NotReadable:
+        entry = self.resolve(path) or self.index.find(self._canonical(path))
+        if entry is None:
+            return NotReadable(path, "does not exist")
+        if entry.kind is EntryKind.LINK and entry.content is EntryKind.LINK:
+            reason = f"is a link that is not followed ({entry.target_state}: {entry.target})"
+            return NotReadable(path, reason)
+        return entry if entry.is_file else NotReadable(path, "is no regular file")
+
+    def xml(self, path: str) -> XmlDocument | XmlFault | NotReadable:
+        """Return a file as XML, parsed once."""
+        path = self._canonical(path)
+        if path not in self._documents:
+            source = self.read(path)
+            self._documents[path] = source if isinstance(source, NotReadable) else parse_xml(source)
+        return self._documents[path]
+
+    @cached_property
+    def xml_files(self) -> tuple[str, ...]:
+        """Paths of the files that are XML by their names; meshes are left out."""
+        return tuple(file.path for file in self.index.with_suffix(*XML_SUFFIXES))
+
+    @cached_property
+    def model_path(self) -> Found | Missing:
+        """The model: the package's own (see `own_model`), else a sibling's."""
+        return find_part(self, "model", own_model)
+
+    def part(self, path: str) -> Found | Missing:
+        """Find a file or folder in the package, else in the siblings it inherits from."""
+        return find_part(self, path, lambda holder: path if holder.exists(path) else None)
+
+    @cached_property
+    def references(self) -> tuple[Reference, ...]:
+        """Packages that the spawner and package.xml name, itself included."""
+        return () if self.only else tuple(self._references())
+
+    def _references(self) -> Iterator[Reference]:
+        spawner = self.read(SPAWNER)
+        if isinstance(spawner, SourceText):
+            yield from spawner_references(spawner)
+        manifest = self.xml("package.xml")
+        if isinstance(manifest, XmlDocument):
+            yield from dependencies(manifest)
+
+    @cached_property
+    def base(self) -> Reference | None:
+        """The mention of the sibling that lends its model, when the package has none."""
+        return base_of(self)
+
+    @cached_property
+    def inherited(self) -> tuple[Inherited, ...]:
+        """Parts that come from siblings."""
+        return tuple(inherited_parts(self))

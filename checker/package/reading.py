@@ -1,0 +1,65 @@
+"""Bounded reading of one file: bytes or text, or the reason why not."""
+
+from __future__ import annotations
+
+import os
+import stat
+from dataclasses import dataclass
+from pathlib import Path
+
+from checker.source.decode import NotText, decode
+from checker.source.text import SourceText
+
+TEXT_LIMIT = 20_000_000
+"""Bytes; the largest text of 99 real packages is below 1 MB."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotReadable:
+    """A file that cannot be read, and why.
+
+    Attributes:
+        path: As it was asked for.
+        reason: The end of a sentence that starts with the path.
+    """
+
+    path: str
+    reason: str
+
+
+def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
+    """Read a regular file of at most `limit` bytes.
+
+    Args:
+        location: Where it lies on disk, links resolved; a link put there since is refused.
+        path: What to call it.
+        limit: In bytes.
+    """
+    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+    try:
+        with open(os.open(location, flags | getattr(os, "O_BINARY", 0)), "rb") as file:  # noqa: PTH123 - a descriptor, not a path
+            status = os.fstat(file.fileno())
+            if not stat.S_ISREG(status.st_mode):
+                return NotReadable(path, "is no regular file")
+            if status.st_size > limit:
+                return NotReadable(path, _too_large(status.st_size, limit))
+            data = file.read(limit + 1)
+    except (OSError, ValueError) as error:
+        return NotReadable(path, f"cannot be read: {getattr(error, 'strerror', None) or error}")
+    # A file may grow between the two looks at it.
+    return data if len(data) <= limit else NotReadable(path, _too_large(len(data), limit))
+
+
+def _too_large(size: int, limit: int) -> str:
+    return f"has {size / 1e6:.1f} MB, more than the {limit / 1e6:g} MB that are read"
+
+
+def read_text(location: Path, path: str, limit: int = TEXT_LIMIT) -> SourceText | NotReadable:
+    """Read a text file; `path` becomes the source's file."""
+    data = read_bytes(location, path, limit)
+    if isinstance(data, NotReadable):
+        return data
+    try:
+        return SourceText(path, decode(data))
+    except NotText as error:
+        return NotReadable(path, str(error))

@@ -1,0 +1,83 @@
+"""Which other packages a package names: in its spawner's text and in its package.xml.
+
+Text patterns find the names without evaluating any Ruby; what the spawner really emits is
+found elsewhere.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+from checker.finding import Place
+from checker.package.ruby_comments import blank_comments
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+
+DEPENDENCY_TAGS = frozenset({"exec_depend", "run_depend", "depend"})
+
+
+class ReferenceKind(StrEnum):
+    """How another package is named."""
+
+    ROSLAUNCH = "roslaunch"
+    REQUIRE = "require"
+    DEPENDENCY = "dependency"
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """One mention of a package.
+
+    Attributes:
+        package_name: The package that is named.
+        kind: How.
+        place: Where.
+        file: The launch file that roslaunch is to start, such as `description.launch`.
+    """
+
+    package_name: str
+    kind: ReferenceKind
+    place: Place
+    file: str = ""
+
+
+# Every repetition is bounded, so that no text makes the search slow.
+_ROSLAUNCH = re.compile(
+    r"\broslaunch\s{1,8}(?:-\S{0,80}\s{1,8}){0,8}"
+    r"(?P<package>[A-Za-z][\w-]{0,199})\s{1,8}(?P<file>[^\s<>\"'#]{1,200}\.launch)\b"
+)
+_REQUIRE_LINE = re.compile(r"^[^\n]*?\b(?:require_relative|require|load)\b[^\n]*", re.MULTILINE)
+_SIBLING_FILE = re.compile(
+    r"\.\.(?:/|['\"]\s{0,8},\s{0,8}['\"])(?P<package>[A-Za-z][\w-]{0,199})"
+    r"(?:/|['\"]\s{0,8},\s{0,8}['\"])(?:launch|config)\b"
+)
+_ROSPACK = re.compile(r"(?:`|%x.)\s{0,8}rospack\s{1,8}find\s{1,8}(?P<package>[A-Za-z][\w-]{0,199})")
+
+
+def spawner_references(source: SourceText) -> Iterator[Reference]:
+    """Yield the packages that a spawner names: loaded Ruby files, then roslaunch commands."""
+    text = blank_comments(source.text)
+    for line in _REQUIRE_LINE.finditer(text):
+        for match in _SIBLING_FILE.finditer(text, line.start(), line.end()):
+            yield _reference(source, match, ReferenceKind.REQUIRE)
+    for match in _ROSPACK.finditer(text):
+        yield _reference(source, match, ReferenceKind.REQUIRE)
+    for match in _ROSLAUNCH.finditer(text):
+        yield _reference(source, match, ReferenceKind.ROSLAUNCH, match["file"])
+
+
+def _reference(
+    source: SourceText, match: re.Match[str], kind: ReferenceKind, file: str = ""
+) -> Reference:
+    return Reference(match["package"], kind, source.place(*match.span("package")), file)
+
+
+def dependencies(manifest: XmlDocument) -> Iterator[Reference]:
+    """Yield the packages that a package.xml needs when it runs."""
+    for element in manifest.root.children:
+        if element.tag in DEPENDENCY_TAGS and element.text.value:
+            place = element.text.span.place()
+            yield Reference(element.text.value, ReferenceKind.DEPENDENCY, place)

@@ -1,0 +1,95 @@
+"""The packages that lie side by side, looked up by name."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import islice
+from pathlib import Path
+
+from checker.package.package import Package
+from checker.package.reading import read_text
+from checker.package.recognition import looks_like_package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument, parse_xml
+
+MAX_FOLDERS = 5_000
+MANIFEST_LIMIT = 1_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Workspace:
+    """Folders whose direct subfolders are packages; nothing above them is ever looked at.
+
+    Attributes:
+        directories: Links resolved. The first is where the checked packages lie; further ones
+            come from the user, to find siblings in.
+    """
+
+    directories: tuple[Path, ...]
+    _packages: dict[Path, Package] = field(default_factory=dict, init=False, repr=False)
+
+    def package(self, name: str) -> Package | None:
+        """Return the package of a folder name, else of a `package.xml` name, else None."""
+        if not name or name.startswith(".") or "/" in name or "\\" in name or "\0" in name:
+            return None
+        for directory in self.directories:
+            if found := self._at(directory / name):
+                return found
+        folder = self._folder_by_declared_name.get(name)
+        return self.at(folder) if folder else None
+
+    def at(self, folder: Path) -> Package:
+        """Return the one `Package` of a folder, links resolved."""
+        return self._packages.setdefault(folder, Package(folder, self))
+
+    def holds(self, real: Path) -> bool:
+        """Say whether a real path lies within a package of the workspace."""
+        for directory in self.directories:
+            if real.is_relative_to(directory) and real != directory:
+                first = real.relative_to(directory).parts[0]
+                if looks_like_package(directory / first):
+                    return True
+        return False
+
+    def _at(self, folder: Path) -> Package | None:
+        try:
+            real = folder.resolve(strict=True)
+            is_package = looks_like_package(real)
+        except (OSError, RuntimeError):
+            return None
+        return self.at(real) if is_package and self.holds(real) else None
+
+    @cached_property
+    def _folder_by_declared_name(self) -> dict[str, Path]:
+        names: dict[str, Path] = {}
+        for directory in self.directories:
+            for folder in _subfolders(directory):
+                if name := _declared_name(folder):
+                    names.setdefault(name, folder)
+        return names
+
+
+def _subfolders(directory: Path) -> list[Path]:
+    try:
+        with os.scandir(directory) as items:
+            folders = [
+                Path(item.path)
+                for item in islice(items, MAX_FOLDERS)
+                if item.is_dir(follow_symlinks=False)
+            ]
+    except OSError:
+        return []
+    return sorted(folders)
+
+
+def _declared_name(folder: Path) -> str:
+    """Return the `<name>` of a folder's package.xml, or nothing."""
+    manifest = folder / "package.xml"
+    if manifest.is_symlink() or not manifest.is_file():
+        return ""
+    source = read_text(manifest, "package.xml", MANIFEST_LIMIT)
+    document = parse_xml(source) if isinstance(source, SourceText) else None
+    name = document.root.child("name") if isinstance(document, XmlDocument) else None
+    return name.text.value if name else ""

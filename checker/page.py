@@ -1,0 +1,63 @@
+"""The page of a rule, from the docstring of its module.
+
+A page has a title line that says what is wrong, a body that says why it matters, and two marked
+paragraphs: `Fix:` and `Source:`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Page:
+    """The parts of a rule's page.
+
+    Attributes:
+        title: What is wrong, one line.
+        why: What goes wrong because of it, and notes.
+        fix: What to do.
+        source: Where the rule comes from.
+    """
+
+    title: str
+    why: str
+    fix: str
+    source: str
+
+    @property
+    def reason(self) -> str:
+        """First sentence of the body."""
+        sentence, dot, _ = " ".join(self.why.split("\n\n")[0].split()).partition(". ")
+        return sentence + ("." if dot else "")
+
+
+def parse_page(docstring: str) -> Page:
+    """Split a docstring into the parts of a page."""
+    title, *paragraphs = [part.strip() for part in docstring.strip().split("\n\n")]
+    parts: dict[str, list[str]] = {"why": [], "fix": [], "source": []}
+    for block in paragraphs:
+        rest = block
+        for label in ("Source:", "Fix:"):
+            before, found, after = _cut(rest, label)
+            if found:
+                parts[label[:-1].lower()].append(after)
+                rest = before
+        if rest:
+            parts["why"].append(rest)
+    return Page(
+        title.rstrip("."),
+        "\n\n".join(parts["why"]),
+        "\n\n".join(parts["fix"]),
+        "\n\n".join(parts["source"]),
+    )
+
+
+def _cut(block: str, label: str) -> tuple[str, bool, str]:
+    """Split a block at the line that begins with a label."""
+    lines = block.splitlines()
+    for index, line in enumerate(lines):
+        if line.startswith(label):
+            after = "\n".join([line.removeprefix(label).strip(), *lines[index + 1 :]]).strip()
+            return "\n".join(lines[:index]).strip(), True, after
+    return block, False, ""

@@ -1,0 +1,42 @@
+"""The paperwork of a package: package.xml, model.config, CMakeLists.txt, each where it is there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from checker.model.paperwork import (
+    ModelConfig,
+    PackageManifest,
+    read_model_config,
+    read_package_xml,
+)
+from checker.package.package import Package
+from checker.source.cmake import CMakeFile, read_cmake
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+
+
+@dataclass(frozen=True, eq=False)
+class Paperwork:
+    """What a package's own paperwork says; nothing here is inherited."""
+
+    package: Package
+
+    @cached_property
+    def manifest(self) -> PackageManifest | None:
+        """package.xml; None when it is missing or not well-formed."""
+        document = self.package.xml("package.xml")
+        return read_package_xml(document) if isinstance(document, XmlDocument) else None
+
+    @cached_property
+    def config(self) -> ModelConfig | None:
+        """model.config; None when it is missing or not well-formed."""
+        document = self.package.xml("model.config")
+        return read_model_config(document) if isinstance(document, XmlDocument) else None
+
+    @cached_property
+    def build(self) -> CMakeFile | None:
+        """CMakeLists.txt; None when it is missing or no text."""
+        source = self.package.read("CMakeLists.txt")
+        return read_cmake(source) if isinstance(source, SourceText) else None

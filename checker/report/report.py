@@ -1,0 +1,136 @@
+"""What comes out of a check: verdicts, findings, and what was not checked and why."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from checker.finding import Fix, Place, Severity
+
+SCHEMA_VERSION = "1"
+
+
+class VerdictKind(enum.StrEnum):
+    """What a maintainer wants to know first.
+
+    `READY`: no error. `NOT_READY`: at least one. `INCOMPLETE`: no error, but something that
+    should have been looked at could not be.
+    """
+
+    READY = "ready"
+    NOT_READY = "not_ready"
+    INCOMPLETE = "incomplete"
+
+
+class Cause(enum.StrEnum):
+    """Why a rule did not look.
+
+    `NOT_AT_HAND` and `CRASHED` keep a package from being ready; what was switched off or has
+    nothing to look at does not.
+    """
+
+    NOT_AT_HAND = "not_at_hand"
+    NOT_APPLICABLE = "not_applicable"
+    SWITCHED_OFF = "switched_off"
+    CRASHED = "crashed"
+
+
+@dataclass(frozen=True)
+class NotChecked:
+    """A rule that did not look, and why."""
+
+    rule: str
+    reason: str
+    cause: Cause
+
+
+@dataclass(frozen=True)
+class ReportedFinding:
+    """A fault, with all its places.
+
+    Attributes:
+        rule: Id of the rule.
+        name: Name of the rule: what is wrong.
+        fingerprint: The same as long as the fault is the same, wherever the lines move.
+        why: First words of the rule's page.
+        how: How to mend it, from the rule's page.
+    """
+
+    rule: str
+    name: str
+    severity: Severity
+    message: str
+    fingerprint: str
+    places: tuple[Place, ...]
+    fix: Fix | None = None
+    why: str = ""
+    how: str = ""
+
+    @property
+    def help(self) -> str:
+        """The command that shows the rule's page."""
+        return f"subt-check rule {self.rule}"
+
+
+@dataclass(frozen=True)
+class InheritedPart:
+    """A part that a package takes from another one."""
+
+    part: str
+    package: str
+    at_hand: bool
+
+
+@dataclass(frozen=True)
+class PackageReport:
+    """All that was found out about one package.
+
+    Attributes:
+        path: As the user gave it.
+        kind: `robot`, `configuration`, `plugin`, ….
+        facts: Mass, links, joints, … by name.
+        timings: Seconds by stage.
+    """
+
+    name: str
+    path: str
+    kind: str
+    findings: tuple[ReportedFinding, ...]
+    not_checked: tuple[NotChecked, ...] = ()
+    inherited: tuple[InheritedPart, ...] = ()
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    timings: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def verdict(self) -> VerdictKind:
+        """Whether the package can be accepted."""
+        if self.count(Severity.ERROR):
+            return VerdictKind.NOT_READY
+        if self.blind_spots:
+            return VerdictKind.INCOMPLETE
+        return VerdictKind.READY
+
+    @property
+    def blind_spots(self) -> tuple[NotChecked, ...]:
+        """Rules that should have looked and could not."""
+        return tuple(n for n in self.not_checked if n.cause in (Cause.NOT_AT_HAND, Cause.CRASHED))
+
+    @property
+    def crashed(self) -> bool:
+        """Whether a rule could not run because of the checker itself."""
+        return any(n.cause is Cause.CRASHED for n in self.not_checked)
+
+    def count(self, severity: Severity) -> int:
+        """Return the number of findings of one severity."""
+        return sum(finding.severity is severity for finding in self.findings)
+
+
+@dataclass(frozen=True)
+class Report:
+    """The reports of all packages of one run, sorted by name."""
+
+    packages: tuple[PackageReport, ...]
+    profile: str
+    versions: Mapping[str, str]

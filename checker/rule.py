@@ -1,0 +1,185 @@
+"""What a rule author reads: `@rule`, `finding`, severities and fixes, and no more."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, get_type_hints
+
+from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.source.text import Span
+
+__all__ = [
+    "Context",
+    "Finding",
+    "Findings",
+    "Rule",
+    "Safety",
+    "Severity",
+    "Unchecked",
+    "finding",
+    "replace_text",
+    "rule",
+    "unchecked",
+]
+
+
+class HasSpan(Protocol):
+    """Anything that knows the text it was read from: a link, a value, an XML element."""
+
+    @property
+    def span(self) -> Span:
+        """The text it was read from."""
+        ...
+
+
+Where = HasSpan | Place
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What a rule says about one place; the engine adds the rule, its severity and its page.
+
+    Attributes:
+        places: The main place first, then related ones.
+        message: Names the thing and its value, and what was expected.
+        severity: When it differs from the rule's own.
+        key: Findings of one rule with one key are one fault in many places.
+        fix: Text edits that mend it.
+    """
+
+    places: tuple[Place, ...]
+    message: str
+    severity: Severity | None = None
+    key: str = ""
+    fix: Fix | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Unchecked:
+    """Something that a rule should look at and cannot; the reason ends the sentence."""
+
+    reason: str
+
+
+Findings = Iterator[Finding | Unchecked]
+"""What a rule yields."""
+
+
+def unchecked(reason: str) -> Unchecked:
+    """Say that a part of what the rule looks at is not at hand, and why."""
+    return Unchecked(reason)
+
+
+def finding(
+    where: Where,
+    message: str,
+    *,
+    severity: Severity | None = None,
+    key: str = "",
+    related: Iterable[tuple[Where, str]] = (),
+    fix: Fix | None = None,
+) -> Finding:
+    """Make a finding.
+
+    Args:
+        where: The element or value that the message names.
+        message: Present tense; names the thing, its value, and what was expected, with its unit.
+        severity: When it differs from the rule's own.
+        key: What repeated findings have in common; the message when empty.
+        related: Other places, each with a note that says what it has to do with the finding.
+        fix: Text edits that mend it.
+    """
+    others = tuple(replace(_place(other), note=note) for other, note in related)
+    return Finding((_place(where), *others), message, severity, key, fix)
+
+
+def _place(where: Where) -> Place:
+    return where if isinstance(where, Place) else where.span.place()
+
+
+def replace_text(where: HasSpan, replacement: str, safety: Safety = Safety.SAFE) -> Fix:
+    """Return the fix that writes `replacement` over the text of `where`."""
+    return Fix(safety, (Edit(where.span.place(), replacement),))
+
+
+@dataclass(frozen=True)
+class Context:
+    """What a rule may ask about the check itself.
+
+    Attributes:
+        profile: Name of the profile that judges the package (`subt`, `sdf`, …).
+        release: Gazebo release that the profile aims at (`dome`, `harmonic`, `classic`).
+        sdf_version: SDF version that the profile asks for; empty when the file's own counts.
+    """
+
+    profile: str = "subt"
+    release: str = "dome"
+    sdf_version: str = "1.6"
+
+
+Check = Callable[..., Findings]
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A rule of the book: one function, and what is known about it.
+
+    Attributes:
+        id: Three letters of its group and a number: `SEN005`.
+        name: What is wrong, in words joined by hyphens.
+        severity: Unless a finding says otherwise.
+        check: The function.
+        page: The module's docstring: what, why, how to fix, source.
+        good: Examples in which the rule finds nothing.
+        bad: Examples with a marker `^ SEN005` on each line that must be reported.
+    """
+
+    id: str
+    name: str
+    severity: Severity
+    check: Check
+    page: str
+    good: Sequence[Any] = ()
+    bad: Sequence[Any] = ()
+
+    @property
+    def group(self) -> str:
+        """The letters of the id."""
+        return self.id.rstrip("0123456789")
+
+    @property
+    def needs(self) -> dict[str, type]:
+        """Parts of the package that the function asks for, by parameter name."""
+        hints = get_type_hints(self.check)
+        return {
+            name: hints[name]
+            for name, parameter in inspect.signature(self.check).parameters.items()
+            if parameter.kind is not inspect.Parameter.KEYWORD_ONLY
+        }
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Options with their defaults: the function's keyword-only parameters."""
+        return {
+            name: parameter.default
+            for name, parameter in inspect.signature(self.check).parameters.items()
+            if parameter.kind is inspect.Parameter.KEYWORD_ONLY
+        }
+
+
+def rule(id: str, name: str, severity: Severity) -> Callable[[Check], Rule]:
+    """Make a rule of a function; the page is the docstring of the module it stands in.
+
+    Args:
+        id: Such as `SEN005`; never reused.
+        name: What is wrong, such as `lidar-scan-resolution`.
+        severity: Unless a finding says otherwise.
+    """
+
+    def decorate(check: Check) -> Rule:
+        page = inspect.getdoc(inspect.getmodule(check)) or ""
+        return Rule(id, name, severity, check, page)
+
+    return decorate

@@ -1,0 +1,47 @@
+"""Bytes to text: byte order marks, XML declarations, and what is no text at all."""
+
+from __future__ import annotations
+
+import codecs
+import re
+
+_BOMS = (
+    (codecs.BOM_UTF8, "utf-8"),
+    (codecs.BOM_UTF32_LE, "utf-32-le"),
+    (codecs.BOM_UTF32_BE, "utf-32-be"),
+    (codecs.BOM_UTF16_LE, "utf-16-le"),
+    (codecs.BOM_UTF16_BE, "utf-16-be"),
+)
+_DECLARED = re.compile(rb"""^\s*<\?xml[^>]*encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
+
+
+class NotText(ValueError):
+    """The bytes are no text in the encoding that they announce."""
+
+
+def decode(data: bytes) -> str:
+    """Decode a text file: by byte order mark, by XML declaration, else as UTF-8.
+
+    A byte order mark is dropped, line endings stay as they are.
+
+    Raises:
+        NotText: The bytes do not fit the encoding, hold NUL characters, or name an unknown one.
+    """
+    encoding = "utf-8"
+    for mark, name in _BOMS:
+        if data.startswith(mark):
+            data, encoding = data[len(mark) :], name
+            break
+    else:
+        if declared := _DECLARED.match(data[:200]):
+            encoding = declared.group(1).decode("ascii")
+    try:
+        text = data.decode(encoding)
+    except LookupError:
+        raise NotText(f"declares the unknown encoding {encoding!r}") from None
+    except UnicodeError as error:
+        where = getattr(error, "start", 0)
+        raise NotText(f"is not {encoding.upper()} text: byte {where} cannot be decoded") from None
+    if "\0" in text:
+        raise NotText("holds NUL characters, so it is a binary file")
+    return text

@@ -1,0 +1,112 @@
+"""A file's text, and the map from offsets to lines and columns."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Generic, TypeVar
+
+from checker.finding import Place
+
+T = TypeVar("T")
+
+SNIPPET_LIMIT = 240
+
+
+@dataclass(frozen=True, eq=False)
+class SourceText:
+    """The decoded text of one file.
+
+    Attributes:
+        file: Path relative to the package folder (see `Place.file`).
+        text: The text, line endings as in the file.
+    """
+
+    file: str
+    text: str = field(repr=False)
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        starts = [0]
+        find = self.text.find
+        at = find("\n")
+        while at >= 0:
+            starts.append(at + 1)
+            at = find("\n", at + 1)
+        return starts
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Return the line and column, both from 1, of a character offset."""
+        line = bisect_right(self._line_starts, offset)
+        return line, offset - self._line_starts[line - 1] + 1
+
+    def line(self, number: int) -> str:
+        """Return the text of a line (from 1) without its line ending."""
+        starts = self._line_starts
+        end = starts[number] if number < len(starts) else len(self.text)
+        return self.text[starts[number - 1] : end].rstrip("\r\n")
+
+    def line_span(self, number: int) -> Span:
+        """Return the span of a line's text, without the blanks around it."""
+        start = self._line_starts[number - 1]
+        text = self.line(number)
+        stripped = text.strip()
+        start += len(text) - len(text.lstrip()) if stripped else 0
+        return Span(self, start, start + len(stripped))
+
+    def place(self, start: int, end: int) -> Place:
+        """Return the place of the characters from `start` up to, not including, `end`."""
+        line, column = self.position(start)
+        end_line, end_column = self.position(max(start, end))
+        snippet = self.line(line)[:SNIPPET_LIMIT]
+        return Place(self.file, line, column, end_line, end_column, snippet=snippet)
+
+    def whole(self) -> Span:
+        """Return a span of no characters at the top of the file: the file as a whole."""
+        return Span(self, 0, 0)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Span:
+    """A stretch of a source: from `start` up to, not including, `end`."""
+
+    source: SourceText
+    start: int
+    end: int
+    element: str = ""
+
+    @property
+    def span(self) -> Span:
+        """Return itself, so that a span can stand wherever something with a span is asked for."""
+        return self
+
+    @property
+    def text(self) -> str:
+        """The marked characters."""
+        return self.source.text[self.start : self.end]
+
+    @property
+    def line(self) -> int:
+        """First line, in the file that a person would open."""
+        return self.place().line
+
+    def place(self, note: str = "") -> Place:
+        """Return the place in the file that a person would open."""
+        place = self.source.place(self.start, self.end)
+        return replace(place, element=self.element, note=note)
+
+
+@dataclass(frozen=True, slots=True)
+class Located(Generic[T]):
+    """A value and the place it was read from.
+
+    Attributes:
+        value: The value.
+        span: Its text; when `stated` is false, the element that could have stated it.
+        stated: False when the value is a default that the file does not spell out.
+    """
+
+    value: T
+    span: Span
+    stated: bool = True

@@ -1,0 +1,246 @@
+"""XML with places: lxml's tree, and expat's positions of everything in it.
+
+lxml tells the line where a start tag ends and no column; expat tells the byte where each tag
+begins and ends, but builds no tree. Both read the same text and are joined by document order.
+Entities, document types and network access are off in both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from lxml import etree
+
+from checker.source.positions import TagPosition, XmlFault, locate_tags
+from checker.source.start_tag import AttributeSpans, scan_start_tag
+from checker.source.text import Located, SourceText, Span
+
+MAX_DEPTH = 250
+
+
+@dataclass(frozen=True, eq=False)
+class XmlDocument:
+    """A well-formed XML text.
+
+    Attributes:
+        source: The text that was parsed.
+        root: The outermost element.
+        tolerated: Faults that Gazebo's reader (tinyxml2) forgives and strict ones do not.
+    """
+
+    source: SourceText
+    tree: etree._Element = field(repr=False)
+    positions: list[TagPosition] = field(repr=False)
+    tolerated: tuple[XmlFault, ...] = ()
+
+    @cached_property
+    def _order(self) -> dict[etree._Element, int]:
+        return {node: index for index, node in enumerate(self.tree.iter(etree.Element))}
+
+    @cached_property
+    def elements(self) -> list[Element]:
+        """All elements, in document order."""
+        return [Element(self, node, self.positions[index]) for node, index in self._order.items()]
+
+    @property
+    def root(self) -> Element:
+        """The outermost element."""
+        return self.elements[0]
+
+    def element_of(self, node: etree._Element) -> Element:
+        """Return the element that stands for a node of lxml's tree (as XPath returns it)."""
+        return self.elements[self._order[node]]
+
+    def find_all(self, xpath: str) -> list[Element]:
+        """Return the elements that an XPath expression selects, in document order."""
+        found = self.tree.xpath(xpath)
+        if not isinstance(found, list):
+            return []
+        return [self.element_of(node) for node in found if isinstance(node, etree._Element)]
+
+
+def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
+    """Parse a text, or say why it is not well-formed XML."""
+    located = locate_tags(source, MAX_DEPTH)
+    if isinstance(located, XmlFault):
+        return located
+    parser = etree.XMLParser(
+        encoding="utf-8", resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False
+    )
+    try:
+        tree = etree.fromstring(located.text.encode("utf-8"), parser)
+    except etree.XMLSyntaxError as error:
+        return _lxml_fault(source, error)
+    return XmlDocument(source, tree, located.tags, located.tolerated)
+
+
+def _lxml_fault(source: SourceText, error: etree.XMLSyntaxError) -> XmlFault:
+    line, column = error.position
+    at = source.line_span(max(1, line)).start + max(0, column - 1)
+    return XmlFault(Span(source, at, at), str(error.msg).split(", line")[0])
+
+
+@dataclass(frozen=True, eq=False)
+class Element:
+    """One element of an XML document, with the places of its parts."""
+
+    document: XmlDocument
+    node: etree._Element
+    position: TagPosition
+
+    @property
+    def source(self) -> SourceText:
+        """The text this element stands in."""
+        return self.document.source
+
+    @property
+    def tag(self) -> str:
+        """Name as written, with its prefix (`xacro:macro`)."""
+        name = etree.QName(self.node).localname
+        return f"{self.node.prefix}:{name}" if self.node.prefix else name
+
+    @cached_property
+    def path(self) -> str:
+        """Path by tags and names: `sdf/model[rover]/link[wheel]/pose`."""
+        label = self.tag
+        name = self.node.get("name")
+        if name is not None:
+            label += f"[{name}]"
+        elif (twins := self._index_among_twins()) is not None:
+            label += f"[{twins}]"
+        parent = self.parent
+        return f"{parent.path}/{label}" if parent is not None else label
+
+    def _index_among_twins(self) -> int | None:
+        parent = self.node.getparent()
+        if parent is None:
+            return None
+        same = [node for node in parent.iterchildren(self.node.tag) if node.get("name") is None]
+        return same.index(self.node) + 1 if len(same) > 1 else None
+
+    @cached_property
+    def span(self) -> Span:
+        """The start tag."""
+        return Span(self.source, self.position.start, self.position.start_end, self.path)
+
+    @property
+    def whole_span(self) -> Span:
+        """The element from the start of its start tag to the end of its end tag."""
+        return Span(self.source, self.position.start, self.position.end, self.path)
+
+    @cached_property
+    def _scanned(self) -> AttributeSpans:
+        return scan_start_tag(self.source.text, self.position.start, self.position.start_end)
+
+    @property
+    def name_span(self) -> Span:
+        """The tag's name within the start tag."""
+        start, end = self._scanned.tag
+        return Span(self.source, start, end, self.path)
+
+    @property
+    def parent(self) -> Element | None:
+        """The element around this one."""
+        node = self.node.getparent()
+        return None if node is None else self.document.element_of(node)
+
+    @cached_property
+    def children(self) -> list[Element]:
+        """The elements directly below, in order; comments are left out."""
+        return [self.document.element_of(node) for node in self.node.iterchildren(etree.Element)]
+
+    def all(self, tag: str) -> list[Element]:
+        """Return the children of one name."""
+        return [child for child in self.children if child.tag == tag]
+
+    def child(self, *path: str) -> Element | None:
+        """Return the first child of a name; with several names, go down step by step."""
+        element: Element | None = self
+        for tag in path:
+            element = next((c for c in element.children if c.tag == tag), None) if element else None
+        return element
+
+    def descendants(self, tag: str | None = None) -> Iterator[Element]:
+        """Yield the elements below this one, in document order."""
+        for node in self.node.iterdescendants(etree.Element):
+            element = self.document.element_of(node)
+            if tag is None or element.tag == tag:
+                yield element
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Attribute values by their names as written."""
+        return {name: self.node.get(key, "") for name, key in self._attribute_keys().items()}
+
+    def _attribute_keys(self) -> dict[str, str]:
+        prefixes = {uri: prefix for prefix, uri in self.node.nsmap.items()}
+        keys = {}
+        for raw in self.node.attrib:
+            key = str(raw)
+            if key.startswith("{"):
+                uri, local = key[1:].split("}", 1)
+                keys[f"{prefixes.get(uri) or 'xml'}:{local}"] = key
+            else:
+                keys[key] = key
+        return keys
+
+    def get(self, attribute: str, default: str | None = None) -> str | None:
+        """Return an attribute's value without its place."""
+        return self.node.get(attribute, default)
+
+    def attribute(self, name: str) -> Located[str] | None:
+        """Return an attribute's value and its place, or None when it is absent."""
+        value = self.attributes.get(name)
+        if value is None:
+            return None
+        return Located(value, self._attribute_span(name, 1))
+
+    def attribute_name_span(self, name: str) -> Span:
+        """Return the place of an attribute's name."""
+        return self._attribute_span(name, 0)
+
+    def _attribute_span(self, name: str, part: int) -> Span:
+        """Return the name (`part` 0) or the value (1) of an attribute, else the start tag."""
+        spans = self._scanned.attributes.get(name)
+        if spans is None:
+            return self.span
+        start, end = spans[part]
+        return Span(self.source, start, end, self.path)
+
+    @property
+    def raw_text(self) -> str:
+        """Text up to the first child element, blanks included."""
+        parts = [self.node.text or ""]
+        for node in self.node.iterchildren():
+            if isinstance(node.tag, str):
+                break
+            parts.append(node.tail or "")
+        return "".join(parts)
+
+    @cached_property
+    def text(self) -> Located[str]:
+        """Text without the blanks around it; its place is the start tag when there is none."""
+        value = self.raw_text.strip()
+        if not value:
+            return Located("", self.span, stated=False)
+        return Located(value, self.text_span)
+
+    @cached_property
+    def text_span(self) -> Span:
+        """Where the text stands: from its first to its last character that is no blank."""
+        start = self.position.start_end
+        first = next(iter(self.node.iterchildren(etree.Element)), None)
+        end = self.position.end_start
+        if first is not None:
+            end = self.document.element_of(first).position.start
+        raw = self.source.text[start:end]
+        if not raw.strip():
+            return self.span
+        return Span(
+            self.source,
+            start + len(raw) - len(raw.lstrip()),
+            end - len(raw) + len(raw.rstrip()),
+            self.path,
+        )

@@ -1,0 +1,1 @@
+"""What a robot's `launch/spawner.rb` emits, found without running Ruby."""

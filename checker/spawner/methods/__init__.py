@@ -1,0 +1,1 @@
+"""The whitelisted methods of Ruby's own classes, one file per class."""

@@ -1,0 +1,59 @@
+"""`format` and `String#%`: the plain directives."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from checker.spawner.formatting import NotWritable, to_s
+from checker.spawner.methods.call import Call
+from checker.spawner.signals import RubyError
+from checker.spawner.values import Value
+
+_DIRECTIVE = re.compile(r"%([-+0 #]{0,5})(\d{0,4})(?:\.(\d{1,3}))?(.)?", re.DOTALL)
+
+
+def formatted(call: Call, template: Value, values: list[Value]) -> Value:
+    """Fill values into a template such as `%.3f`.
+
+    Raises:
+        Unreadable: A directive that is not read (`%<name>s`, `%p`, `*`).
+        RubyError: There are too few values.
+    """
+    text, waiting, parts, at = call.text(template), list(values), [], 0
+    for found in _DIRECTIVE.finditer(text):
+        parts += [text[at : found.start()], _directive(call, found, waiting)]
+        at = found.end()
+        call.run.budget.spend()
+    parts.append(text[at:])
+    return call.run.computed("".join(parts), call.span, template, *values)
+
+
+def _directive(call: Call, found: re.Match[str], waiting: list[Value]) -> str:
+    flags, width, precision, kind = found.groups()
+    if found.group() == "%%":
+        return "%"
+    if kind is None or kind not in "diufFgGeEsx" or "#" in flags:
+        raise call.refuse(f"with the directive {found.group()[:20]}")
+    if not waiting:
+        raise RubyError("ArgumentError", "too few arguments", call.span)
+    value = waiting.pop(0)
+    dot = f".{precision}" if precision is not None else ""
+    if kind == "s":
+        return f"%{flags.replace('0', '')}{width}{dot}s" % _text(call, value)
+    number = call.number(value)
+    if not math.isfinite(number):
+        raise call.refuse(f"with {number} for {found.group()}")
+    if kind in "diux":
+        if kind == "x" and number < 0:
+            raise call.refuse("with a negative number for %x")
+        flags = flags.replace("0", "") if dot else flags
+        return f"%{flags}{width}{dot}{'x' if kind == 'x' else 'd'}" % math.floor(number)
+    return f"%{flags}{width}{dot}{kind}" % float(number)
+
+
+def _text(call: Call, value: Value) -> str:
+    try:
+        return to_s(value.data, call.run.budget)
+    except NotWritable as error:
+        raise call.refuse(f"with {error}") from None

@@ -1,0 +1,102 @@
+"""What a package's spawner emits, as XML whose places are lines of Ruby."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from dataclasses import dataclass
+from functools import cached_property
+
+from checker.engine import NotAtHand
+from checker.package.inheritance import SPAWNER
+from checker.package.package import Package
+from checker.package.reading import NotReadable
+from checker.source.fragments import parse_fragments, unwrapped
+from checker.source.positions import XmlFault
+from checker.source.text import SourceText, Span
+from checker.source.xml import Element, XmlDocument
+from checker.spawner.emitted import EmittedText
+from checker.spawner.reader import Spawner
+from checker.spawner.signals import Unread
+
+
+@dataclass(frozen=True)
+class WorkspaceFiles:
+    """Gives the spawner reader the texts of a package and of its siblings."""
+
+    package: Package
+
+    @property
+    def entry(self) -> str:
+        """Path of the spawner, from the workspace."""
+        return f"{self.package.root.name}/{SPAWNER}"
+
+    def _local(self, path: str) -> str:
+        """Return a path of the workspace as the package sees it."""
+        return posixpath.relpath(path, self.package.root.name)
+
+    def read(self, path: str) -> SourceText | str:
+        """Return a text, or the reason why it cannot be given."""
+        text = self.package.read(self._local(path))
+        if isinstance(text, NotReadable):
+            return f"{path} {text.reason}"
+        return text
+
+    def exists(self, path: str) -> bool:
+        """Whether there is a file or folder of this path."""
+        return self.package.exists(self._local(path))
+
+    def package_folder(self, name: str) -> str | None:
+        """Return the folder of a package, None when it is not at hand."""
+        found = self.package.workspace.package(name)
+        return found.root.name if found is not None else None
+
+
+@dataclass(frozen=True, eq=False)
+class SpawnedXml:
+    """What the two functions of a spawner emit.
+
+    Attributes:
+        text: What `spawner` emits.
+        spawn: The same as XML.
+        executables: What `rosExecutables` emits, as XML.
+    """
+
+    text: EmittedText
+    spawn: XmlDocument
+    executables: XmlDocument
+
+    @cached_property
+    def plugins(self) -> list[Element]:
+        """The plugins that the spawner adds to the robot."""
+        return self.spawn.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
+
+    def parameters_of(self, span: Span) -> frozenset[str]:
+        """Return the spawner's parameters and globals that made a stretch of what it emits."""
+        start, end = unwrapped(span)
+        return self.text.parameters_in(start, end)
+
+    def words_of(self, span: Span) -> list[Span]:
+        """Return the words of a stretch, as blanks part them."""
+        words = re.finditer(r"\S+", span.text)
+        return [Span(span.source, span.start + w.start(), span.start + w.end()) for w in words]
+
+    @cached_property
+    def commands(self) -> list[Element]:
+        """The `<command>` elements of the executables."""
+        return self.executables.find_all("executable/command")
+
+
+def spawned_xml(spawner: Spawner) -> SpawnedXml | NotAtHand:
+    """Parse what a spawner emits; what cannot be read or parsed is not at hand."""
+    documents = []
+    for name, emitted in (("spawner", spawner.spawn), ("rosExecutables", spawner.executables)):
+        if isinstance(emitted, Unread):
+            line = emitted.span.line
+            return NotAtHand(f"{name} cannot be read at {SPAWNER}:{line}: {emitted.reason}")
+        document = parse_fragments(emitted)
+        if isinstance(document, XmlFault):
+            return NotAtHand(f"what {name} emits is not well-formed: {document.message}")
+        documents.append((emitted, document))
+    (text, spawn), (_, executables) = documents
+    return SpawnedXml(text, spawn, executables)

@@ -1,0 +1,1 @@
+"""DOC: specifications.md."""

@@ -1,0 +1,118 @@
+"""A sensor that specifications.md lists and the model lacks.
+
+Teams choose a robot by its sheet. A lidar that is listed and not modelled, or modelled under
+another type, is found out in the first run.
+
+Fix: add the sensor to the model, or correct the sheet; say "modeled by a … sensor" where the
+device's name does not tell what it is.
+Source: Model Preparation Guide, section "Sensors"; reviewers compare sheet and model one by one.
+"""
+
+import re
+from collections import defaultdict
+from collections.abc import Sequence
+
+from checker.model.robot import Robot
+from checker.model.specification.sensor_kinds import SensorKind
+from checker.model.specification.sensors import ListedSensor
+from checker.model.specification.sheet import Specification
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, rule
+
+_LIDARS = frozenset({"gpu_lidar", "gpu_ray", "lidar", "ray"})
+_DEPTH = frozenset({"rgbd_camera", "rgbd", "depth_camera", "depth"})
+_CAMERAS = frozenset({"camera", "wideanglecamera", "wide_angle_camera"})
+
+TYPES = {
+    SensorKind.LIDAR: _LIDARS,
+    SensorKind.PLANAR_LIDAR: _LIDARS,
+    SensorKind.POINT_LIDAR: _LIDARS,
+    SensorKind.CAMERA: _CAMERAS,
+    SensorKind.DEPTH_CAMERA: _DEPTH,
+    SensorKind.RGBD_CAMERA: _DEPTH,
+    SensorKind.THERMAL_CAMERA: frozenset({"thermal", "thermal_camera"}),
+    SensorKind.IMU: frozenset({"imu"}),
+    SensorKind.MAGNETOMETER: frozenset({"magnetometer"}),
+    SensorKind.AIR_PRESSURE: frozenset({"air_pressure"}),
+    SensorKind.ALTIMETER: frozenset({"altimeter"}),
+    SensorKind.GPS: frozenset({"gps", "navsat"}),
+}
+"""Sensor types of SDF that stand for a kind; kinds that plugins may stand for are left out."""
+
+SUBSTITUTES = {SensorKind.CAMERA: _DEPTH, SensorKind.DEPTH_CAMERA: _CAMERAS}
+"""Types that a sheet's words may mean as well: a camera that also measures depth."""
+
+
+@rule("DOC003", "listed-sensor-missing", Severity.ERROR)
+def check(package: Package, robot: Robot, specification: Specification) -> Findings:
+    """Compare the listed kinds, and their numbers where the sheet is clear, with the model."""
+    number = _configuration_number(package.name)
+    listed = [
+        each
+        for each in specification.sensors
+        if each.kind in TYPES and (not each.configurations or number in each.configurations)
+    ]
+    families: dict[frozenset[str], list[ListedSensor]] = defaultdict(list)
+    for each in listed:
+        families[TYPES[each.kind]].append(each)
+    present = [sensor.type.value for sensor in robot.sensors]
+    for types, items in families.items():
+        amount = sum(kind in types for kind in present)
+        accepted = types.union(*(SUBSTITUTES.get(item.kind, frozenset()) for item in items))
+        if not accepted.intersection(present):
+            for item in items:
+                yield finding(item, f"lists {_words(item)}, the model has no {_name(item.kind)}")
+        elif amount and (total := _total(items)) is not None and total != amount:
+            yield finding(
+                items[0],
+                f"lists {total} × {_name(items[0].kind)}, the model has {amount}",
+                severity=Severity.WARNING,
+                related=[(item, "listed here too") for item in items[1:]],
+            )
+
+
+def _configuration_number(name: str) -> int:
+    match = re.search(r"_(\d{1,4})$", name)
+    return int(match.group(1)) if match else 1
+
+
+def _total(items: Sequence[ListedSensor]) -> int | None:
+    """Return how many the sheet lists; None unless every item says so."""
+    counts = [item.count for item in items]
+    return sum(count for count in counts if count) if all(counts) else None
+
+
+def _name(kind: SensorKind) -> str:
+    return kind.value.replace("_", " ")
+
+
+def _words(item: ListedSensor) -> str:
+    text = " ".join(item.text.split())
+    return f"{text[:77]}..." if len(text) > 80 else text
+
+
+_SHEET = "# Rover\n### Sensors\n"
+_SENSORS = """
+<sensor name="front" type="camera"/><sensor name="rear" type="camera"/>
+<sensor name="imu" type="imu"/>
+"""
+
+GOOD = [
+    {
+        "@fragment": _SENSORS,
+        "specifications.md": _SHEET
+        + "* 2x FLIR Blackfly, modeled by the camera plugin\n* IMU: Microstrain GX5\n",
+    },
+]
+BAD = [
+    {
+        "@fragment": _SENSORS,
+        "specifications.md": _SHEET
+        + "* Velodyne VLP-16, modeled by the gpu_lidar plugin <!-- ^ DOC003 -->\n",
+    },
+    {
+        "@fragment": _SENSORS,
+        "specifications.md": _SHEET
+        + "* 4x FLIR Blackfly, modeled by the camera plugin <!-- ^ DOC003 -->\n",
+    },
+]

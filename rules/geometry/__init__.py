@@ -1,0 +1,1 @@
+"""GEO: collision and visual geometry."""

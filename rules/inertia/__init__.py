@@ -1,0 +1,1 @@
+"""INE: mass and inertia."""

@@ -1,0 +1,71 @@
+"""A total mass that differs from the one in specifications.md.
+
+The mass decides how the robot accelerates, slips and drains its battery. When sheet and model
+disagree, one of them describes another robot: a copied link, a missing battery, pounds for
+kilograms.
+
+Fix: correct the masses of the links, or the sheet.
+Source: Robot Model Checklist: reviewers add up the links and compare with "Cost and Scale".
+"""
+
+from checker.model.robot import Robot
+from checker.model.specification.sheet import Specification
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("INE008", "mass-differs-from-specification", Severity.ERROR)
+def check(
+    robot: Robot,
+    specification: Specification,
+    *,
+    error_above: float = 0.05,
+    warning_above: float = 0.02,
+    approximate_factor: float = 2.0,
+) -> Findings:
+    """Compare the sum of the links' masses with the stated mass, relative to the latter.
+
+    A mass that the sheet calls approximate is given `approximate_factor` times the tolerance.
+    """
+    stated = specification.total_mass
+    if stated is None or stated.value <= 0 or not robot.links:
+        return
+    off = robot.mass / stated.value - 1
+    slack = approximate_factor if stated.approximate else 1.0
+    # A figure such as 38 kg says no more than 37.5 to 38.5 kg.
+    beyond = abs(robot.mass - stated.value) - 0.5 * stated.resolution
+    if beyond <= 0 or abs(off) <= warning_above * slack:
+        return
+    grave = abs(off) > error_above * slack
+    yield finding(
+        stated,
+        f"specification says {stated.value:g} kg, the links weigh {robot.mass:.4g} kg together: "
+        f"{abs(off):.0%} {'more' if off > 0 else 'less'}",
+        severity=Severity.ERROR if grave else Severity.WARNING,
+        related=[(robot, "the model's links")],
+    )
+
+
+def _link(mass: float) -> str:
+    return f"""
+<link name="body"><inertial><mass>{mass}</mass><inertia>
+  <ixx>1</ixx><iyy>1</iyy><izz>1</izz>
+</inertia></inertial></link>
+"""
+
+
+_SHEET = "# Rover\n### Cost and Scale\nThe total robot weight is {} kg."
+
+GOOD = [
+    {"@fragment": _link(48.5), "specifications.md": _SHEET.format("50.0")},
+    {"@fragment": _link(47.3), "specifications.md": _SHEET.format("approximately 50")},
+]
+BAD = [
+    {
+        "@fragment": _link(39.0),
+        "specifications.md": _SHEET.format("50.0") + " <!-- ^ INE008 -->",
+    },
+    {
+        "@fragment": _link(47.4),
+        "specifications.md": _SHEET.format("50.0") + " <!-- ^ INE008 -->",
+    },
+]

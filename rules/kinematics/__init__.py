@@ -1,0 +1,1 @@
+"""KIN: links, joints and frames."""

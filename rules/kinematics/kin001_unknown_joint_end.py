@@ -1,0 +1,58 @@
+"""A joint whose parent or child does not exist.
+
+The simulator refuses the whole model, or drops the joint and the part falls off.
+
+Fix: name a link of the model as its `name` attribute spells it.
+Source: SDFormat specification, joint/parent and joint/child.
+"""
+
+from checker.model.robot import Joint, Robot
+from checker.model.schema import nearest
+from checker.rule import Findings, Severity, finding, rule
+from checker.source.text import Located
+
+
+@rule("KIN001", "unknown-joint-end", Severity.ERROR)
+def check(robot: Robot) -> Findings:
+    """Report joints that end at nothing."""
+    names = robot.attachable_names
+    for joint in robot.joints:
+        for role, end in (("parent", joint.parent), ("child", joint.child)):
+            if _exists(joint, role, end, names) or _may_be_included(robot, end):
+                continue
+            near = nearest(end.value, names)
+            hint = f"; did you mean {near!r}?" if near else ""
+            said = f"{role} {end.value!r}, which does not exist" if end.value else f"no {role}"
+            yield finding(end, f"joint {joint.name.value!r} has {said}{hint}")
+
+
+def _exists(joint: Joint, role: str, end: Located[str], names: frozenset[str]) -> bool:
+    if end.value == "world" and role == "parent":
+        return True
+    return joint.scope + end.value in names
+
+
+def _may_be_included(robot: Robot, end: Located[str]) -> bool:
+    return "::" in end.value and bool(robot.unresolved_includes)
+
+
+GOOD = [
+    """
+<link name="wheel"/>
+<joint name="axle" type="revolute"><parent>base_link</parent><child>wheel</child></joint>
+""",
+]
+BAD = [
+    """
+<link name="front_wheel"/>
+<joint name="axle" type="revolute">
+  <parent>base_link</parent>
+  <child>frontwheel</child>  <!-- ^ KIN001 -->
+</joint>
+""",
+    """
+<joint name="axle" type="fixed">  <!-- ^ KIN001 -->
+  <parent>base_link</parent>
+</joint>
+""",
+]

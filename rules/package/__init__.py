@@ -1,0 +1,1 @@
+"""PKG: layout and paperwork of a package."""

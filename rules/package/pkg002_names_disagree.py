@@ -1,0 +1,70 @@
+"""The names of a package that do not agree.
+
+catkin finds a package by the name in package.xml, CMake installs it under that of `project()`, and
+the launcher asks for the folder's name: when they differ, `roslaunch` does not find the package.
+The names in model.config and `<model name>` are only shown.
+
+Fix: give package.xml, `project()` and the folder one name.
+Source: REP 140 and catkin: the project name must equal the package name.
+"""
+
+from collections.abc import Iterator
+
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.paperwork import Paperwork
+from checker.rule import Finding, Findings, Severity, finding, replace_text, rule
+from checker.source.text import Located
+
+
+@rule("PKG002", "names-disagree", Severity.ERROR)
+def check(package: Package, paperwork: Paperwork) -> Findings:
+    """Compare the names in package.xml, CMakeLists.txt and model.config with the folder's."""
+    if package.kind is PackageKind.SINGLE_FILE:
+        return
+    if paperwork.manifest is not None:
+        yield from _compare(paperwork.manifest.name, package.name, "package.xml names the package")
+    if paperwork.build is not None and (project := paperwork.build.project) is not None:
+        yield from _compare(project, package.name, "CMakeLists.txt names the project")
+    if paperwork.config is not None:
+        yield from _shown_name(paperwork.config.name, package.name)
+
+
+def _compare(name: Located[str], folder: str, saying: str) -> Iterator[Finding]:
+    if name.stated and name.value != folder:
+        yield finding(
+            name,
+            f"{saying} {name.value!r}, its folder is {folder!r}",
+            fix=replace_text(name, folder),
+        )
+
+
+def _shown_name(name: Located[str], folder: str) -> Iterator[Finding]:
+    """A name in plain words is fine; one that looks like a package name should be this one."""
+    if name.stated and " " not in name.value and name.value != folder and "_" in name.value:
+        yield finding(
+            name,
+            f"model.config names the model {name.value!r}, the folder is {folder!r}",
+            severity=Severity.INFO,
+        )
+
+
+def _manifest(name: str) -> str:
+    return f"""<package format="2">
+  <name>{name}</name>  <!-- ^ PKG002 -->
+</package>
+"""
+
+
+GOOD = [{"model.config": "<model><name>Acme Rover</name><sdf>model.sdf</sdf></model>"}]
+BAD = [
+    {"package.xml": _manifest("acme_rover_sensor_config_2")},
+    {"CMakeLists.txt": "project(rover)  # ^ PKG002\n"},
+    {
+        "model.config": """<model>
+  <name>acme_rover_sensor_config_7</name>  <!-- ^ PKG002 -->
+  <sdf>model.sdf</sdf>
+</model>
+"""
+    },
+]

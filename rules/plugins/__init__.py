@@ -1,0 +1,1 @@
+"""PLG: plugins and their parameters."""

@@ -1,0 +1,70 @@
+"""A plugin of Gazebo 9 in a model for Ignition Gazebo.
+
+Ignition Gazebo cannot load plugins that were built for Gazebo Classic: it prints one line and goes
+on without the drive, the sensor or the light that they made.
+
+Fix: remove the plugin and use what the message names: a system plugin in `launch/spawner.rb`, or a
+sensor in the model.
+Source: Model Migration Guide, "Remove/replace unsupported plugins".
+"""
+
+import re
+from typing import Any
+
+from checker.model.robot import Robot
+from checker.resources import table
+from checker.rule import Findings, Severity, finding, rule
+
+_CLASSIC = re.compile(r"(?:gazebo_ros|hector_gazebo)_.*")
+
+
+@rule("PLG001", "classic-plugin", Severity.ERROR)
+def check(robot: Robot) -> Findings:
+    """Report plugins whose library is Gazebo Classic's."""
+    for plugin in robot.all_plugins:
+        library = plugin.filename.value.rsplit("/", 1)[-1].removeprefix("lib").removesuffix(".so")
+        known = _replacement(library)
+        if known is None and not _CLASSIC.fullmatch(library):
+            continue
+        yield finding(
+            plugin.filename,
+            f"{plugin.filename.value} is a plugin of Gazebo 9: {_advice(known or {})}",
+            key=library,
+        )
+
+
+def _replacement(library: str) -> dict[str, Any] | None:
+    for entry in table("gazebo_classic_plugins")["plugins"]:
+        if re.fullmatch(entry["match"], library):
+            return dict(entry)
+    return None
+
+
+def _advice(entry: dict[str, Any]) -> str:
+    instead = entry.get("replacement") or {}
+    if sensor := instead.get("sensor_type"):
+        advice = f"use a sensor of type {sensor}"
+    elif filename := instead.get("filename"):
+        advice = f"remove it and use {filename} ({instead['name']})"
+    elif entry.get("action") == "remove":
+        advice = "remove it"
+    else:
+        advice = "no replacement is known"
+    note = entry.get("note")
+    return f"{advice} ({note})" if note else advice
+
+
+GOOD = [
+    '<plugin filename="libignition-gazebo-diff-drive-system.so" name="drive"/>',
+]
+BAD = [
+    """
+<plugin filename="libgazebo_ros_control.so" name="control"/>  <!-- ^ PLG001 -->
+<plugin filename="libgazebo_ros_future_thing.so" name="thing"/>  <!-- ^ PLG001 -->
+""",
+    """
+<sensor name="imu" type="imu">
+  <plugin filename="libhector_gazebo_ros_imu.so" name="imu"/>  <!-- ^ PLG001 -->
+</sensor>
+""",
+]

@@ -1,0 +1,87 @@
+"""A plugin that names a joint, link or sensor which does not exist.
+
+The plugin starts, finds nothing to act on, and does nothing: the wheel does not turn, the rotor
+does not lift, the slip is never applied.
+
+Fix: name the part as its `name` attribute in the model spells it.
+Source: parameter descriptions of Gazebo's systems (`plugin_references.json`).
+"""
+
+from collections.abc import Iterator
+
+from checker.model.robot import Plugin, Robot
+from checker.model.schema import nearest
+from checker.resources import table
+from checker.rule import Findings, Severity, finding, rule
+from checker.source.text import Located
+from checker.source.xml import Element
+
+
+@rule("PLG004", "plugin-names-unknown-part", Severity.ERROR)
+def check(robot: Robot) -> Findings:
+    """Report parameters that name no part of the robot."""
+    parts = {
+        "joint": frozenset(robot.joints_by_name),
+        "link": frozenset(robot.links_by_name),
+    }
+    for plugin in robot.all_plugins:
+        parameters = table("plugin_references")["plugins"].get(plugin.class_name, {})
+        for path, kind in parameters.items():
+            for named in _named(plugin.element, path.split("/")):
+                if _exists(robot, plugin, named.value, parts[kind]):
+                    continue
+                near = nearest(named.value, parts[kind])
+                hint = f"; did you mean {near!r}?" if near else ""
+                yield finding(
+                    named,
+                    f"{plugin.class_name} names {kind} {named.value!r}, "
+                    f"which {robot.name.value!r} does not have{hint}",
+                )
+
+
+def _named(element: Element, path: list[str]) -> Iterator[Located[str]]:
+    """Yield what stands at a path below a plugin; an empty element names nothing."""
+    step, *rest = path
+    if step.startswith("@"):
+        attribute = element.attribute(step[1:])
+        if attribute is not None:
+            yield attribute
+        return
+    for child in element.all(step):
+        if rest:
+            yield from _named(child, rest)
+        elif child.text.stated:
+            yield child.text
+
+
+def _exists(robot: Robot, plugin: Plugin, name: str, names: frozenset[str]) -> bool:
+    scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
+    if scope + name in names or name in names:
+        return True
+    return "::" in name and bool(robot.unresolved_includes)
+
+
+GOOD = [
+    """
+<joint name="left" type="revolute"><parent>base_link</parent><child>base_link</child></joint>
+<plugin filename="libignition-gazebo-diff-drive-system.so"
+        name="ignition::gazebo::systems::DiffDrive"><left_joint>left</left_joint></plugin>
+""",
+]
+BAD = [
+    """
+<joint name="left_wheel_joint" type="revolute">
+  <parent>base_link</parent><child>base_link</child>
+</joint>
+<plugin filename="libignition-gazebo-diff-drive-system.so"
+        name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>left_wheel</left_joint>  <!-- ^ PLG004 -->
+</plugin>
+""",
+    """
+<plugin filename="libignition-gazebo-wheel-slip-system.so"
+        name="ignition::gazebo::systems::WheelSlip">
+  <wheel link_name="wheel_1"/>  <!-- ^ PLG004 -->
+</plugin>
+""",
+]

@@ -1,0 +1,1 @@
+"""REF: meshes, textures and other files that a model names."""

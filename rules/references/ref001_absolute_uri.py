@@ -1,0 +1,78 @@
+"""The URI of a mesh or texture that is not relative.
+
+Once a package is uploaded, its files lie elsewhere under another name: `model://`, `package://`,
+`file://` and absolute paths lead nowhere, and the part is invisible or has no collision. URIs of
+models on Fuel are fine; URIs of `<script>` belong to SDF015.
+
+Fix: write the path from model.sdf to the file, such as `meshes/wheel.dae`.
+Source: Model Migration Guide, step 8: "Use relative URIs".
+"""
+
+import posixpath
+import re
+
+from checker.model.robot import Robot
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.source.text import Located
+
+_SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
+
+
+@rule("REF001", "absolute-uri", Severity.ERROR)
+def check(
+    package: Package,
+    robot: Robot,
+    *,
+    allowed: tuple[str, ...] = ("https://fuel.ignitionrobotics.org", "https://fuel.gazebosim.org"),
+) -> Findings:
+    """Report URIs with a scheme or a root."""
+    for uri in robot.file_uris:
+        scheme = _SCHEME.match(uri.value)
+        if (scheme is None and not uri.value.startswith("/")) or uri.value.startswith(allowed):
+            continue
+        near = _in_package(package, robot, uri)
+        hint = f"; write {near}" if near else ""
+        yield finding(
+            uri,
+            f"URI {uri.value} is not relative{hint}",
+            key=scheme.group() if scheme else "/",
+            fix=replace_text(uri, near) if near else None,
+        )
+
+
+def _in_package(package: Package, robot: Robot, uri: Located[str]) -> str | None:
+    """Return the relative path of the file that is meant, when the package has it."""
+    path = _SCHEME.sub("", uri.value, count=1).lstrip("/")
+    while path:
+        if package.exists(posixpath.join(robot.folder, path)):
+            return path
+        path = path.partition("/")[2]
+    return None
+
+
+GOOD = [
+    {
+        "@fragment": """
+<visual name="v"><geometry><mesh><uri>meshes/wheel.dae</uri></mesh></geometry></visual>
+""",
+    },
+]
+BAD = [
+    {
+        "@fragment": """
+<visual name="v"><geometry><mesh>
+  <uri>model://rover/meshes/wheel.dae</uri>  <!-- ^ REF001 -->
+</mesh></geometry></visual>
+""",
+        "meshes/wheel.dae": "",
+    },
+    """
+<collision name="c"><geometry><mesh>
+  <uri>package://rover/meshes/wheel.dae</uri>  <!-- ^ REF001 -->
+</mesh></geometry></collision>
+<visual name="v"><geometry><mesh>
+  <uri>/home/me/wheel.dae</uri>  <!-- ^ REF001 -->
+</mesh></geometry></visual>
+""",
+]

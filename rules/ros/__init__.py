@@ -1,0 +1,1 @@
+"""ROS: launch files, bridges and topics."""

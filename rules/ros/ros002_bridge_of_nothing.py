@@ -1,0 +1,103 @@
+"""A bridge of a sensor or topic that does not exist.
+
+Gazebo names a sensor's topic by world, model, link and sensor. A bridge that names the wrong link
+listens to silence: the ROS topic is there and never carries a message.
+
+Fix: name the link that carries the sensor and the sensor as the model spells them, and a topic
+that its type publishes.
+Source: topics that gz-sensors publishes by default; SubT review findings of IMUs bridged from
+`base_link` while they stood on a link of their own.
+"""
+
+from collections.abc import Mapping
+
+from checker.model.launch.bridge import Bridge, SensorTopic
+from checker.model.launch.graph import LaunchGraph
+from checker.model.robot import Robot
+from checker.model.schema import nearest
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+_SCAN = frozenset({"scan", "scan/points"})
+_IMAGE = frozenset({"image", "camera_info"})
+_DEPTH = frozenset({"image", "depth_image", "points", "camera_info"})
+
+TOPICS: Mapping[str, frozenset[str]] = {
+    "air_pressure": frozenset({"air_pressure"}),
+    "altimeter": frozenset({"altimeter"}),
+    "camera": _IMAGE,
+    "depth": frozenset({"depth_image", "depth_image/points", "camera_info"}),
+    "depth_camera": frozenset({"depth_image", "depth_image/points", "camera_info"}),
+    "gpu_lidar": _SCAN,
+    "gpu_ray": _SCAN,
+    "imu": frozenset({"imu"}),
+    "magnetometer": frozenset({"magnetometer"}),
+    "rgbd": _DEPTH,
+    "rgbd_camera": _DEPTH,
+    "thermal": _IMAGE,
+    "thermal_camera": _IMAGE,
+}
+"""What a sensor of each type publishes below its own topic."""
+
+
+@rule("ROS002", "bridge-of-nothing", Severity.ERROR)
+def check(robot: Robot, launch: LaunchGraph) -> Findings:
+    """Report bridges of sensor topics that no sensor of the robot publishes."""
+    for bridge in launch.bridges:
+        topic = bridge.sensor
+        if topic is None or "$(" in bridge.ign_topic:
+            continue
+        if (fault := _fault(robot, topic)) is not None:
+            yield _finding(bridge, fault)
+
+
+def _finding(bridge: Bridge, fault: str) -> Finding:
+    return finding(bridge, f"bridge {bridge.node.name!r} listens to {fault}", key=bridge.ign_topic)
+
+
+def _fault(robot: Robot, topic: SensorTopic) -> str | None:
+    link = robot.links_by_name.get(topic.link)
+    if link is None:
+        near = nearest(topic.link, frozenset(robot.links_by_name))
+        hint = f"; did you mean {near!r}?" if near else ""
+        return f"link {topic.link!r}, which the model does not have{hint}"
+    sensor = next((s for s in link.sensors if s.name.value == topic.sensor), None)
+    if sensor is None:
+        return f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic)}"
+    published = TOPICS.get(sensor.type.value)
+    if published is None or sensor.topic.stated or topic.suffix in published:
+        return None
+    return (
+        f"{topic.suffix or 'no topic'!r} of {sensor.type.value} {topic.sensor!r}, "
+        f"which publishes {', '.join(sorted(published))}"
+    )
+
+
+def _whereabouts(robot: Robot, topic: SensorTopic) -> str:
+    elsewhere = [s.link for s in robot.sensors if s.name.value == topic.sensor]
+    if elsewhere:
+        return f"which is on link {elsewhere[0]!r}"
+    near = nearest(topic.sensor, frozenset(s.name.value for s in robot.sensors))
+    return f"which does not exist; did you mean {near!r}?" if near else "which does not exist"
+
+
+def _launch(topic: str, mark: str = "") -> str:
+    return f"""<launch>
+  <arg name="world_name"/>
+  <arg name="name"/>
+  <arg name="prefix" value="/world/$(arg world_name)/model/$(arg name)/link"/>
+  <node pkg="ros_ign_bridge" type="parameter_bridge" name="imu_bridge"
+        args="$(arg prefix)/{topic}@sensor_msgs/Imu[ignition.msgs.IMU"/>{mark}
+</launch>
+"""
+
+
+_FRAGMENT = '<link name="imu_link"><sensor name="imu_sensor" type="imu"/></link>'
+_TOPICS = "launch/vehicle_topics.launch"
+_MARK = "  <!-- ^ ROS002 -->"
+
+GOOD = [{"@fragment": _FRAGMENT, _TOPICS: _launch("imu_link/sensor/imu_sensor/imu")}]
+BAD = [
+    {"@fragment": _FRAGMENT, _TOPICS: _launch("base_link/sensor/imu_sensor/imu", _MARK)},
+    {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_lnk/sensor/imu_sensor/imu", _MARK)},
+    {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_link/sensor/imu_sensor/scan", _MARK)},
+]

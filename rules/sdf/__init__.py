@@ -1,0 +1,1 @@
+"""SDF: syntax and schema."""

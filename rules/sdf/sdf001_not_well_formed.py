@@ -1,0 +1,79 @@
+"""An XML file that is not well-formed.
+
+A parser stops at the first such fault, so the simulator or roslaunch refuses the whole file.
+Gazebo's own parser (tinyxml2) forgives a blank line before the XML declaration and `--` inside a
+comment; the parsers of ROS do not.
+
+Fix: correct the text at the place the message names; it says what is still open there.
+Source: Extensible Markup Language 1.0, "well-formed documents".
+"""
+
+from collections.abc import Iterator
+
+from checker.package.inheritance import Found
+from checker.package.package import Package
+from checker.package.reading import NotReadable
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.positions import XmlFault
+from checker.source.text import SourceText, Span
+
+FORGIVING = (".sdf", ".world", ".config")
+"""Files that Gazebo alone reads."""
+
+
+@rule("SDF001", "not-well-formed", Severity.ERROR)
+def check(package: Package) -> Findings:
+    """Report files that an XML parser refuses, and those that only a forgiving one reads."""
+    model = package.model_path
+    paths = list(package.xml_files)
+    if isinstance(model, Found) and model.path not in paths:
+        paths.append(model.path)
+    for path in paths:
+        document = package.xml(path)
+        if isinstance(document, NotReadable):
+            yield finding(_top(path), f"{path} {document.reason}")
+        elif isinstance(document, XmlFault):
+            yield from _refused(path, document)
+        else:
+            for fault in document.tolerated:
+                severity = Severity.WARNING if path.endswith(FORGIVING) else None
+                yield finding(fault.span, _message(path, fault), severity=severity)
+
+
+def _refused(path: str, fault: XmlFault) -> Iterator[Finding]:
+    if not fault.span.source.text.strip() and path.startswith("urdf/"):
+        # Accepted packages keep an empty urdf/model.urdf beside the xacro file that they use.
+        yield finding(fault.span, f"{path} is empty", severity=Severity.WARNING)
+    else:
+        yield finding(fault.span, _message(path, fault))
+
+
+def _message(path: str, fault: XmlFault) -> str:
+    hint = f": {fault.hint}" if fault.hint else ""
+    return f"{path} is not well-formed: {fault.message}{hint}"
+
+
+def _top(path: str) -> Span:
+    return SourceText(path, "").whole()
+
+
+GOOD = [{"worlds/example.sdf": "<sdf version='1.6'><world name='w'/></sdf>"}]
+BAD = [
+    {
+        "worlds/example.sdf": """<sdf version="1.6">
+  <world name="w">
+    <mass>3.6/mass>
+  </world>  <!-- ^ SDF001 -->
+</sdf>
+"""
+    },
+    {
+        "launch/description.launch": """<launch>
+  <arg name="name/>
+  <param name="x"/>  <!-- ^ SDF001 -->
+</launch>
+"""
+    },
+    {"model.config": "\n<?xml version='1.0'?><!-- ^ SDF001 -->\n<model/>\n"},
+    {"urdf/model.urdf": "", "@reported": ["urdf/model.urdf:1"]},
+]

@@ -1,0 +1,73 @@
+"""An element that SDFormat does not know.
+
+Simulators skip elements that they do not know, so what it should have said is lost: a misspelt
+`<horizontal_fov>` leaves the camera at its default. Elements below `<plugin>` and elements with a
+namespace prefix belong to others and are left alone; a known element in the wrong place is SDF008.
+
+Fix: spell it as the specification does, or move what belongs to a plugin into that plugin.
+Source: SDFormat specification, the version that the file states.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.schema import all_tags, nearest
+from checker.model.sdf.document import SdfDocument
+from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.source.xml import Element
+
+GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
+"""An element lost here changes how the robot moves."""
+
+
+@rule("SDF003", "unknown-element", Severity.WARNING)
+def check(sdf: SdfDocument) -> Findings:
+    """Report elements that no place of this SDF version knows."""
+    types = dict(_known_parents(sdf))
+    for element, kind in sdf.typed_elements:
+        parent = element.parent
+        if kind is not None or parent is None or element.tag in all_tags(sdf.version):
+            continue
+        near = nearest(element.tag, types[parent.path]) or nearest(
+            element.tag, all_tags(sdf.version)
+        )
+        grave = near is not None or parent.tag in GRAVE_PARENTS
+        hint = f"; did you mean <{near}>?" if near else ""
+        yield finding(
+            element,
+            f"<{element.tag}> in <{parent.tag}> is unknown to SDF {sdf.version or '1.6'}{hint}",
+            severity=Severity.ERROR if grave else None,
+            key=f"{parent.tag}/{element.tag}",
+            fix=replace_text(element.name_span, near) if near and _is_empty_tag(element) else None,
+        )
+
+
+def _known_parents(sdf: SdfDocument) -> Iterator[tuple[str, list[str]]]:
+    for element, kind in sdf.typed_elements:
+        if kind is not None:
+            yield element.path, list(kind.children)
+
+
+def _is_empty_tag(element: Element) -> bool:
+    return element.position.end == element.position.start_end
+
+
+GOOD = [
+    '<sensor name="eye" type="camera"><camera><horizontal_fov>1</horizontal_fov></camera></sensor>',
+    '<plugin name="p" filename="libp.so"><anything_goes>1</anything_goes></plugin>',
+]
+BAD = [
+    """
+<sensor name="eye" type="camera">
+  <camera>
+    <horizondal_fov>1.05</horizondal_fov>  <!-- ^ SDF003 -->
+  </camera>
+</sensor>
+""",
+    """
+<link name="arm">
+  <inertial>
+    <weight>3</weight>  <!-- ^ SDF003 -->
+  </inertial>
+</link>
+""",
+]

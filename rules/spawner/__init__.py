@@ -1,0 +1,1 @@
+"""SPW: launch/spawner.rb."""

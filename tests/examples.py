@@ -1,0 +1,128 @@
+"""The examples of rules, made into packages.
+
+An example is an XML fragment for model.sdf, or a mapping from paths to texts that change a minimal
+package: `None` removes a file, `@fragment` goes into model.sdf, `@name` names the package, and
+`@reported` lists what must be reported where no marker can stand. The marker `^ SEN005` stands on
+the line that must be reported.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+NAME = "acme_rover_sensor_config_1"
+
+_HEAD = f"""<?xml version="1.0"?>
+<sdf version="1.6">
+<model name="{NAME}">
+"""
+_LINK_PARTS = ("sensor", "visual", "collision", "inertial", "light")
+_TAIL = "</model>\n</sdf>\n"
+
+SPAWNER = f"""def spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)
+  <<-HEREDOC
+  <spawn name="#{{_name}}">
+    <name>#{{_name}}</name>
+    <allow_renaming>false</allow_renaming>
+    <pose>#{{_x}} #{{_y}} #{{_z + 0.2}} #{{_roll}} #{{_pitch}} #{{_yaw}}</pose>
+    <world>#{{_worldName}}</world>
+    <is_performer>true</is_performer>
+    <sdf version="1.6">
+      <include>
+        <name>#{{_name}}</name>
+        <uri>#{{_modelURI}}</uri>
+      </include>
+    </sdf>
+  </spawn>
+  HEREDOC
+end
+
+def rosExecutables(_name, _worldName)
+  <<-HEREDOC
+  <executable name="description">
+    <command>roslaunch --wait {NAME} description.launch world_name:=#{{_worldName}} name:=#{{_name}}</command>
+  </executable>
+  <executable name="topics">
+    <command>roslaunch --wait {NAME} vehicle_topics.launch world_name:=#{{_worldName}} name:=#{{_name}}</command>
+  </executable>
+  HEREDOC
+end
+"""  # noqa: E501
+
+MINIMAL: Mapping[str, str] = {
+    "package.xml": f"""<package format="2">
+  <name>{NAME}</name>
+  <version>1.0.0</version>
+  <description>A rover</description>
+  <maintainer email="a@example.org">A</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>catkin</buildtool_depend>
+</package>
+""",
+    "CMakeLists.txt": f"""cmake_minimum_required(VERSION 3.0.2)
+project({NAME})
+find_package(catkin REQUIRED)
+catkin_package()
+install(DIRECTORY launch urdf worlds thumbnails
+  DESTINATION ${{CATKIN_PACKAGE_SHARE_DESTINATION}})
+install(FILES model.sdf model.config DESTINATION ${{CATKIN_PACKAGE_SHARE_DESTINATION}})
+""",
+    "model.config": f"""<model>
+  <name>{NAME}</name>
+  <sdf version="1.6">model.sdf</sdf>
+</model>
+""",
+    "specifications.md": "# Acme Rover Sensor Config 1\n\n## Description\nA rover.\n",
+    "launch/spawner.rb": SPAWNER,
+    "launch/description.launch": '<launch>\n<arg name="name"/>\n<arg name="world_name"/>\n</launch>\n',
+    "launch/vehicle_topics.launch": (
+        '<launch>\n<arg name="name"/>\n<arg name="world_name"/>\n</launch>\n'
+    ),
+    "launch/example.ign": "<ignition/>\n",
+    "worlds/example.sdf": '<sdf version="1.6"><world name="w"/></sdf>\n',
+    "urdf/robot_from_sdf.xacro": '<robot name="rover"/>\n',
+    "thumbnails/1.png": "",
+}
+
+
+def model_with(fragment: str) -> str:
+    """Return a model.sdf that holds a fragment where its first element belongs."""
+    first = re.search(r"<([A-Za-z_][\w:.-]*)", fragment)
+    tag = first.group(1) if first else ""
+    if tag == "sdf" or fragment.lstrip().startswith("<?xml"):
+        return fragment.lstrip("\n")
+    if tag in _LINK_PARTS:
+        return f'{_HEAD}<link name="base_link">\n{fragment}\n</link>\n{_TAIL}'
+    return f'{_HEAD}<link name="base_link"/>\n{fragment}\n{_TAIL}'
+
+
+def write_example(example: str | Mapping[str, Any], workspace: Path) -> Path:
+    """Write the package of an example below a folder and return its own folder."""
+    changes = {"@fragment": example} if isinstance(example, str) else dict(example)
+    package = workspace / changes.pop("@name", NAME)
+    files: dict[str, str | None] = {**MINIMAL, "model.sdf": model_with("")}
+    for path, text in changes.items():
+        if path == "@fragment":
+            files["model.sdf"] = model_with(text)
+        elif not path.startswith("@"):
+            files[path] = text
+    for path, content in files.items():
+        if content is not None:
+            target = package / path
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(content.encode())
+    return package
+
+
+def expected_places(example: str | Mapping[str, Any], rule: str, package: Path) -> set[str]:
+    """Return `file:line` of all that must be reported."""
+    places = set(example.get("@reported", ())) if isinstance(example, Mapping) else set()
+    for file in package.rglob("*"):
+        if file.is_file():
+            for number, line in enumerate(file.read_text("utf-8").splitlines(), 1):
+                if f"^ {rule}" in line:
+                    places.add(f"{file.relative_to(package).as_posix()}:{number}")
+    return places

@@ -1,0 +1,212 @@
+"""What the user may give, and what is said when there is no package in it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+
+from checker.errors import UnreadableInput
+from checker.package.kind import PackageKind
+from checker.package.opening import open_input
+
+Write = Callable[[Mapping[str, str]], Path]
+
+MODEL = "<sdf version='1.6'><model name='rover'/></sdf>"
+ROVER = {"rover/model.sdf": MODEL, "rover/package.xml": "<package><name>rover</name></package>"}
+
+
+def complaint(path: Path) -> UnreadableInput:
+    with pytest.raises(UnreadableInput) as error, open_input(path):
+        pass
+    assert str(path) in str(error.value)
+    assert error.value.reason in str(error.value)
+    assert error.value.advice in str(error.value)
+    return error.value
+
+
+def names(path: Path) -> list[str]:
+    with open_input(path) as opened:
+        return [package.name for package in opened.packages]
+
+
+def test_package_folder(write: Write) -> None:
+    space = write(ROVER)
+    with open_input(space / "rover") as opened:
+        (package,) = opened.packages
+        assert package.name == "rover"
+        assert opened.workspace.directories == (space,)
+
+
+def test_package_folder_by_a_relative_path(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(write(ROVER) / "rover")
+    assert names(Path()) == ["rover"]
+
+
+def test_folder_of_packages(write: Write) -> None:
+    space = write({**ROVER, "b/model.sdf": MODEL, "README.md": "hello", ".git/model.sdf": MODEL})
+    assert names(space) == ["b", "rover"]
+
+
+def test_repository_around_the_submissions(write: Write) -> None:
+    space = write(
+        {
+            "submitted_models/rover/model.sdf": MODEL,
+            "submitted_models/b/model.sdf": MODEL,
+            "subt_ros/package.xml": "<package/>",
+        }
+    )
+    assert names(space) == ["b", "rover"]
+
+
+def test_packages_one_level_deeper(write: Write) -> None:
+    assert names(write({"one/a/model.sdf": MODEL, "two/b/model.sdf": MODEL})) == ["a", "b"]
+
+
+def test_what_is_left_out_beside_packages_is_said(write: Write) -> None:
+    space = write({**ROVER, "notes/README.md": "hello"})
+    (space / "alias").symlink_to(space / "rover")
+    with open_input(space) as opened:
+        assert [package.name for package in opened.packages] == ["rover"]
+        assert {(item.name, item.reason.split(";")[0]) for item in opened.skipped} == {
+            ("notes", "holds no package"),
+            ("alias", "is a link"),
+        }
+
+
+def test_further_folders_are_searched_for_siblings(write: Write) -> None:
+    space = write({"a/rover/model.sdf": MODEL, "b/other/model.sdf": MODEL})
+    with open_input(space / "a" / "rover") as opened:
+        assert opened.workspace.package("other") is None
+    with open_input(space / "a" / "rover", search=[space / "b"]) as opened:
+        assert opened.workspace.package("other") is not None
+        assert opened.packages[0].exists("../other/model.sdf")
+
+
+@pytest.mark.parametrize("suffix", ["sdf", "world", "urdf", "xacro", "xml", "SDF"])
+def test_single_file(write: Write, suffix: str) -> None:
+    space = write({f"models/rover.{suffix}": MODEL, "models/wheel.dae": "mesh", "top.dae": "mesh"})
+    with open_input(space / "models" / f"rover.{suffix}") as opened:
+        (package,) = opened.packages
+        assert package.kind is PackageKind.SINGLE_FILE
+        assert [file.path for file in package.index.files] == [f"rover.{suffix}"]
+        assert package.exists("wheel.dae")
+        assert not package.exists("../top.dae")
+
+
+def test_single_file_within_a_package_reaches_all_of_it(write: Write) -> None:
+    files = {**ROVER, "rover/urdf/rover.urdf": "<robot/>", "rover/meshes/wheel.dae": "mesh"}
+    space = write({**files, "secret.dae": "mesh"})
+    with open_input(space / "rover" / "urdf" / "rover.urdf") as opened:
+        (package,) = opened.packages
+        assert package.exists("../meshes/wheel.dae")
+        assert not package.exists("../../secret.dae")
+        assert opened.workspace.package("rover") is not None
+
+
+def test_missing_path(tmp_path: Path) -> None:
+    assert complaint(tmp_path / "nowhere").reason == "does not exist"
+
+
+def test_empty_folder(tmp_path: Path) -> None:
+    assert complaint(tmp_path).reason == "is an empty folder"
+
+
+def test_folder_without_a_package(write: Write) -> None:
+    assert "holds no package" in complaint(write({"notes/README.md": "hello"})).reason
+
+
+def test_folder_within_a_package_names_the_package(write: Write) -> None:
+    space = write({**ROVER, "rover/meshes/wheel.dae": "mesh"})
+    assert complaint(space / "rover" / "meshes").advice.endswith(str(space / "rover"))
+
+
+@pytest.mark.parametrize("name", ["rover.rar", "README.md", "rover.tar.xz", "rover"])
+def test_file_of_another_kind(write: Write, name: str) -> None:
+    assert "no package, archive or model" in complaint(write({name: "hello"}) / name).reason
+
+
+def test_link_in_a_circle(tmp_path: Path) -> None:
+    (tmp_path / "a").symlink_to(tmp_path / "b")
+    (tmp_path / "b").symlink_to(tmp_path / "a")
+    assert "cannot be opened" in complaint(tmp_path / "a").reason
+
+
+def test_pipe_is_not_opened(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "rover.zip")
+    os.mkfifo(tmp_path / "rover.sdf")
+    assert complaint(tmp_path / "rover.zip").reason == "is no regular file"
+    assert "no package, archive" in complaint(tmp_path / "rover.sdf").reason
+
+
+def as_nobody(statement: str, *arguments: Path) -> str:
+    """Run a statement as a user without rights and return what it prints."""
+    program = (
+        "import os, sys\nfrom pathlib import Path\n"
+        "from checker.package.opening import open_input\n"
+        "from checker.errors import UnreadableInput\n"
+        "if os.getuid() == 0: os.setgroups([]); os.setgid(65534); os.setuid(65534)\n" + statement
+    )
+    return subprocess.run(
+        [sys.executable, "-c", program, *map(str, arguments)],
+        check=True,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+    ).stdout
+
+
+OPEN = """
+try:
+    with open_input(Path(sys.argv[1])) as opened:
+        print([p.name for p in opened.packages], [(s.name, s.reason) for s in opened.skipped])
+        for package in opened.packages:
+            print(package.index.faults, package.read('model.sdf'))
+except UnreadableInput as error:
+    print(error.reason)
+"""
+
+
+@pytest.fixture
+def reachable(tmp_path: Path) -> None:
+    """Let other users pass through the folders above."""
+    for folder in (tmp_path, *tmp_path.parents):
+        if folder.owner() == tmp_path.owner() and folder != folder.parent:
+            folder.chmod(folder.stat().st_mode | 0o111)
+
+
+@pytest.mark.usefixtures("reachable")
+def test_unreadable_folder(write: Write) -> None:
+    space = write(ROVER)
+    (space / "rover").chmod(0)
+    said = as_nobody(OPEN, space / "rover")
+    assert "Permission denied" in said
+
+
+@pytest.mark.usefixtures("reachable")
+def test_unreadable_single_file(write: Write) -> None:
+    space = write({"models/rover.sdf": MODEL})
+    (space / "models" / "rover.sdf").chmod(0)
+    assert "permission denied" in as_nobody(OPEN, space / "models" / "rover.sdf")
+
+
+@pytest.mark.usefixtures("reachable")
+def test_unreadable_subfolder_is_said(write: Write) -> None:
+    space = write({**ROVER, "b/model.sdf": MODEL})
+    (space / "b").chmod(0)
+    assert "('b', 'cannot be read: permission denied')" in as_nobody(OPEN, space)
+
+
+@pytest.mark.usefixtures("reachable")
+def test_unreadable_file_and_folder_within_a_package(write: Write) -> None:
+    space = write({**ROVER, "rover/meshes/wheel.dae": "mesh"})
+    (space / "rover" / "model.sdf").chmod(0)
+    (space / "rover" / "meshes").chmod(0)
+    said = as_nobody(OPEN, space / "rover")
+    assert "IndexFault(path='model.sdf', reason='cannot be read: permission denied')" in said
+    assert "IndexFault(path='meshes', reason='cannot be listed: Permission denied')" in said
+    assert "NotReadable(path='model.sdf', reason='cannot be read: Permission denied')" in said
