@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from functools import partial
+from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 from checker.discovery import all_rules
-from checker.engine import run_rules
+from checker.engine import crashed, run_rules
+from checker.errors import UnreadableInput
 from checker.facts import facts_of
-from checker.finding import Severity
+from checker.options import check_against_rules
 from checker.package.opening import open_input
 from checker.package.package import Package
 from checker.profiles import profile
-from checker.report.report import Cause, InheritedPart, NotChecked, PackageReport, Report
-from checker.settings import Settings, check_against_rules, find_settings
+from checker.report.report import (
+    Cause,
+    InheritedPart,
+    NotChecked,
+    NotOpened,
+    PackageReport,
+    Report,
+)
+from checker.settings import Settings, find_settings, folders_above
 from checker.subject import Subject
 from checker.versions import versions
 
@@ -27,105 +36,153 @@ def check_package(path: Path, settings: Settings | None = None) -> Report:
 
     Args:
         path: What to check.
-        settings: What to judge; those found beside the package when None.
+        settings: What to judge; those found beside each package when None.
 
     Raises:
         UnreadableInput: There is nothing to check at the path.
         InvalidSettings: The settings name what does not exist.
     """
-    return _report([_check_input(path, settings, {})], settings or Settings())
+    return _report([list(_check_input(_Task(path, settings=settings)))])
 
 
-def check_paths(
-    paths: Sequence[Path], wishes: Mapping[str, Any], jobs: int = 1
-) -> tuple[Report, Severity]:
-    """Check several inputs, in parallel processes when `jobs` is above 1.
+def check_paths(paths: Sequence[Path], wishes: Mapping[str, Any], jobs: int = 1) -> Report:
+    """Check several inputs; one that cannot be opened does not keep the others from it.
 
     Args:
         paths: What to check.
         wishes: Fields of `Settings` that the command line sets; None leaves them.
         jobs: Processes.
 
-    Returns:
-        The report, and the severity that makes the run fail.
-
     Raises:
-        UnreadableInput: There is nothing to check at one of the paths.
         InvalidSettings: The settings name what does not exist.
     """
-    settings = find_settings(Path.cwd()).overridden(**wishes)
-    inputs = [path for given in paths for path in _spread(given, jobs)]
-    check = partial(_check_input, settings=None, wishes=wishes)
-    if jobs > 1 and len(inputs) > 1:
+    tasks = [task for path in paths for task in _tasks(path, wishes, jobs)]
+    if jobs > 1 and len(tasks) > 1:
         with ProcessPoolExecutor(jobs) as pool:
-            done = list(pool.map(check, inputs))
-    else:
-        done = [check(path) for path in inputs]
-    return _report(done, settings), settings.fail_on
+            return _report(list(pool.map(_check_or_say_why_not, tasks)))
+    return _report([_check_or_say_why_not(task) for task in tasks])
 
 
-def _spread(path: Path, jobs: int) -> list[Path]:
-    """Return the packages below a folder one by one, so that processes can share them."""
-    if jobs == 1 or not path.is_dir():
-        return [path]
-    with open_input(path) as opened:
-        return [package.root for package in opened.packages]
+@dataclass(frozen=True)
+class _Task:
+    """What one process does at a time.
+
+    Attributes:
+        path: As the user gave it.
+        only: Name of the one package to check there; empty for all.
+        settings: To judge by, instead of those beside the package.
+        wishes: Fields of the settings to replace.
+    """
+
+    path: Path
+    only: str = ""
+    settings: Settings | None = None
+    wishes: Mapping[str, Any] = field(default_factory=dict)
+
+    def settings_for(self, package: Package) -> Settings:
+        """Return the settings that judge a package; no search leaves an unpacked archive."""
+        if self.settings is not None:
+            return self.settings
+        given = self.path.resolve()
+        folders = folders_above(package.root)
+        if given.is_file() and not package.only:
+            inside = folders_above(package.root, top=package.workspace.directories[0])
+            folders = chain(inside, folders_above(given.parent))
+        return find_settings(folders).overridden(**self.wishes)
+
+    def shown(self, package: Package) -> str:
+        """Return the package's path as the user would write it."""
+        if package.only:
+            return str(self.path.parent)
+        whole = self.path.is_dir() and self.path.resolve() == package.root
+        return str(self.path if whole else self.path / package.name)
 
 
-def _report(done: Sequence[Sequence[PackageReport]], settings: Settings) -> Report:
-    packages = {each.path: each for reports in done for each in reports}
-    ordered = sorted(packages.values(), key=lambda each: (each.name, each.path))
-    return Report(tuple(ordered), settings.profile, versions())
+def _tasks(path: Path, wishes: Mapping[str, Any], jobs: int) -> list[_Task]:
+    """Part a folder into its packages, so that processes can share them."""
+    try:
+        if jobs > 1 and path.is_dir():
+            with open_input(path) as opened:
+                return [_Task(path, each.name, wishes=wishes) for each in opened.packages]
+    except (UnreadableInput, OSError):
+        pass  # the task that meets it again says so
+    return [_Task(path, wishes=wishes)]
 
 
-def _check_input(
-    path: Path, settings: Settings | None, wishes: Mapping[str, Any]
-) -> list[PackageReport]:
+_Checked = list[PackageReport | NotOpened]
+
+
+def _check_or_say_why_not(task: _Task) -> _Checked:
+    try:
+        return list(_check_input(task))
+    except UnreadableInput as error:
+        return [NotOpened(str(task.path), f"{error.reason}; {error.advice}", failed=True)]
+
+
+def _check_input(task: _Task) -> Iterator[PackageReport | NotOpened]:
     started = perf_counter()
-    with open_input(path) as opened:
+    with open_input(task.path) as opened:
         opening = perf_counter() - started
-        alone = len(opened.packages) == 1
-        return [
-            _check_one(package, _shown(path, package, alone), settings, wishes, opening)
-            for package in opened.packages
-        ]
+        for package in opened.packages:
+            if task.only in ("", package.name):
+                settings = task.settings_for(package)
+                check_against_rules(settings, all_rules())
+                yield _check_isolated(package, task.shown(package), settings, opening)
+        for each in opened.skipped:
+            yield NotOpened(str(task.path / each.name), each.reason, failed=False)
 
 
-def _shown(path: Path, package: Package, alone: bool) -> str:
-    """Return the package's path as the user would write it."""
-    if package.only:
-        return str(path.parent)
-    if path.is_dir() and path.resolve() == package.root:
-        return str(path)
-    return f"{path}/{package.name}" if not alone or path.is_dir() else package.name
-
-
-def _check_one(
-    package: Package,
-    shown: str,
-    settings: Settings | None,
-    wishes: Mapping[str, Any],
-    opening: float,
+def _check_isolated(
+    package: Package, shown: str, settings: Settings, opening: float
 ) -> PackageReport:
-    chosen = settings or find_settings(package.root).overridden(**wishes)
-    rules = all_rules()
-    check_against_rules(chosen, rules)
+    """Check one package; what goes wrong with it is reported, and the others are checked."""
+    try:
+        return _check_one(package, shown, settings, opening)
+    except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
+        broken = (crashed("check", error),)
+        return PackageReport(package.name, shown, "unknown", (), broken)
+
+
+def _check_one(package: Package, shown: str, settings: Settings, opening: float) -> PackageReport:
     subject = Subject(package)
     started = perf_counter()
-    outcome = run_rules(rules, subject, profile(chosen.profile), chosen)
+    outcome = run_rules(all_rules(), subject, profile(settings.profile), settings)
     blind = [
         NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
         for fault in package.index.faults
     ]
+    facts, trouble = _facts(subject)
     return PackageReport(
         package.name,
         shown,
-        package.kind.replace(" ", "_").lower(),
+        str(package.kind),
         outcome.findings,
-        (*outcome.not_checked, *blind),
+        (*outcome.not_checked, *blind, *trouble),
         tuple(
             InheritedPart(each.part, each.package_name, each.at_hand) for each in package.inherited
         ),
-        facts_of(subject),
+        facts,
         {"open": opening, "rules": perf_counter() - started},
+        settings.profile,
+        settings.fail_on,
     )
+
+
+def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]:
+    try:
+        return facts_of(subject), ()
+    except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
+        return {}, (crashed("facts", error),)
+
+
+def _report(done: Sequence[_Checked]) -> Report:
+    """Join what was checked; a package that was given twice is reported once."""
+    packages: dict[tuple[Path, str], PackageReport] = {}
+    not_opened: dict[NotOpened, None] = {}
+    for each in chain.from_iterable(done):
+        if isinstance(each, NotOpened):
+            not_opened[each] = None
+        else:
+            packages.setdefault((Path(each.path).resolve(), each.name), each)
+    ordered = sorted(packages.values(), key=lambda each: (each.name, each.path))
+    return Report(tuple(ordered), versions(), tuple(not_opened))

@@ -6,8 +6,10 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from io import TextIOWrapper
 
-EXIT_CLEAN, EXIT_FINDINGS, EXIT_USAGE, EXIT_CRASH = 0, 1, 2, 3
+from checker.output import EXIT_CLEAN, EXIT_CRASH, EXIT_USAGE
+
 COMMANDS = ("check", "rule", "rules")
 PROFILES = ("subt", "sdf", "urdf", "gazebo-harmonic")
 
@@ -75,7 +77,7 @@ def _positive(text: str) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code; no traceback ever reaches the user."""
     words = list(sys.argv[1:] if arguments is None else arguments)
-    if words and words[0] not in COMMANDS and not words[0].startswith("-"):
+    if words and words[0] not in (*COMMANDS, "-h", "--help", "--version"):
         words.insert(0, "check")
     parser = build_parser()
     options = parser.parse_args(words)
@@ -92,24 +94,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _guarded(options: argparse.Namespace) -> int:
     from checker.errors import CheckerError
+    from checker.report.wording import plain, shortened
 
+    # A terminal without some character shows a question mark; it is no reason to fail.
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")
     try:
         return _run(options)
     except CheckerError as error:
-        print(f"subt-check: {error}", file=sys.stderr)
+        print(f"subt-check: {plain(shortened(str(error), 900))}", file=sys.stderr)
         return EXIT_USAGE
-    except BrokenPipeError:
-        # The reader went away; point stdout at nothing so that the exit is silent too.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return EXIT_CLEAN
     except KeyboardInterrupt:
         print("subt-check: interrupted", file=sys.stderr)
         return EXIT_USAGE
     except Exception as error:
         if os.environ.get("SUBT_CHECK_DEBUG"):
             raise
+        problem = plain(shortened(f"{type(error).__name__}: {error}", 300))
         print(
-            f"subt-check: internal error ({type(error).__name__}: {error}); please report it "
+            f"subt-check: internal error ({problem}); please report it "
             "with the output of the same command under SUBT_CHECK_DEBUG=1",
             file=sys.stderr,
         )

@@ -5,18 +5,22 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TextIO
 
 from checker.check import check_paths
-from checker.cli import EXIT_CLEAN, EXIT_CRASH, EXIT_FINDINGS, EXIT_USAGE
 from checker.discovery import all_rules
 from checker.errors import CheckerError
 from checker.finding import Severity
+from checker.options import no_such_rule
+from checker.output import EXIT_CLEAN, EXIT_CRASH, EXIT_FINDINGS, EXIT_USAGE, show, write
 from checker.page import parse_page
 from checker.report.json_report import to_json
 from checker.report.palette import palette_for
 from checker.report.report import Report
 from checker.report.text_report import to_text
+from checker.report.wording import plain, shortened
 from checker.rule import Rule
 
 
@@ -28,49 +32,43 @@ def check(options: argparse.Namespace) -> int:
         "ignore": options.ignore,
         "fail_on": Severity(options.fail_on) if options.fail_on else None,
     }
-    report, fail_on = check_paths([Path(path) for path in options.paths], wishes, options.jobs)
-    if options.format == "json":
-        text = to_json(report)
-    else:
-        text = to_text(report, palette_for(options.color, sys.stdout))
+    report = check_paths([Path(path) for path in options.paths], wishes, options.jobs)
+    for each in report.not_opened:
+        if each.failed:
+            print(
+                f"subt-check: {plain(shortened(each.path, 300))} {plain(each.reason)}",
+                file=sys.stderr,
+            )
     if options.output:
-        _write(Path(options.output), text)
+        write(Path(options.output), _rendered(report, options.format, options.color, None))
     else:
-        sys.stdout.write(text)
-        sys.stdout.flush()
+        show(_rendered(report, options.format, options.color, sys.stdout))
     if options.report:
-        _write(Path(options.report) / "report.json", to_json(report))
-    return exit_code(report, fail_on)
+        write(Path(options.report) / "report.json", to_json(report))
+    return exit_code(report)
 
 
-def _write(path: Path, text: str) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, "utf-8")
-    except OSError as error:
-        raise CheckerError(f"{path} cannot be written: {error.strerror}") from None
+def _rendered(report: Report, form: str, color: str, stream: TextIO | None) -> str:
+    return to_json(report) if form == "json" else to_text(report, palette_for(color, stream))
 
 
-def exit_code(report: Report, fail_on: Severity) -> int:
-    """Return 3 when a rule crashed, else 1 when something is at or above `fail_on`, else 0."""
+def exit_code(report: Report) -> int:
+    """Return what went wrong most: unreadable input, then a crash, then findings."""
+    if any(each.failed for each in report.not_opened):
+        return EXIT_USAGE
     if any(package.crashed for package in report.packages):
         return EXIT_CRASH
-    severities = (each.severity for package in report.packages for each in package.findings)
-    return EXIT_FINDINGS if any(s.rank <= fail_on.rank for s in severities) else EXIT_CLEAN
+    return EXIT_FINDINGS if any(package.failed for package in report.packages) else EXIT_CLEAN
 
 
 def explain_rule(wanted: str) -> int:
     """Print a rule's page."""
-    rule = next((r for r in all_rules() if wanted.upper() == r.id or wanted == r.name), None)
+    rules = all_rules()
+    rule = next((r for r in rules if wanted.upper() == r.id or wanted.lower() == r.name), None)
     if rule is None:
-        from difflib import get_close_matches
-
-        names = [name for r in all_rules() for name in (r.id, r.name)]
-        near = get_close_matches(wanted.upper(), names, 1) or get_close_matches(wanted, names, 1)
-        hint = f"did you mean {near[0]}?" if near else "`subt-check rules` lists them"
-        print(f"subt-check: there is no rule {wanted!r}; {hint}", file=sys.stderr)
-        return EXIT_USAGE
-    print(_page_text(rule))
+        known = [name for rule in rules for name in (rule.id, rule.name)]
+        raise CheckerError(no_such_rule(wanted, known))
+    show(_page_text(rule) + "\n")
     return EXIT_CLEAN
 
 
@@ -89,9 +87,23 @@ def _page_text(rule: Rule) -> str:
 
 
 def _example(example: object) -> str:
-    if isinstance(example, dict):
-        return "\n".join(f"{path}:\n{_indented(text.strip())}" for path, text in example.items())
-    return str(example).strip("\n")
+    """Show an example: a fragment of model.sdf, or files by their paths."""
+    if not isinstance(example, Mapping):
+        return str(example).strip("\n")
+    shown = []
+    for path, text in example.items():
+        match path, text:
+            case "@reported", _:
+                pass
+            case "@fragment", _:
+                shown.append(f"model.sdf:\n{_indented(text.strip())}")
+            case "@name", _:
+                shown.append(f"folder {text}/")
+            case _, None:
+                shown.append(f"{path} is missing")
+            case _:
+                shown.append(f"{path}:\n{_indented(text.strip())}")
+    return "\n".join(shown)
 
 
 def _indented(text: str) -> str:
@@ -101,11 +113,12 @@ def _indented(text: str) -> str:
 def list_rules(form: str) -> int:
     """List all rules, by group."""
     if form == "json":
-        print(json.dumps([_as_dict(rule) for rule in all_rules()], indent=2, ensure_ascii=False))
+        listed = [_as_dict(rule) for rule in all_rules()]
+        show(json.dumps(listed, indent=2, ensure_ascii=False) + "\n")
         return EXIT_CLEAN
     for rule in all_rules():
         title = parse_page(rule.page).title
-        print(f"{rule.id}  {rule.severity:<7}  {rule.name:<32}  {title}")
+        show(f"{rule.id}  {rule.severity:<7}  {rule.name:<32}  {title}\n")
     return EXIT_CLEAN
 
 

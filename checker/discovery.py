@@ -12,8 +12,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from importlib.metadata import entry_points
+from itertools import chain
 from types import ModuleType
 
+from checker.errors import CheckerError
 from checker.rule import Rule
 
 ENTRY_POINT_GROUP = "subt_check.rules"
@@ -24,21 +26,28 @@ def all_rules() -> tuple[Rule, ...]:
     """Return every rule, sorted by id.
 
     Raises:
-        ValueError: Two rules have one id.
+        CheckerError: Rules of another distribution cannot be loaded, or two rules have one id.
     """
     found: dict[str, Rule] = {}
-    for package in _rule_packages():
-        for module in _modules(package):
-            for rule in _rules_in(module):
-                if found.setdefault(rule.id, rule) is not rule:
-                    raise ValueError(f"two rules have the id {rule.id}")
+    for rule in chain(_rules_below(importlib.import_module("rules")), _registered_rules()):
+        if found.setdefault(rule.id, rule) is not rule:
+            modules = f"{found[rule.id].check.__module__} and {rule.check.__module__}"
+            raise CheckerError(f"two rules have the id {rule.id}: {modules}")
     return tuple(found[id] for id in sorted(found))
 
 
-def _rule_packages() -> Iterator[ModuleType]:
-    yield importlib.import_module("rules")
+def _registered_rules() -> Iterator[Rule]:
     for entry_point in entry_points(group=ENTRY_POINT_GROUP):
-        yield entry_point.load()
+        try:
+            yield from list(_rules_below(entry_point.load()))
+        except Exception as error:
+            problem = f"the rules of {entry_point.value} cannot be loaded: {error}"
+            raise CheckerError(problem) from error
+
+
+def _rules_below(package: ModuleType) -> Iterator[Rule]:
+    for module in _modules(package):
+        yield from _rules_in(module)
 
 
 def _modules(package: ModuleType) -> Iterator[ModuleType]:

@@ -7,35 +7,20 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from time import perf_counter
-from typing import Any, Protocol
+from typing import Any
 
-from checker.finding import Severity
+from checker.finding import Fix, Place, Safety, Severity
+from checker.options import options_of
 from checker.page import parse_page
+from checker.parts import NotAtHand, Parts
 from checker.profiles import Profile
 from checker.report.report import Cause, NotChecked, ReportedFinding
+from checker.report.wording import shortened
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.settings import Settings
 
-
-@dataclass(frozen=True)
-class NotAtHand:
-    """A part of a package that a rule asks for and that cannot be had.
-
-    Attributes:
-        reason: Why, as the end of a sentence.
-        applicable: False when the package has no such part and needs none.
-    """
-
-    reason: str
-    applicable: bool = True
-
-
-class Parts(Protocol):
-    """Gives the parts of a package by their type."""
-
-    def part(self, kind: type) -> Sequence[object] | NotAtHand:
-        """Return the part; several when a file holds several robots."""
-        ...
+TEXT_LIMIT = 1000
+"""Characters of a message, note or reason; names in a package may be longer than any of them."""
 
 
 @dataclass(frozen=True)
@@ -72,9 +57,10 @@ def run_rules(rules: Iterable[Rule], parts: Parts, profile: Profile, settings: S
         findings += _report(
             rule, [each for each in said if isinstance(each, Finding)], profile, settings
         )
-        reasons = dict.fromkeys(each.reason for each in said if isinstance(each, Unchecked))
+        unchecked = (each.reason for each in said if isinstance(each, Unchecked))
+        reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
-    return Outcome(_sorted(_distinct(findings)), tuple(not_checked), seconds)
+    return Outcome(_distinct(_sorted(findings)), tuple(not_checked), seconds)
 
 
 def _run_isolated(
@@ -85,12 +71,18 @@ def _run_isolated(
         arguments = _arguments(rule, parts, context)
         if isinstance(arguments, NotAtHand):
             cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
-            return NotChecked(rule.id, arguments.reason, cause)
-        options = _options(rule, settings)
+            return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
+        options = options_of(rule, settings)
         return [found for each in arguments for found in rule.check(**each, **options)]
     except Exception as error:  # noqa: BLE001 - the other rules go on, the exit code says so
-        reason = f"{rule.id} could not run ({type(error).__name__}: {error}); please report this"
-        return NotChecked(rule.id, reason, Cause.CRASHED)
+        return crashed(rule.id, error)
+
+
+def crashed(what: str, error: Exception) -> NotChecked:
+    """Say that a part of the check could not run because of the checker itself."""
+    problem = shortened(f"{type(error).__name__}: {error}", TEXT_LIMIT)
+    reason = f"{what} could not run ({problem}); please report this"
+    return NotChecked(what, reason, Cause.CRASHED)
 
 
 def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any]] | NotAtHand:
@@ -104,11 +96,6 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
     return [dict(zip(wanted, each, strict=True)) for each in product(*wanted.values())]
 
 
-def _options(rule: Rule, settings: Settings) -> dict[str, Any]:
-    chosen = settings.options.get(rule.id, {})
-    return {k: tuple(v) if isinstance(v, list) else v for k, v in chosen.items()}
-
-
 def _report(
     rule: Rule, found: list[Finding], profile: Profile, settings: Settings
 ) -> Iterator[ReportedFinding]:
@@ -118,24 +105,32 @@ def _report(
     for each in found:
         severity = _severity(rule, each, profile, settings)
         groups.setdefault((severity, each.key or each.message), []).append(each)
-    for (severity, key), group in groups.items():
+    for (severity, _), group in groups.items():
         first = group[0]
-        places = tuple(dict.fromkeys(place for each in group for place in each.places))
-        fix = first.fix
-        if fix is not None and len(group) > 1:
-            edits = [edit for each in group if each.fix for edit in each.fix.edits]
-            fix = replace(fix, edits=tuple(dict.fromkeys(edits)))
+        places = tuple(dict.fromkeys(_bounded(place) for each in group for place in each.places))
         yield ReportedFinding(
             rule.id,
             rule.name,
             severity,
-            first.message,
-            _fingerprint(rule.id, places[0].file, places[0].element, key if first.key else ""),
+            shortened(first.message, TEXT_LIMIT),
+            _fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
             places,
-            fix,
+            _joined_fix([each.fix for each in group if each.fix]),
             page.reason,
             " ".join(page.fix.split()),
         )
+
+
+def _bounded(place: Place) -> Place:
+    return replace(place, note=shortened(place.note, TEXT_LIMIT))
+
+
+def _joined_fix(fixes: list[Fix]) -> Fix | None:
+    """Return one fix that makes all edits; it is as safe as the least safe of them."""
+    if not fixes:
+        return None
+    edits = dict.fromkeys(edit for fix in fixes for edit in fix.edits)
+    return Fix(max((fix.safety for fix in fixes), key=list(Safety).index), tuple(edits))
 
 
 def _severity(rule: Rule, found: Finding, profile: Profile, settings: Settings) -> Severity:
@@ -147,11 +142,20 @@ def _severity(rule: Rule, found: Finding, profile: Profile, settings: Settings) 
     return max(severity, limit, key=lambda s: s.rank) if limit else severity
 
 
+def _identity(found: Finding) -> str:
+    """Return what tells a fault from others of its rule in the same element or file.
+
+    An element's path stays when its value changes, the message does not; elsewhere the message
+    has to do.
+    """
+    return found.key or ("" if found.places[0].element else found.message)
+
+
 def _fingerprint(*parts: str) -> str:
-    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+    return hashlib.sha256("\0".join(parts).encode(errors="surrogatepass")).hexdigest()[:16]
 
 
-def _distinct(findings: list[ReportedFinding]) -> list[ReportedFinding]:
+def _distinct(findings: list[ReportedFinding]) -> tuple[ReportedFinding, ...]:
     """Number findings that would have one fingerprint, in the order of their places."""
     seen: dict[str, int] = {}
     distinct = []
@@ -160,12 +164,12 @@ def _distinct(findings: list[ReportedFinding]) -> list[ReportedFinding]:
         seen[each.fingerprint] = number + 1
         fingerprint = _fingerprint(each.fingerprint, str(number)) if number else each.fingerprint
         distinct.append(replace(each, fingerprint=fingerprint))
-    return distinct
+    return tuple(distinct)
 
 
-def _sorted(findings: list[ReportedFinding]) -> tuple[ReportedFinding, ...]:
+def _sorted(findings: list[ReportedFinding]) -> list[ReportedFinding]:
     def key(each: ReportedFinding) -> tuple[int, str, int, int, str]:
         place = each.places[0]
         return each.severity.rank, place.file, place.line, place.column, each.rule
 
-    return tuple(sorted(findings, key=key))
+    return sorted(findings, key=key)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from checker.engine import NotAtHand
 from checker.model.drive import drive_name
+from checker.parts import NotAtHand
 from checker.subject import Subject
 
 

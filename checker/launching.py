@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
 
-from checker.engine import NotAtHand
 from checker.model.launch.command import LaunchCommand
 from checker.model.launch.expand import expand_launch
 from checker.model.launch.graph import LaunchGraph, UnresolvedInclude
@@ -16,6 +15,7 @@ from checker.model.launch.include import MissingLaunchFile
 from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.parts import NotAtHand
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
 from checker.spawner.reader import EXECUTABLES_ARGUMENTS
@@ -25,15 +25,15 @@ USUAL_FILES = ("launch/description.launch", "launch/vehicle_topics.launch")
 """What a spawner starts; read with sample arguments when the spawner itself cannot be read."""
 
 
-def launch_graph(package: Package, spawned: SpawnedXml | NotAtHand) -> LaunchGraph | NotAtHand:
+def launch_graph(package: Package, started: SpawnedXml | NotAtHand) -> LaunchGraph | NotAtHand:
     """Expand every launch file that a package's spawner starts."""
     if package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
         return NotAtHand("the package needs no launch files", applicable=False)
     files = _LaunchFiles(package)
-    if isinstance(spawned, NotAtHand):
+    if isinstance(started, NotAtHand):
         return _usual_graph(package, files)
     graphs = []
-    for element in spawned.commands:
+    for element in started.commands:
         command = LaunchCommand.parse(element.text.value)
         if command is not None and command.file:
             graphs.append(_started(command, element.text.span, files))

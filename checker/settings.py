@@ -7,18 +7,20 @@ in its own folder or in the nearest folder above that has one.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 from checker.errors import InvalidSettings
 from checker.finding import Severity
+from checker.package.reading import NotReadable, read_text
 from checker.profiles import profile_names
 from checker.rule import Rule
 
 FILE_NAME = "subt-check.toml"
+SHARED_FILE_NAME = "pyproject.toml"
+SIZE_LIMIT = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -57,29 +59,66 @@ def _names(patterns: Sequence[str], rule: Rule) -> bool:
     return any(pattern in (rule.id, rule.group, rule.name) for pattern in patterns)
 
 
-def find_settings(folder: Path) -> Settings:
-    """Return the settings of the nearest file in a folder or above it; else the defaults.
+def folders_above(folder: Path, top: Path | None = None) -> Iterator[Path]:
+    """Yield a folder and those above it, nearest first.
+
+    Args:
+        folder: Links resolved.
+        top: The last one; without it, the repository's root or the home folder is.
+    """
+    for place in (folder, *folder.parents):
+        yield place
+        if place in (top, _home()) or (top is None and _is_there(place / ".git")):
+            return
+
+
+def _home() -> Path | None:
+    try:
+        return Path.home().resolve()
+    except RuntimeError:  # a user without a home, as in some containers
+        return None
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.exists()
+    except OSError:
+        return False
+
+
+def find_settings(folders: Iterable[Path]) -> Settings:
+    """Return the settings of the first folder that has any; else the defaults.
 
     Raises:
         InvalidSettings: The file is no TOML or holds what settings do not know.
     """
-    for place in (folder, *folder.parents):
-        own = place / FILE_NAME
-        if own.is_file():
+    for folder in folders:
+        own = folder / FILE_NAME
+        if _is_there(own) and own.is_file():
             return parse_settings(_read_toml(own), own)
-        shared = place / "pyproject.toml"
-        if shared.is_file():
-            section = _read_toml(shared).get("tool", {}).get("subt-check")
+        shared = folder / SHARED_FILE_NAME
+        if _is_there(shared) and shared.is_file():
+            section = _tool_section(_read_toml(shared))
             if section is not None:
                 return parse_settings(section, shared)
     return Settings()
 
 
 def _read_toml(path: Path) -> dict[str, Any]:
+    source = read_text(path.resolve(), path.name, SIZE_LIMIT)
+    if isinstance(source, NotReadable):
+        raise InvalidSettings(path, source.reason)
     try:
-        return tomllib.loads(path.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InvalidSettings(path, f"cannot be read: {error}") from None
+        return tomllib.loads(source.text)
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidSettings(path, f"is no TOML: {error}") from None
+    except RecursionError:
+        raise InvalidSettings(path, "is nested too deeply") from None
+
+
+def _tool_section(content: Mapping[str, Any]) -> Any:
+    tools = content.get("tool")
+    return tools.get("subt-check") if isinstance(tools, dict) else None
 
 
 _KEYS = {
@@ -93,16 +132,16 @@ _KEYS = {
 """Keys of the file, and the fields they set."""
 
 
-def parse_settings(content: Mapping[str, Any], path: Path) -> Settings:
+def parse_settings(content: object, path: Path) -> Settings:
     """Turn the content of a settings file into settings.
 
     Raises:
         InvalidSettings: A key is unknown or a value has the wrong type.
     """
     values: dict[str, Any] = {}
-    for key, value in content.items():
+    for key, value in _table("tool.subt-check", content, path).items():
         if key not in _KEYS:
-            raise InvalidSettings(path, f"unknown key {key!r}; known are {_list(_KEYS)}")
+            raise InvalidSettings(path, f"unknown key {key!r}, expected one of {_list(_KEYS)}")
         values[_KEYS[key]] = _convert(key, value, path)
     return replace(Settings(), **values, source=path)
 
@@ -136,53 +175,11 @@ def _one_of(key: str, value: Any, choices: Sequence[str], path: Path) -> str:
     return str(value)
 
 
-def _table(key: str, value: Any, path: Path) -> dict[str, Any]:
+def _table(key: str, value: object, path: Path) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise InvalidSettings(path, f"{key} is {value!r}, expected a table")
     return value
 
 
-def _list(words: Sequence[str] | Mapping[str, str]) -> str:
+def _list(words: Iterable[str]) -> str:
     return ", ".join(words)
-
-
-def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
-    """Make sure that every rule and option that the settings name exists.
-
-    Raises:
-        InvalidSettings: One does not; the message names the nearest that does.
-    """
-    by_id = {rule.id: rule for rule in rules}
-    known = set(by_id) | {rule.group for rule in rules} | {rule.name for rule in rules}
-    for name in (*settings.select, *settings.ignore):
-        if name not in known:
-            raise InvalidSettings(settings.source, f"there is no rule {name}{_hint(name, known)}")
-    for id in (*settings.severity, *settings.options):
-        if id not in by_id:
-            raise InvalidSettings(settings.source, f"there is no rule {id}{_hint(id, set(by_id))}")
-    for id, options in settings.options.items():
-        for option, value in options.items():
-            _check_option(settings, by_id[id], option, value)
-
-
-def _check_option(settings: Settings, rule: Rule, option: str, value: Any) -> None:
-    defaults = rule.options
-    if option not in defaults:
-        known = _list(list(defaults)) or "none"
-        problem = f"{rule.id} has no option {option!r}; it has {known}"
-        raise InvalidSettings(settings.source, problem)
-    default = defaults[option]
-    fits = isinstance(value, type(default)) and isinstance(value, bool) == isinstance(default, bool)
-    if isinstance(default, float) and isinstance(value, int) and not isinstance(value, bool):
-        fits = True
-    if isinstance(default, tuple) and isinstance(value, list):
-        fits = True
-    if not fits:
-        expected = "list" if isinstance(default, tuple) else type(default).__name__
-        problem = f"{rule.id}: {option} is {value!r}, expected a {expected}"
-        raise InvalidSettings(settings.source, problem)
-
-
-def _hint(name: str, known: set[str]) -> str:
-    near = get_close_matches(name.upper(), known, n=1)
-    return f"; did you mean {near[0]}?" if near else "; `subt-check rules` lists them"

@@ -7,16 +7,15 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 
-from checker.engine import NotAtHand
 from checker.package.inheritance import SPAWNER
 from checker.package.package import Package
 from checker.package.reading import NotReadable
+from checker.parts import NotAtHand
 from checker.source.fragments import parse_fragments, unwrapped
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText, Span
 from checker.source.xml import Element, XmlDocument
 from checker.spawner.emitted import EmittedText
-from checker.spawner.reader import Spawner
 from checker.spawner.signals import Unread
 
 
@@ -54,25 +53,28 @@ class WorkspaceFiles:
 
 @dataclass(frozen=True, eq=False)
 class SpawnedXml:
-    """What the two functions of a spawner emit.
+    """What a function of the spawner emits, as XML.
 
     Attributes:
-        text: What `spawner` emits.
-        spawn: The same as XML.
-        executables: What `rosExecutables` emits, as XML.
+        text: The text, which knows its Ruby.
+        document: The same as XML; its elements stand below `emitted`.
     """
 
     text: EmittedText
-    spawn: XmlDocument
-    executables: XmlDocument
+    document: XmlDocument
 
     @cached_property
     def plugins(self) -> list[Element]:
-        """The plugins that the spawner adds to the robot."""
-        return self.spawn.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
+        """The plugins that `spawner` adds to the robot."""
+        return self.document.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
+
+    @cached_property
+    def commands(self) -> list[Element]:
+        """The `<command>` elements that `rosExecutables` emits."""
+        return self.document.find_all("executable/command")
 
     def parameters_of(self, span: Span) -> frozenset[str]:
-        """Return the spawner's parameters and globals that made a stretch of what it emits."""
+        """Return the function's parameters and the globals that made a stretch of the text."""
         start, end = unwrapped(span)
         return self.text.parameters_in(start, end)
 
@@ -81,22 +83,15 @@ class SpawnedXml:
         words = re.finditer(r"\S+", span.text)
         return [Span(span.source, span.start + w.start(), span.start + w.end()) for w in words]
 
-    @cached_property
-    def commands(self) -> list[Element]:
-        """The `<command>` elements of the executables."""
-        return self.executables.find_all("executable/command")
 
-
-def spawned_xml(spawner: Spawner) -> SpawnedXml | NotAtHand:
-    """Parse what a spawner emits; what cannot be read or parsed is not at hand."""
-    documents = []
-    for name, emitted in (("spawner", spawner.spawn), ("rosExecutables", spawner.executables)):
-        if isinstance(emitted, Unread):
-            line = emitted.span.line
-            return NotAtHand(f"{name} cannot be read at {SPAWNER}:{line}: {emitted.reason}")
-        document = parse_fragments(emitted)
-        if isinstance(document, XmlFault):
-            return NotAtHand(f"what {name} emits is not well-formed: {document.message}")
-        documents.append((emitted, document))
-    (text, spawn), (_, executables) = documents
-    return SpawnedXml(text, spawn, executables)
+def spawned_xml(function: str, emitted: EmittedText | Unread) -> SpawnedXml | NotAtHand:
+    """Parse what a function of the spawner emits; what cannot be read is not at hand."""
+    if isinstance(emitted, Unread):
+        place = emitted.span.place()
+        return NotAtHand(
+            f"{function} cannot be read at {place.file}:{place.line}: {emitted.reason}"
+        )
+    document = parse_fragments(emitted)
+    if isinstance(document, XmlFault):
+        return NotAtHand(f"what {function} emits is not well-formed: {document.message}")
+    return SpawnedXml(emitted, document)

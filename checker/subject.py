@@ -7,10 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from checker.engine import NotAtHand
 from checker.launching import launch_graph
 from checker.model.launch.graph import LaunchGraph
-from checker.model.robot import Plugin, Robot
+from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.links import read_plugin
 from checker.model.sdf.reader import read_sdf
@@ -21,6 +20,7 @@ from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.reading import NotReadable
 from checker.paperwork import Paperwork
+from checker.parts import NotAtHand
 from checker.source.positions import XmlFault
 from checker.source.xml import XmlDocument
 from checker.spawner.reader import Spawner, read_spawner
@@ -58,10 +58,21 @@ class Subject:
         without = _WITHOUT_ROBOT.get(self.package.kind)
         if without is not None:
             return NotAtHand(without, applicable=False)
+        if self.package.kind is PackageKind.URDF_DESCRIPTION:
+            return self._urdf
         path = self.package.model_path
         if isinstance(path, Missing):
             return NotAtHand(path.reason)
-        return self.document(path.path)
+        return _expanded(self.document(path.path))
+
+    @property
+    def _urdf(self) -> XmlDocument | NotAtHand:
+        """The description of a URDF package: its only URDF file that says anything."""
+        files = [each for each in self.package.index.with_suffix(".urdf") if each.size]
+        if len(files) != 1:
+            number = f"{len(files)} URDF files" if files else "only xacro files"
+            return NotAtHand(f"the package holds {number}, and none is known to be the robot")
+        return _expanded(self.document(files[0].path))
 
     def document(self, path: str) -> XmlDocument | NotAtHand:
         """Return a file as XML, or say why it cannot be had."""
@@ -93,8 +104,7 @@ class Subject:
             nothing_to_see = self.model.root.child("world") is not None
             reason = f"{self.model.source.file} holds no model"
             return NotAtHand(reason, applicable=not nothing_to_see)
-        first = robots[0]
-        return (replace(first, plugins=(*first.plugins, *self._spawned_plugins)), *robots[1:])
+        return (self._with_spawned_plugins(robots[0]), *robots[1:])
 
     def _included(self, uri: str) -> XmlDocument | str:
         """Return the model file behind an include's URI: a package at hand, or a folder of it."""
@@ -110,11 +120,12 @@ class Subject:
         document = self.document(found)
         return document.reason if isinstance(document, NotAtHand) else document
 
-    @cached_property
-    def _spawned_plugins(self) -> tuple[Plugin, ...]:
+    def _with_spawned_plugins(self, robot: Robot) -> Robot:
         if isinstance(self.spawned, NotAtHand):
-            return ()
-        return tuple(read_plugin(element) for element in self.spawned.plugins)
+            unread = self.spawned.reason if self.spawned.applicable else ""
+            return replace(robot, unread_plugins=unread)
+        added = (read_plugin(element) for element in self.spawned.plugins)
+        return replace(robot, plugins=(*robot.plugins, *added))
 
     @cached_property
     def spawner(self) -> Spawner | NotAtHand:
@@ -129,15 +140,22 @@ class Subject:
 
     @cached_property
     def spawned(self) -> SpawnedXml | NotAtHand:
-        """What the spawner emits, as XML."""
+        """What the function `spawner` emits."""
         if isinstance(self.spawner, NotAtHand):
             return self.spawner
-        return spawned_xml(self.spawner)
+        return spawned_xml("spawner", self.spawner.spawn)
+
+    @cached_property
+    def started(self) -> SpawnedXml | NotAtHand:
+        """What the function `rosExecutables` emits."""
+        if isinstance(self.spawner, NotAtHand):
+            return self.spawner
+        return spawned_xml("rosExecutables", self.spawner.executables)
 
     @cached_property
     def launch(self) -> LaunchGraph | NotAtHand:
         """What the launch files start that the spawner calls for."""
-        return launch_graph(self.package, self.spawned)
+        return launch_graph(self.package, self.started)
 
     @cached_property
     def specification(self) -> Specification | NotAtHand:
@@ -152,6 +170,17 @@ class Subject:
             return NotAtHand(f"{part.path} {source.reason}")
         return read_specification(source)
 
+
+def _expanded(document: XmlDocument | NotAtHand) -> XmlDocument | NotAtHand:
+    """Hold back a xacro file: its numbers are expressions until xacro has expanded it."""
+    if isinstance(document, XmlDocument) and document.tree.xpath(
+        "boolean(//xacro:*)", namespaces=_XACRO
+    ):
+        return NotAtHand(f"{document.source.file} is a xacro file, which is not expanded")
+    return document
+
+
+_XACRO = {"xacro": "http://www.ros.org/wiki/xacro"}
 
 _Provider = Callable[[Subject], object]
 

@@ -75,7 +75,9 @@ class FrameGraph:
                 Fault(
                     FaultKind.FRAME,
                     node.span,
-                    f"{node.label} is posed relative to {at!r}, which does not exist",
+                    f"{node.label} is posed relative to {at!r}, which does not exist"
+                    if at
+                    else f"{node.label} is posed relative to nothing",
                 )
             )
         return None
@@ -90,6 +92,22 @@ class FrameGraph:
         )
         for name in names:
             self._poses[name] = None
+
+    def pose_below(self, name: str, ancestor: str) -> Transform | None:
+        """Return the pose of a frame in one that it hangs on; None when it does not.
+
+        Nothing is remembered, so that the ancestor itself may be placed later.
+        """
+        pose = Transform()
+        seen: set[str] = set()
+        at: str | None = name
+        while at != ancestor:
+            if at is None or at in seen or at not in self.nodes:
+                return None
+            seen.add(at)
+            pose = self.nodes[at].transform @ pose
+            at = self.nodes[at].relative_to
+        return pose
 
     def pose_in(self, name: str, other: str) -> Transform | None:
         """Return the pose of one frame in another; None when either is unknown."""

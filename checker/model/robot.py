@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from checker.model.faults import Fault, FaultKind
-from checker.model.frames import FrameGraph
+from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.shapes import Geometry, Material
-from checker.model.transform import Transform
+from checker.model.transform import Transform, Vector
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
@@ -149,6 +149,7 @@ class Link(Part):
     Attributes:
         scoped_name: With the names of nested models in front: `arm::wrist`.
         inertial: None when the file states none.
+        default_mass: Kilograms of a link without inertial: 1 in SDF, 0 in URDF.
     """
 
     scoped_name: str
@@ -158,11 +159,12 @@ class Link(Part):
     visuals: tuple[Visual, ...]
     sensors: tuple[Sensor, ...]
     lights: tuple[Light, ...]
+    default_mass: float = 1.0
 
     @property
     def mass(self) -> float:
-        """Kilograms; 1 where the file states none, as simulators assume."""
-        return self.inertial.mass.value if self.inertial is not None else 1.0
+        """Kilograms; what simulators assume where the file states none."""
+        return self.inertial.mass.value if self.inertial is not None else self.default_mass
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,6 +245,8 @@ class Robot(Part):
         plugins: Of the model file and, in a package, of what the spawner emits.
         frame_graph: Where everything is.
         faults: What could not be read as it stands.
+        unresolved_includes: URIs of includes whose model is not at hand.
+        unread_plugins: Why plugins that the spawner adds are not among these; else empty.
     """
 
     document: XmlDocument
@@ -257,6 +261,7 @@ class Robot(Part):
     frame_graph: FrameGraph = field(repr=False)
     faults: tuple[Fault, ...] = ()
     unresolved_includes: tuple[Located[str], ...] = ()
+    unread_plugins: str = ""
 
     @cached_property
     def links_by_name(self) -> dict[str, Link]:
@@ -277,7 +282,8 @@ class Robot(Part):
     @property
     def mass(self) -> float:
         """Kilograms of all links together."""
-        return math.fsum(link.mass for link in self.links)
+        # math.fsum would raise where the sum overflows.
+        return sum(link.mass for link in self.links)
 
     @cached_property
     def wheels(self) -> tuple[Link, ...]:
@@ -328,5 +334,49 @@ class Robot(Part):
         return [fault for fault in self.faults if fault.kind is kind]
 
     def pose_of(self, name: str) -> Transform | None:
-        """Return the pose of a link, joint or frame in the robot's frame; None if unknown."""
+        """Return the pose of a link, joint or frame in the robot's frame; None if unknown.
+
+        Where a joint has the name of a link, it is the link's; see `pose_of_joint`.
+        """
         return self.frame_graph.pose(name)
+
+    def pose_of_joint(self, joint: Joint) -> Transform | None:
+        """Return the pose of a joint's frame in the robot's frame; None if unknown.
+
+        SDF poses a joint in its child by default, URDF always in its parent.
+        """
+        end = (joint.parent if self.format == "urdf" else joint.child).value
+        if end == MODEL_FRAME:
+            base = joint.scope.removesuffix("::") or MODEL_FRAME
+        else:
+            base = joint.scope + end
+        frame = self.pose_of(joint.pose.relative_to or base)
+        return None if frame is None else frame @ joint.pose.transform
+
+    def pose_of_part(self, owner: Link | Joint, pose: Pose) -> Transform | None:
+        """Return the pose of a part in the robot's frame; None if unknown.
+
+        Args:
+            owner: The link (or joint) that carries the part.
+            pose: Of its collision, visual, sensor, light or inertial.
+        """
+        if pose.relative_to:
+            base = self.pose_of(pose.relative_to)
+        elif isinstance(owner, Joint):
+            base = self.pose_of_joint(owner)
+        else:
+            base = self.pose_of(owner.scoped_name)
+        return None if base is None else base @ pose.transform
+
+    def axis_in_model(self, joint: Joint, axis: Axis) -> Vector | None:
+        """Return the direction of a joint's axis in the robot's frame, of length 1.
+
+        None for an axis of length 0 and where the frame that it is expressed in is unknown.
+        """
+        own = not axis.expressed_in
+        frame = self.pose_of_joint(joint) if own else self.pose_of(axis.expressed_in)
+        x, y, z = (number.value for number in axis.xyz)
+        length = math.hypot(x, y, z)
+        if frame is None or not 0.0 < length < math.inf:
+            return None
+        return frame.rotate((x / length, y / length, z / length))

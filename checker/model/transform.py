@@ -30,7 +30,7 @@ def rotation_from_quaternion(w: float, x: float, y: float, z: float) -> Rotation
     Raises:
         ValueError: All four numbers are zero.
     """
-    norm = math.sqrt(w * w + x * x + y * y + z * z)
+    norm = math.hypot(w, x, y, z)
     if norm == 0.0:
         raise ValueError("a quaternion of zeros is no rotation")
     w, x, y, z = w / norm, x / norm, y / norm, z / norm

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from checker.model.faults import Fault, FaultKind
+from checker.source.markup import blank_markup
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\Z", re.ASCII)
 _INFINITE = {"inf", "+inf", "-inf", "infinity", "-infinity"}
-_WORD = re.compile(r"\S+")
+_WORD = re.compile(r"[^ \t\r\n]+")
 _TRUE = {"1", "true"}
 _FALSE = {"0", "false"}
 
@@ -43,12 +44,10 @@ class ValueReader:
         if not text.stated:
             return ()
         read = []
-        for word in _WORD.finditer(text.span.text):
-            start = text.span.start + word.start()
-            span = Span(text.span.source, start, start + len(word.group()), text.span.element)
-            value = parse_number(word.group())
+        for word, span in _words(text):
+            value = parse_number(word)
             if value is None:
-                self.fault(FaultKind.VALUE, span, f"{_short(word.group())!r} is not a number")
+                self.fault(FaultKind.VALUE, span, f"{_short(word)!r} is not a number")
             read.append(Located(0.0 if value is None else value, span))
         return tuple(read)
 
@@ -96,6 +95,16 @@ class ValueReader:
         padded += [Located(value, text.span, stated=False) for value in default[len(padded) :]]
         return tuple(padded)
 
+    def finite(self, numbers: tuple[Located[float], ...]) -> tuple[Located[float], ...]:
+        """Take lengths and angles as they are, and 0 for one that is infinite."""
+        return tuple(self._finite(number) for number in numbers)
+
+    def _finite(self, number: Located[float]) -> Located[float]:
+        if math.isfinite(number.value):
+            return number
+        self.fault(FaultKind.VALUE, number.span, "a pose has finite numbers only")
+        return Located(0.0, number.span)
+
     def boolean(self, parent: Element, tag: str, default: bool) -> Located[bool]:
         """Read `true`, `false`, `1` or `0` in the child `tag`."""
         child = parent.child(tag)
@@ -121,6 +130,23 @@ class ValueReader:
     def name(self, element: Element) -> Located[str]:
         """Read the `name` attribute; empty when there is none."""
         return element.attribute("name") or Located("", element.span, stated=False)
+
+
+def _words(text: Located[str]) -> Iterator[tuple[str, Span]]:
+    """Yield the words of a text with their places.
+
+    Entities, and comments amid a word, make the value differ from what is written: then each word
+    stands at the whole text's place.
+    """
+    words = _WORD.findall(text.value)
+    span = text.span
+    written = list(_WORD.finditer(blank_markup(span.text)))
+    if [word.group() for word in written] != words:
+        yield from ((word, span) for word in words)
+        return
+    for word in written:
+        start, end = span.start + word.start(), span.start + word.end()
+        yield word.group(), Span(span.source, start, end, span.element)
 
 
 def _short(text: str) -> str:

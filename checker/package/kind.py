@@ -27,9 +27,9 @@ class PackageKind(StrEnum):
     ROBOT = "robot"
     CONFIGURATION = "configuration"
     PLUGIN = "plugin"
-    BASE_MODEL = "base model"
-    URDF_DESCRIPTION = "URDF description"
-    SINGLE_FILE = "single file"
+    BASE_MODEL = "base_model"
+    URDF_DESCRIPTION = "urdf_description"
+    SINGLE_FILE = "single_file"
     UNKNOWN = "unknown"
 
 

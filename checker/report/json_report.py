@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import asdict
 from typing import Any
 
 from checker.finding import Edit, Place
 from checker.report.report import SCHEMA_VERSION, PackageReport, Report, ReportedFinding
 
+_UNPRINTABLE = re.compile(r"[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
+
 
 def to_json(report: Report) -> str:
-    """Return the report as JSON text."""
-    return json.dumps(to_dict(report), indent=2, ensure_ascii=False) + "\n"
+    """Return the report as JSON text; what would steer a terminal or is no character is escaped."""
+    text = json.dumps(to_dict(report), indent=2, ensure_ascii=False) + "\n"
+    return _UNPRINTABLE.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def to_dict(report: Report) -> dict[str, Any]:
     """Return the report as plain dictionaries and lists."""
     return {
         "schema_version": SCHEMA_VERSION,
-        "tool": {
-            "name": "subt-check",
-            "profile": report.profile,
-            "versions": dict(report.versions),
-        },
+        "tool": {"name": "subt-check", "versions": dict(report.versions)},
         "packages": [_package(package) for package in report.packages],
+        "not_opened": [{"path": each.path, "reason": each.reason} for each in report.not_opened],
     }
 
 
@@ -33,6 +34,7 @@ def _package(package: PackageReport) -> dict[str, Any]:
         "name": package.name,
         "path": package.path,
         "kind": package.kind,
+        "profile": package.profile,
         "verdict": str(package.verdict),
         "inherited": [asdict(part) for part in package.inherited],
         "findings": [_finding(each) for each in package.findings],

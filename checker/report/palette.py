@@ -44,9 +44,15 @@ class Palette:
         return self._paint("2", text)
 
 
-def choose_palette(wish: str, stream: TextIO, environment: Mapping[str, str]) -> Palette:
-    """Decide on colours: `always`, `never`, or `auto` by NO_COLOR, FORCE_COLOR and terminal."""
-    if wish != "auto":
+def choose_palette(wish: str, stream: TextIO | None, environment: Mapping[str, str]) -> Palette:
+    """Decide on colours: `always`, `never`, or `auto` by NO_COLOR, FORCE_COLOR and terminal.
+
+    Args:
+        wish: What the user asked for.
+        stream: Where the text goes; None for a file.
+        environment: The process's variables.
+    """
+    if wish != "auto" or stream is None:
         return Palette(wish == "always")
     if environment.get("NO_COLOR"):
         return Palette(enabled=False)
@@ -55,6 +61,6 @@ def choose_palette(wish: str, stream: TextIO, environment: Mapping[str, str]) ->
     return Palette(stream.isatty() and environment.get("TERM") != "dumb")
 
 
-def palette_for(wish: str, stream: TextIO) -> Palette:
+def palette_for(wish: str, stream: TextIO | None) -> Palette:
     """Decide on colours in this process's environment."""
     return choose_palette(wish, stream, os.environ)

@@ -90,6 +90,8 @@ class PackageReport:
     Attributes:
         path: As the user gave it.
         kind: `robot`, `configuration`, `plugin`, ….
+        profile: Name of the profile that judged it.
+        fail_on: Findings at or above this severity make the run fail.
         facts: Mass, links, joints, … by name.
         timings: Seconds by stage.
     """
@@ -102,6 +104,8 @@ class PackageReport:
     inherited: tuple[InheritedPart, ...] = ()
     facts: Mapping[str, Any] = field(default_factory=dict)
     timings: Mapping[str, float] = field(default_factory=dict)
+    profile: str = "subt"
+    fail_on: Severity = Severity.ERROR
 
     @property
     def verdict(self) -> VerdictKind:
@@ -122,9 +126,29 @@ class PackageReport:
         """Whether a rule could not run because of the checker itself."""
         return any(n.cause is Cause.CRASHED for n in self.not_checked)
 
+    @property
+    def failed(self) -> bool:
+        """Whether there is a finding at or above the severity that makes the run fail."""
+        return any(finding.severity.rank <= self.fail_on.rank for finding in self.findings)
+
     def count(self, severity: Severity) -> int:
         """Return the number of findings of one severity."""
         return sum(finding.severity is severity for finding in self.findings)
+
+
+@dataclass(frozen=True)
+class NotOpened:
+    """An argument, or a folder below one, that was not checked at all, and why.
+
+    Attributes:
+        path: As the user gave it.
+        reason: The end of a sentence that starts with the path.
+        failed: Whether the user asked for it by name, so that the run has failed.
+    """
+
+    path: str
+    reason: str
+    failed: bool
 
 
 @dataclass(frozen=True)
@@ -132,5 +156,5 @@ class Report:
     """The reports of all packages of one run, sorted by name."""
 
     packages: tuple[PackageReport, ...]
-    profile: str
     versions: Mapping[str, str]
+    not_opened: tuple[NotOpened, ...] = ()

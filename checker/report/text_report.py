@@ -2,43 +2,46 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Iterator, Mapping, Sequence
 
 from checker.finding import Place, Severity
+from checker.report.finding_text import MESSAGE_LIMIT, finding_text
 from checker.report.palette import Palette
 from checker.report.report import (
     Cause,
     NotChecked,
+    NotOpened,
     PackageReport,
     Report,
     ReportedFinding,
     VerdictKind,
 )
-from checker.report.wording import count, listed, plain
+from checker.report.wording import count, listed, plain, shortened
 
-MORE_PLACES = 3
-"""So many places of a repeated fault are named; the rest is counted."""
-
-MESSAGE_LIMIT = 600
-SNIPPET_WIDTH = 160
+UNITS = {"kg": "kg", "m": "m", "deg": "°", "s": "s"}
+"""Units by the ends of the names of facts: `mass_kg`."""
 
 
 def to_text(report: Report, palette: Palette) -> str:
     """Return the whole report."""
     checked = {package.name for package in report.packages}
-    blocks = [_package(package, checked, palette) for package in report.packages]
+    explained: set[str] = set()
+    blocks = [_package(package, checked, explained, palette) for package in report.packages]
     if len(report.packages) > 1:
-        blocks.append(_summary(report, palette))
+        blocks.append(_summary(report.packages, palette))
+    if skipped := [_skipped(each) for each in report.not_opened if not each.failed]:
+        blocks.append("".join(skipped))
     return "\n".join(blocks)
 
 
-def _package(package: PackageReport, checked: set[str], palette: Palette) -> str:
+def _package(
+    package: PackageReport, checked: set[str], explained: set[str], palette: Palette
+) -> str:
     own, elsewhere = _split_by_owner(package, checked)
-    lines = [palette.bold(plain(package.name)) + palette.dim(f"  {package.kind}"), ""]
-    explained: set[str] = set()
+    kind = package.kind.replace("_", " ")
+    lines = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
     for finding in own:
-        lines += [*_finding(finding, package, palette, finding.rule in explained), ""]
+        lines += [*finding_text(finding, package, palette, finding.rule in explained), ""]
         explained.add(finding.rule)
     lines += [f"{count(n, 'finding')} in {name}: see there" for name, n in elsewhere.items()]
     lines += _inherited(package)
@@ -67,53 +70,6 @@ def _is_foreign(place: Place) -> bool:
     return place.file.startswith("../")
 
 
-def _finding(
-    finding: ReportedFinding, package: PackageReport, palette: Palette, explained: bool
-) -> Iterator[str]:
-    """Show a finding; why and how are said where its rule comes up first."""
-    place = finding.places[0]
-    message = plain(finding.message)[:MESSAGE_LIMIT]
-    severity = palette.severity(finding.severity)
-    yield f"{_where(place, package)} {severity} {finding.rule} {finding.name}: {message}"
-    if finding.severity is Severity.INFO:
-        return
-    yield from _frame(place, palette)
-    notes = [p for p in finding.places[1:] if p.note]
-    repeats = [p for p in finding.places[1:] if not p.note]
-    for other in notes[:MORE_PLACES]:
-        yield f"    {_where(other, package)}: {plain(other.note)}"
-    if repeats:
-        named = [f"{plain(p.file)}:{p.line}" for p in repeats[:MORE_PLACES]]
-        more = len(repeats) - len(named)
-        yield f"    also {', '.join(named)}" + (f" and {count(more, 'more place')}" if more else "")
-    if explained:
-        return
-    if finding.why:
-        yield f"    why: {finding.why}"
-    if finding.how:
-        yield f"    fix: {finding.how}"
-    yield palette.dim(f"    {finding.help}")
-
-
-def _where(place: Place, package: PackageReport) -> str:
-    path = posixpath.normpath(posixpath.join(package.path, place.file or "."))
-    return f"{plain(path)}:{place.line}:{place.column}"
-
-
-def _frame(place: Place, palette: Palette) -> Iterator[str]:
-    """Show the source line with a caret below the marked text."""
-    if not place.snippet.strip():
-        return
-    column = place.column - 1
-    end = place.end_column - 1 if place.end_line == place.line else len(place.snippet)
-    start = max(0, min(column - 40, len(place.snippet) - SNIPPET_WIDTH))
-    shown = plain(place.snippet.expandtabs(1))[start : start + SNIPPET_WIDTH]
-    width = max(1, min(end, start + SNIPPET_WIDTH) - column)
-    number = str(place.line)
-    yield f"    {palette.dim(number + ' |')} {shown.rstrip()}"
-    yield f"    {' ' * len(number)} {palette.dim('|')} {' ' * (column - start)}{'^' * width}"
-
-
 def _inherited(package: PackageReport) -> Iterator[str]:
     by_source: dict[str, list[str]] = {}
     for part in package.inherited:
@@ -129,18 +85,22 @@ def _not_checked(not_checked: Sequence[NotChecked]) -> Iterator[str]:
         if each.cause is not Cause.NOT_APPLICABLE:
             by_reason.setdefault(each.reason, []).append(each.rule)
     for reason, rules in by_reason.items():
-        yield f"not checked: {', '.join(rules)}: {plain(reason)}"
+        yield f"not checked: {', '.join(rules)}: {plain(shortened(reason, MESSAGE_LIMIT))}"
 
 
 def _facts(facts: Mapping[str, object]) -> Iterator[str]:
-    if not facts:
-        return
+    """Show figures in one line: numbers of parts, quantities with their units, and words."""
     shown = []
     for name, value in facts.items():
-        label, _, unit = name.partition("_kg")
-        text = f"{value:g} kg" if isinstance(value, float) and name.endswith("_kg") else str(value)
-        shown.append(f"{label} {text}" if unit == "" else f"{name} {text}")
-    yield plain("; ".join(shown))
+        words, _, unit = name.rpartition("_")
+        if isinstance(value, float) and unit in UNITS:
+            shown.append(f"{words.replace('_', ' ')} {value:.4g} {UNITS[unit]}")
+        elif isinstance(value, int):
+            shown.append(count(value, name.replace("_", " ").removesuffix("s")))
+        else:
+            shown.append(f"{name.replace('_', ' ')} {value}")
+    if shown:
+        yield plain(", ".join(shown))
 
 
 def _verdict(package: PackageReport, palette: Palette) -> str:
@@ -152,8 +112,9 @@ def _verdict(package: PackageReport, palette: Palette) -> str:
             sentence = "Not ready: " + ", ".join(filter(None, said))
         case VerdictKind.INCOMPLETE:
             blind = len(package.blind_spots)
-            reasons = listed(list(dict.fromkeys(n.reason for n in package.blind_spots))[:3])
-            said = [f"{count(blind, 'rule')} could not look: {plain(reasons)}", looks]
+            different = list(dict.fromkeys(n.reason for n in package.blind_spots))
+            reasons = plain(shortened(listed(different[:3]), MESSAGE_LIMIT))
+            said = [f"{count(blind, 'rule')} could not look: {reasons}", looks]
             sentence = "Incomplete: no error, but " + ", ".join(filter(None, said))
         case _:
             sentence = "Ready" + (f": {looks}" if looks else ": nothing to fix")
@@ -163,14 +124,22 @@ def _verdict(package: PackageReport, palette: Palette) -> str:
     return palette.verdict(package.verdict, f"{plain(package.name)}: {sentence}")
 
 
-def _summary(report: Report, palette: Palette) -> str:
+def _summary(packages: Sequence[PackageReport], palette: Palette) -> str:
     """One line a package, then the counts of all."""
-    width = max(len(package.name) for package in report.packages)
+    width = max(len(plain(package.name)) for package in packages)
     lines = []
-    for package in report.packages:
+    for package in packages:
         numbers = "  ".join(f"{package.count(level):4d} {level}" for level in Severity)
-        verdict = palette.verdict(package.verdict, f"{package.verdict:<10}")
+        verdict = palette.verdict(package.verdict, f"{_word(package.verdict):<10}")
         lines.append(f"{plain(package.name):<{width}}  {verdict}  {numbers}")
-    ready = sum(package.verdict is VerdictKind.READY for package in report.packages)
-    lines.append(f"{count(len(report.packages), 'package')}, {ready} ready")
+    ready = sum(package.verdict is VerdictKind.READY for package in packages)
+    lines.append(f"{count(len(packages), 'package')}, {ready} ready")
     return "\n".join(lines) + "\n"
+
+
+def _word(verdict: VerdictKind) -> str:
+    return verdict.replace("_", " ")
+
+
+def _skipped(each: NotOpened) -> str:
+    return f"not looked at: {plain(each.path)} {plain(each.reason)}\n"

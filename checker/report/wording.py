@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
+_CONTROL = re.compile(
+    r"[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff]"
+)
 
 
 def count(number: int, noun: str) -> str:
@@ -21,5 +23,13 @@ def listed(words: Sequence[str]) -> str:
 
 
 def plain(text: str) -> str:
-    """Replace characters that would steer a terminal: escapes, line breaks, bidi marks."""
+    """Replace characters that would steer a terminal: escapes, line breaks, bidi marks.
+
+    Halves of surrogate pairs, which stand for bytes of file names that are no text, go too.
+    """
     return _CONTROL.sub("\N{REPLACEMENT CHARACTER}", text)
+
+
+def shortened(text: str, limit: int) -> str:
+    """Return a text, or its beginning with an ellipsis when it is longer than `limit`."""
+    return text if len(text) <= limit else text[: limit - 1] + "…"

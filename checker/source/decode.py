@@ -13,6 +13,12 @@ _BOMS = (
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
 _DECLARED = re.compile(rb"""^\s*<\?xml[^>]*encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
+# A file may declare any codec that Python has, and some of those take quadratic time.
+_KNOWN = re.compile(
+    r"utf-?(?:8|16|32)(?:-?[lb]e)?|us-ascii|ascii|latin-?1|iso-8859-\d{1,2}|windows-125\d|cp125\d"
+    r"|koi8-[ru]|shift_jis|euc-(?:jp|kr)|gb2312|gbk|gb18030|big5",
+    re.IGNORECASE,
+)
 
 
 class NotText(ValueError):
@@ -35,6 +41,8 @@ def decode(data: bytes) -> str:
     else:
         if declared := _DECLARED.match(data[:200]):
             encoding = declared.group(1).decode("ascii")
+    if not _KNOWN.fullmatch(encoding):
+        raise NotText(f"declares the unknown encoding {encoding!r}")
     try:
         text = data.decode(encoding)
     except LookupError:

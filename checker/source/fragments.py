@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from typing import ClassVar
 
 from checker.finding import Place
 from checker.source.positions import XmlFault
@@ -10,6 +12,7 @@ from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument, parse_xml
 
 ROOT = "emitted"
+_DECLARATION = re.compile(r"\A\s*<\?xml\s[^>]*\?>")
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +23,8 @@ class WrappedText(SourceText):
         inner: The text without the wrapping.
         offset: Characters in front of it.
     """
+
+    wrapper: ClassVar[str] = ROOT
 
     inner: SourceText
     offset: int
@@ -34,7 +39,8 @@ class WrappedText(SourceText):
 def parse_fragments(source: SourceText) -> XmlDocument | XmlFault:
     """Parse any number of elements side by side; they stand below an element `emitted`."""
     opening = f"<{ROOT}>"
-    text = f"{opening}{source.text}</{ROOT}>"
+    inner = _DECLARATION.sub(lambda found: " " * len(found.group()), source.text)
+    text = f"{opening}{inner}</{ROOT}>"
     return parse_xml(WrappedText(source.file, text, source, len(opening)))
 
 

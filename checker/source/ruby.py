@@ -13,7 +13,7 @@ from itertools import accumulate
 
 from checker.source.text import SourceText, Span
 
-_LEFT_OUT = frozenset({"comment", "heredoc_body", "empty_statement"})
+_LEFT_OUT = frozenset({"comment", "heredoc_body", "empty_statement", "uninterpreted"})
 
 
 @dataclass(eq=False, slots=True)
@@ -79,8 +79,7 @@ def parse_ruby(source: SourceText) -> RubyNode:
     to_chars = _byte_to_char(source.text)
     cursor = tree.walk()
     path: list[RubyNode] = []
-    while True:
-        raw = cursor.node
+    while (raw := cursor.node) is not None:
         node = RubyNode(
             source,
             raw.type,
@@ -100,6 +99,7 @@ def parse_ruby(source: SourceText) -> RubyNode:
                 return path[0]
             path.pop()
         path.pop()
+    raise AssertionError("a cursor always stands on a node")
 
 
 def _attach(parent: RubyNode, node: RubyNode, field_name: str | None) -> None:
@@ -111,12 +111,18 @@ def _attach(parent: RubyNode, node: RubyNode, field_name: str | None) -> None:
 
 
 def _join_heredocs(root: RubyNode) -> None:
-    """Give each heredoc's opening its body: bodies follow in the order of the openings."""
+    """Give each heredoc's opening its body: bodies follow in the order of the openings.
+
+    The grammar misplaces the body of a heredoc that is opened inside another one's body, so
+    such an opening gets none.
+    """
     waiting: list[RubyNode] = []
+    inside = 0
     for node in root.walk():
-        if node.type == "heredoc_beginning":
+        if node.type == "heredoc_beginning" and node.start >= inside:
             waiting.append(node)
         elif node.type == "heredoc_body" and waiting:
+            inside = max(inside, node.end)
             end = node.children[-1].text.strip() if node.children else ""
             if end == heredoc_identifier(waiting[0]):
                 waiting.pop(0).heredoc = node

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Generic, TypeVar
+from typing import ClassVar, Generic, TypeVar
 
 from checker.finding import Place
 
@@ -21,7 +21,10 @@ class SourceText:
     Attributes:
         file: Path relative to the package folder (see `Place.file`).
         text: The text, line endings as in the file.
+        wrapper: Tag of an element around the text that nobody wrote; empty for none.
     """
+
+    wrapper: ClassVar[str] = ""
 
     file: str
     text: str = field(repr=False)

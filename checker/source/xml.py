@@ -8,16 +8,23 @@ Entities, document types and network access are off in both.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from lxml import etree
 
-from checker.source.positions import TagPosition, XmlFault, locate_tags
+from checker.source.markup import blank_markup
+from checker.source.namespaces import attribute_keys, namespace_faults
+from checker.source.positions import TagPosition, XmlFault
 from checker.source.start_tag import AttributeSpans, scan_start_tag
+from checker.source.tags import locate_tags
 from checker.source.text import Located, SourceText, Span
 
 MAX_DEPTH = 250
+_PATH_LIMIT = 400
+"""Characters of an element's path; what is longer keeps its end."""
+_BLANKS = " \t\r\n"
+"""XML's own; a no-break space is none of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +45,20 @@ class XmlDocument:
     @cached_property
     def _order(self) -> dict[etree._Element, int]:
         return {node: index for index, node in enumerate(self.tree.iter(etree.Element))}
+
+    @cached_property
+    def twins(self) -> dict[etree._Element, int]:
+        """The number, from 1, of each nameless element among its likes under one parent."""
+        twins: dict[etree._Element, int] = {}
+        for parent in self._order:
+            groups: dict[object, list[etree._Element]] = {}
+            for node in parent.iterchildren(etree.Element):
+                if node.get("name") is None:
+                    groups.setdefault(node.tag, []).append(node)
+            for group in groups.values():
+                if len(group) > 1:
+                    twins.update((node, number) for number, node in enumerate(group, 1))
+        return twins
 
     @cached_property
     def elements(self) -> list[Element]:
@@ -62,24 +83,31 @@ class XmlDocument:
 
 
 def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
-    """Parse a text, or say why it is not well-formed XML."""
+    """Parse a text, or say why it is not well-formed XML.
+
+    expat judges what is well-formed. What lxml alone objects to (namespaces) is tolerated.
+    """
     located = locate_tags(source, MAX_DEPTH)
     if isinstance(located, XmlFault):
         return located
+    # Without document types, and with the depth known, huge texts do no harm.
     parser = etree.XMLParser(
-        encoding="utf-8", resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False
+        encoding="utf-8",
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        huge_tree=True,
+        recover=True,
     )
-    try:
-        tree = etree.fromstring(located.text.encode("utf-8"), parser)
-    except etree.XMLSyntaxError as error:
-        return _lxml_fault(source, error)
-    return XmlDocument(source, tree, located.tags, located.tolerated)
-
-
-def _lxml_fault(source: SourceText, error: etree.XMLSyntaxError) -> XmlFault:
-    line, column = error.position
-    at = source.line_span(max(1, line)).start + max(0, column - 1)
-    return XmlFault(Span(source, at, at), str(error.msg).split(", line")[0])
+    tree = etree.fromstring(located.text.encode("utf-8"), parser)
+    count = sum(1 for _ in tree.iter(etree.Element)) if tree is not None else 0
+    if count != len(located.tags):
+        said = parser.error_log[0].message if len(parser.error_log) else "the tree is incomplete"
+        return XmlFault(source.whole(), said)
+    document = XmlDocument(source, tree, located.tags, located.tolerated)
+    if not len(parser.error_log):
+        return document
+    return replace(document, tolerated=(*located.tolerated, *namespace_faults(document)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,10 +123,10 @@ class Element:
         """The text this element stands in."""
         return self.document.source
 
-    @property
+    @cached_property
     def tag(self) -> str:
         """Name as written, with its prefix (`xacro:macro`)."""
-        name = etree.QName(self.node).localname
+        name = str(self.node.tag).rpartition("}")[2]
         return f"{self.node.prefix}:{name}" if self.node.prefix else name
 
     @cached_property
@@ -108,17 +136,11 @@ class Element:
         name = self.node.get("name")
         if name is not None:
             label += f"[{name}]"
-        elif (twins := self._index_among_twins()) is not None:
-            label += f"[{twins}]"
+        elif (twin := self.document.twins.get(self.node)) is not None:
+            label += f"[{twin}]"
         parent = self.parent
-        return f"{parent.path}/{label}" if parent is not None else label
-
-    def _index_among_twins(self) -> int | None:
-        parent = self.node.getparent()
-        if parent is None:
-            return None
-        same = [node for node in parent.iterchildren(self.node.tag) if node.get("name") is None]
-        return same.index(self.node) + 1 if len(same) > 1 else None
+        path = f"{parent.path}/{label}" if parent is not None else label
+        return path if len(path) <= _PATH_LIMIT else f"…{path[-_PATH_LIMIT:]}"
 
     @cached_property
     def span(self) -> Span:
@@ -171,20 +193,9 @@ class Element:
 
     @property
     def attributes(self) -> dict[str, str]:
-        """Attribute values by their names as written."""
-        return {name: self.node.get(key, "") for name, key in self._attribute_keys().items()}
-
-    def _attribute_keys(self) -> dict[str, str]:
-        prefixes = {uri: prefix for prefix, uri in self.node.nsmap.items()}
-        keys = {}
-        for raw in self.node.attrib:
-            key = str(raw)
-            if key.startswith("{"):
-                uri, local = key[1:].split("}", 1)
-                keys[f"{prefixes.get(uri) or 'xml'}:{local}"] = key
-            else:
-                keys[key] = key
-        return keys
+        """Attribute values by their names as written; declarations of namespaces are none."""
+        keys = attribute_keys(self.node, self._scanned.attributes)
+        return {name: self.node.get(key, "") for name, key in keys.items()}
 
     def get(self, attribute: str, default: str | None = None) -> str | None:
         """Return an attribute's value without its place."""
@@ -222,25 +233,27 @@ class Element:
     @cached_property
     def text(self) -> Located[str]:
         """Text without the blanks around it; its place is the start tag when there is none."""
-        value = self.raw_text.strip()
+        value = self.raw_text.strip(_BLANKS)
         if not value:
             return Located("", self.span, stated=False)
         return Located(value, self.text_span)
 
     @cached_property
     def text_span(self) -> Span:
-        """Where the text stands: from its first to its last character that is no blank."""
+        """Where the text stands: from its first to its last character that is no blank.
+
+        Comments, processing instructions and the brackets of CDATA at its ends are left out.
+        """
         start = self.position.start_end
         first = next(iter(self.node.iterchildren(etree.Element)), None)
         end = self.position.end_start
         if first is not None:
             end = self.document.element_of(first).position.start
-        raw = self.source.text[start:end]
-        if not raw.strip():
+        text = blank_markup(self.source.text[start:end])
+        if not text.strip(_BLANKS):
             return self.span
-        return Span(
-            self.source,
-            start + len(raw) - len(raw.lstrip()),
-            end - len(raw) + len(raw.rstrip()),
-            self.path,
+        start, end = (
+            start + len(text) - len(text.lstrip(_BLANKS)),
+            start + len(text.rstrip(_BLANKS)),
         )
+        return Span(self.source, start, end, self.path)

@@ -192,10 +192,10 @@ class _Builder:
 
     def _collection(self, opened: _Open, end: Event) -> YamlNode:
         event, children = opened.event, opened.children
-        # The end of a block collection is found behind blank lines and comments.
         span = self._span(event, end)
-        written = span.text.rstrip()
-        span = Span(self._source, span.start, span.start + len(written))
+        if children and not event.flow_style:
+            # libyaml ends a block collection behind the blank lines and comments below it.
+            span = Span(self._source, span.start, children[-1].span.end)
         size = 1 + sum(child.size for child in children)
         height = 1 + max((child.height for child in children), default=0)
         if isinstance(event, MappingStartEvent):

@@ -12,6 +12,9 @@ from checker.spawner.limits import MAX_INTEGER_BITS, LimitReached
 
 Number = int | float
 
+MAX_ROUND_DIGITS = 14
+"""Ruby rounds the scaled double up to here, and by other means beyond."""
+
 
 class NotReal(ValueError):
     """The result would be a Rational or a Complex number, which the reader does not know."""
@@ -30,9 +33,12 @@ def _divide(left: Number, right: Number) -> Number:
 def _modulo(left: Number, right: Number) -> Number:
     if isinstance(left, int) and isinstance(right, int):
         return left % right
-    if right == 0 or math.isinf(left):
+    if right == 0:
+        raise ZeroDivisionError
+    if math.isinf(left):
         return math.nan
-    return float(left) % float(right)
+    rest = math.fmod(left, right)
+    return rest + right if rest * right < 0 else rest  # the product may underflow, as in Ruby
 
 
 def _power(left: Number, right: Number) -> Number:
@@ -70,7 +76,7 @@ def calculate(sign: str, left: Number, right: Number) -> Number | None:
     """Return the result of an arithmetic operator, or None when it is none.
 
     Raises:
-        ZeroDivisionError: Division of an integer by the integer 0.
+        ZeroDivisionError: Division of an integer by the integer 0, or a remainder by any 0.
         NotReal: The result is no integer and no float.
         LimitReached: The integer becomes too large.
     """
@@ -84,49 +90,47 @@ def calculate(sign: str, left: Number, right: Number) -> Number | None:
 
 
 def round_number(number: Number, digits: int = 0) -> Number:
-    """Round halves away from zero, as Ruby does.
+    """Round halves away from zero, as Ruby does: the double scaled by a power of ten.
 
-    Floats stay floats when digits behind the point are asked for. Below 14 digits Ruby rounds
-    the scaled double; further ones exactly.
-
-    Raises:
-        OverflowError: Infinity has no integer.
-        ValueError: NaN has no integer.
+    Args:
+        number: Finite when no digits behind the point are asked for.
+        digits: Digits behind the point, at most `MAX_ROUND_DIGITS`; floats stay floats for some.
     """
     if isinstance(number, int):
-        return number if digits >= 0 else _round_fraction(Fraction(number), digits)
-    if digits <= 0:
-        return _round_fraction(Fraction(number), digits) if digits else _round_half_up(number, 1)
-    if not math.isfinite(number) or number == 0 or _already_round(number, digits):
+        return number if digits >= 0 else _round_whole(Fraction(number), digits)
+    if digits < 0:
+        return _round_whole(Fraction(number), digits)
+    if digits == 0:
+        return int(math.copysign(_half_up(abs(number), 1.0), number))
+    if not math.isfinite(number) or _already_round(number, digits):
         return number
-    if digits > 14:
-        return float(Fraction(_scaled(Fraction(number), digits), 10**digits))
-    return _round_half_up(number, 10.0**digits) / 10.0**digits
+    if digits < -math.frexp(number)[1] // 4:  # far below the last digit: zero without a sign
+        return 0.0
+    scale = 10.0**digits
+    return math.copysign(_half_up(abs(number), scale) / scale, number)
 
 
 def _already_round(number: float, digits: int) -> bool:
     """Whether a double has no digits behind `digits` to lose."""
     exponent = math.frexp(number)[1]
-    lost = exponent // 4 if exponent > 0 else -(-exponent // 3) - 1
-    return digits >= 17 - lost
+    whole = exponent // 4 if exponent > 0 else -(-exponent // 3) - 1
+    return digits >= 17 - whole
 
 
-def _round_half_up(number: float, scale: float) -> int:
-    scaled = number * scale
-    near = math.floor(abs(scaled))
-    near += abs(scaled) - near >= 0.5
-    if scale != 1 and (near + 0.5) / scale <= abs(number):
+def _half_up(size: float, scale: float) -> float:
+    scaled = size * scale
+    if math.isinf(scaled):
+        return scaled
+    near = float(math.floor(scaled))
+    near += scaled - near >= 0.5
+    if scale != 1 and (near + 0.5) / scale <= size:
         near += 1
-    return int(math.copysign(near, number)) if near < 2**53 else int(scaled)
+    return near
 
 
-def _scaled(number: Fraction, digits: int) -> int:
-    scaled = abs(number) * Fraction(10) ** digits
-    whole = math.floor(scaled + Fraction(1, 2))
-    return whole if number >= 0 else -whole
-
-
-def _round_fraction(number: Fraction, digits: int) -> int:
+def _round_whole(number: Fraction, digits: int) -> int:
     if digits < -400:
         return 0
-    return _scaled(number, digits) * int(10**-digits)
+    scale = int(10**-digits)
+    near = math.floor(abs(number) / scale + Fraction(1, 2)) * scale
+    return near if number >= 0 else -near

@@ -30,7 +30,7 @@ class EmittedText(SourceText):
     @classmethod
     def of(cls, traced: TracedString, origin: Span) -> EmittedText:
         """Make it of what the function at `origin` returned."""
-        pieces = tuple(piece.within(origin) for piece in traced.pieces)
+        pieces = tuple(piece.rooted(origin) for piece in traced.pieces)
         return cls(origin.source.file, traced.text, origin, pieces)
 
     @cached_property

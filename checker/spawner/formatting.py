@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Decimal
 
 from checker.spawner.limits import Budget
 from checker.spawner.values import (
@@ -40,22 +41,21 @@ class NotWritable(ValueError):
 def float_text(number: float) -> str:
     """Write a float as Ruby does: the shortest digits that read back as the same number.
 
-    Ruby writes an exponent below 0.0001 and from 1e16 on.
+    Ruby writes an exponent below 0.0001, and from 1e15 on unless digits behind the point are
+    left (up to 1e16).
     """
     if math.isnan(number):
         return "NaN"
     if math.isinf(number):
         return "Infinity" if number > 0 else "-Infinity"
-    if number == 0 or 1e-4 <= abs(number) < 1e16:
-        shortest = repr(number)
-        return shortest if "e" not in shortest else f"{number:.1f}"
-    mantissa, _, exponent = repr(number).partition("e")
-    if not exponent:
-        mantissa, _, exponent = f"{number:.17e}".partition("e")
-    power = int(exponent)
-    if "." not in mantissa:
-        mantissa += ".0"
-    return f"{mantissa}e{'-' if power < 0 else '+'}{abs(power):02d}"
+    size = abs(number)
+    if size == 0 or 1e-4 <= size < 1e15 or (1e15 <= size < 1e16 and size % 1):
+        return repr(number)
+    sign, digits, exponent = Decimal(repr(number)).normalize().as_tuple()
+    text = "".join(map(str, digits))
+    power = int(exponent) + len(digits) - 1
+    mark = "-" if power < 0 else "+"
+    return f"{'-' * sign}{text[0]}.{text[1:] or '0'}e{mark}{abs(power):02d}"
 
 
 def to_s(data: Data, budget: Budget) -> str:

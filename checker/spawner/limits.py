@@ -12,7 +12,7 @@ MAX_TEXT_LENGTH = 5_000_000
 """Characters of one string."""
 MAX_DEPTH = 110
 """Nested evaluations, so that Python's own stack (1000 frames) is never used up."""
-MAX_CALLS = 60
+MAX_CALLS = 40
 """Ruby functions that may be waiting for each other."""
 MAX_INTEGER_BITS = 1000
 """Below the largest exponent of a double, so that every integer has a float."""

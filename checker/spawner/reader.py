@@ -14,7 +14,7 @@ from checker.spawner.evaluator.interpreter import Interpreter
 from checker.spawner.evaluator.statements import function_of
 from checker.spawner.evaluator.table import HANDLERS
 from checker.spawner.files import SpawnerFiles
-from checker.spawner.limits import MAX_FILE_LENGTH
+from checker.spawner.limits import MAX_FILE_LENGTH, LimitReached
 from checker.spawner.scope import Function, Scope
 from checker.spawner.signals import Broken, Continued, Returned, RubyError, Unread, Unreadable
 from checker.spawner.syntax import SyntaxFault, syntax_faults
@@ -139,11 +139,8 @@ class _Program:
             return stop.unread
         except RubyError as error:
             return Unread(error.span, f"raises {error.kind}: {error.message[:200]}")
-        except (Broken, Continued, Returned):
-            return Unread(whole, "leaves a loop or a function that it is not in")
-        except RecursionError:
-            # The depth limit leaves most of Python's stack to the caller; it may have less.
-            return Unread(whole, "is nested too deeply")
+        except (LimitReached, Broken, Continued, Returned, RecursionError) as stop:
+            return Unread(whole, _reason(stop))
         finally:
             self.sources.update(run.sources)
             self.functions.update(run.functions)
@@ -161,6 +158,16 @@ class _Program:
         if not isinstance(result.data, RubyString):
             return Unread(span, f"returns {class_name(result.data)} instead of a text")
         return EmittedText.of(run.traced(result, span), span)
+
+
+def _reason(stop: Exception) -> str:
+    """Say why a run ended outside any construct that could be named."""
+    if isinstance(stop, LimitReached):
+        return str(stop)
+    if isinstance(stop, RecursionError):
+        # The depth limit leaves most of Python's stack to the caller; it may have had less.
+        return "is nested too deeply"
+    return "leaves a loop or a function that it is not in"
 
 
 def _ruby(argument: Argument) -> Value:

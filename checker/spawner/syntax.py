@@ -12,7 +12,6 @@ from checker.source.text import Span
 SyntaxFault = tuple[Span, str]
 
 _QUOTES = frozenset({'"', "'"})
-_OPENERS = frozenset({"def", "begin", "class", "module", "do"})
 
 
 def syntax_faults(tree: RubyNode) -> tuple[SyntaxFault, ...]:
@@ -41,10 +40,10 @@ def _open_heredoc(
 
 
 def _stray_end(
-    _tree: RubyNode, nodes: list[RubyNode], _errors: list[RubyNode], first: int
+    tree: RubyNode, _nodes: list[RubyNode], _errors: list[RubyNode], first: int
 ) -> SyntaxFault | None:
     """The parser takes an `end` that closes nothing for a name, which no name can be."""
-    for node in nodes:
+    for node in tree.parts:
         if node.type == "identifier" and node.start < first and node.text == "end":
             return node.span, "this end closes nothing"
     return None

@@ -50,8 +50,12 @@ class Piece:
             return self
         return replace(self, parameters=self.parameters | parameters)
 
-    def within(self, span: Span) -> Piece:
-        """Return the piece with `span` as its origin, when it has none of its own outside it."""
+    def rooted(self, span: Span) -> Piece:
+        """Return the piece with `span` as its origin, when it has none."""
+        return replace(self, span=span) if self.span is None else self
+
+    def computed_by(self, span: Span) -> Piece:
+        """Return the piece with `span` as its origin, when a part of `span` computed it."""
         if self.span is None or (not self.literal and _holds(span, self.span)):
             return replace(self, span=span)
         return self
@@ -113,9 +117,13 @@ class TracedString:
             return self
         return TracedString(tuple(piece.influenced(parameters) for piece in self.pieces))
 
-    def within(self, span: Span) -> TracedString:
-        """Return the text with `span` as the origin of what has none of its own outside it."""
-        return TracedString(tuple(piece.within(span) for piece in self.pieces))
+    def rooted(self, span: Span) -> TracedString:
+        """Return the text with `span` as the origin of what has none."""
+        return TracedString(tuple([piece.rooted(span) for piece in self.pieces]))
+
+    def computed_by(self, span: Span) -> TracedString:
+        """Return the text with `span` as the origin of what a part of `span` computed."""
+        return TracedString(tuple([piece.computed_by(span) for piece in self.pieces]))
 
 
 def joined(parts: Iterable[TracedString]) -> TracedString:

@@ -87,7 +87,7 @@ def _name(kind: SensorKind) -> str:
 
 
 def _words(item: ListedSensor) -> str:
-    text = " ".join(item.text.split())
+    text = " ".join(item.text.split()).rstrip(".")
     return f"{text[:77]}..." if len(text) > 80 else text
 
 

@@ -8,13 +8,15 @@ Source: SDFormat specification, joint/parent and joint/child.
 
 from checker.model.robot import Joint, Robot
 from checker.model.schema import nearest
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 
 @rule("KIN001", "unknown-joint-end", Severity.ERROR)
 def check(robot: Robot) -> Findings:
     """Report joints that end at nothing."""
+    for uri in robot.unresolved_includes:
+        yield unchecked(f"{uri.value or 'an include without <uri>'} is not at hand")
     names = robot.attachable_names
     for joint in robot.joints:
         for role, end in (("parent", joint.parent), ("child", joint.child)):

@@ -10,11 +10,13 @@ Source: REP 140 and catkin: the project name must equal the package name.
 
 from collections.abc import Iterator
 
+from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.paperwork import Paperwork
 from checker.rule import Finding, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
+from checker.source.xml import XmlDocument
 
 
 @rule("PKG002", "names-disagree", Severity.ERROR)
@@ -26,8 +28,10 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
         yield from _compare(paperwork.manifest.name, package.name, "package.xml names the package")
     if paperwork.build is not None and (project := paperwork.build.project) is not None:
         yield from _compare(project, package.name, "CMakeLists.txt names the project")
-    if paperwork.config is not None:
-        yield from _shown_name(paperwork.config.name, package.name)
+    shown = paperwork.config.name if paperwork.config is not None else None
+    if shown is not None:
+        yield from _shown_name(shown, package.name)
+    yield from _model_name(package, shown.value if shown is not None else package.name)
 
 
 def _compare(name: Located[str], folder: str, saying: str) -> Iterator[Finding]:
@@ -45,6 +49,22 @@ def _shown_name(name: Located[str], folder: str) -> Iterator[Finding]:
         yield finding(
             name,
             f"model.config names the model {name.value!r}, the folder is {folder!r}",
+            severity=Severity.INFO,
+        )
+
+
+def _model_name(package: Package, shown: str) -> Iterator[Finding]:
+    """The package's own model may bear the folder's name or that of model.config."""
+    path = package.model_path
+    document = package.xml(path.path) if isinstance(path, Found) else None
+    if not isinstance(document, XmlDocument) or document.source.file.startswith("../"):
+        return
+    model = document.root.child("model")
+    name = model.attribute("name") if model is not None else None
+    if name is not None and name.value not in (package.name, shown):
+        yield finding(
+            name,
+            f"the model is called {name.value!r}, the package {package.name!r}",
             severity=Severity.INFO,
         )
 
@@ -67,4 +87,5 @@ BAD = [
 </model>
 """
     },
+    {"model.sdf": '<sdf version="1.6"><model name="rover"/></sdf>  <!-- ^ PKG002 -->\n'},
 ]

@@ -14,7 +14,7 @@ from fnmatch import fnmatch
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.paperwork import Paperwork
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.cmake import CMakeFile
 
 FOLDERS = {
@@ -34,6 +34,9 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
     """Compare what is there with what the build file installs."""
     build = paperwork.build
     if build is None or package.kind in (PackageKind.PLUGIN, PackageKind.UNKNOWN):
+        return
+    if build.faults:
+        yield unchecked(f"CMakeLists.txt cannot be read to its end: {build.faults[0].message}")
         return
     installed = _installed(build)
     whole = "" in installed

@@ -13,7 +13,7 @@ from typing import Any
 
 from checker.model.robot import Robot
 from checker.resources import table
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _CLASSIC = re.compile(r"(?:gazebo_ros|hector_gazebo)_.*")
 
@@ -21,6 +21,8 @@ _CLASSIC = re.compile(r"(?:gazebo_ros|hector_gazebo)_.*")
 @rule("PLG001", "classic-plugin", Severity.ERROR)
 def check(robot: Robot) -> Findings:
     """Report plugins whose library is Gazebo Classic's."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
     for plugin in robot.all_plugins:
         library = plugin.filename.value.rsplit("/", 1)[-1].removeprefix("lib").removesuffix(".so")
         known = _replacement(library)

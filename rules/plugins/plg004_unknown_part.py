@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from checker.model.robot import Plugin, Robot
 from checker.model.schema import nearest
 from checker.resources import table
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -24,6 +24,8 @@ def check(robot: Robot) -> Findings:
         "joint": frozenset(robot.joints_by_name),
         "link": frozenset(robot.links_by_name),
     }
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
     for plugin in robot.all_plugins:
         parameters = table("plugin_references")["plugins"].get(plugin.class_name, {})
         for path, kind in parameters.items():

@@ -28,8 +28,11 @@ def check(package: Package, robot: Robot) -> Findings:
         path = _path(package, robot.folder, uri.value)
         if path is None or package.exists(path):
             continue
-        hint = _hint(package, path)
-        yield finding(uri, f"{uri.value} does not exist: looked for {path}{hint}", key=path)
+        if (other := _sibling(path)) and not _at_hand(package, other):
+            yield unchecked(f"{uri.value} lies in {other}, which is not at hand")
+            continue
+        where = f": looked for {path}" if path != uri.value else ""
+        yield finding(uri, f"{uri.value} does not exist{where}{_hint(package, path)}", key=path)
 
 
 def _path(package: Package, folder: str, uri: str) -> str | None:
@@ -43,6 +46,11 @@ def _path(package: Package, folder: str, uri: str) -> str | None:
     if _ELSEWHERE.match(uri) or uri.startswith("/") or not uri:
         return None
     return posixpath.normpath(posixpath.join(folder, uri))
+
+
+def _sibling(path: str) -> str:
+    """Return the package beside this one that a path leads into."""
+    return path.split("/")[1] if path.startswith("../") else ""
 
 
 def _at_hand(package: Package, name: str) -> bool:

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 
 from checker.model.launch.bridge import Bridge, SensorTopic
 from checker.model.launch.graph import LaunchGraph
-from checker.model.robot import Robot
+from checker.model.robot import Link, Robot
 from checker.model.schema import nearest
 from checker.rule import Finding, Findings, Severity, finding, rule
 
@@ -33,10 +33,12 @@ TOPICS: Mapping[str, frozenset[str]] = {
     "magnetometer": frozenset({"magnetometer"}),
     "rgbd": _DEPTH,
     "rgbd_camera": _DEPTH,
-    "thermal": _IMAGE,
-    "thermal_camera": _IMAGE,
+    "thermal": _IMAGE | {""},
+    "thermal_camera": _IMAGE | {""},
 }
-"""What a sensor of each type publishes below its own topic."""
+"""What a sensor of each type publishes below its own topic; thermal images come without suffix."""
+
+THERMAL = ("thermal", "thermal_camera")
 
 
 @rule("ROS002", "bridge-of-nothing", Severity.ERROR)
@@ -61,6 +63,8 @@ def _fault(robot: Robot, topic: SensorTopic) -> str | None:
         hint = f"; did you mean {near!r}?" if near else ""
         return f"link {topic.link!r}, which the model does not have{hint}"
     sensor = next((s for s in link.sensors if s.name.value == topic.sensor), None)
+    if sensor is None and topic.sensor == "camera_info" and _has_thermal_camera(link):
+        return None
     if sensor is None:
         return f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic)}"
     published = TOPICS.get(sensor.type.value)
@@ -68,8 +72,13 @@ def _fault(robot: Robot, topic: SensorTopic) -> str | None:
         return None
     return (
         f"{topic.suffix or 'no topic'!r} of {sensor.type.value} {topic.sensor!r}, "
-        f"which publishes {', '.join(sorted(published))}"
+        f"which publishes {', '.join(sorted(filter(None, published)))}"
     )
+
+
+def _has_thermal_camera(link: Link) -> bool:
+    """Gazebo Dome drops the sensor's name from the camera_info topic of thermal cameras."""
+    return any(sensor.type.value in THERMAL for sensor in link.sensors)
 
 
 def _whereabouts(robot: Robot, topic: SensorTopic) -> str:

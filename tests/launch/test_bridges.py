@@ -14,7 +14,8 @@ PREFIX = '<arg name="p" value="/world/w/model/X1/link/base/sensor"/>'
 
 
 def bridge_node(args: str, type_: str = "parameter_bridge", inside: str = "") -> str:
-    return f'<group ns="X1"><node pkg="b" type="{type_}" name="n" args="{args}">{inside}</node></group>'
+    node = f'<node pkg="b" type="{type_}" name="n" args="{args}">{inside}</node>'
+    return f'<group ns="X1">{node}</group>'
 
 
 @pytest.mark.parametrize(

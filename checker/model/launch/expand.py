@@ -87,17 +87,19 @@ class _Expansion:
             faults=tuple(self._reader.faults),
         )
 
-    def expand(self, parent: Element, scope: Scope) -> None:
+    def expand(self, parent: Element, scope: Scope) -> bool:
+        """Follow the elements below one; False when a limit keeps it from seeing them all."""
         if scope.depth > MAX_DEPTH:
             message = f"groups and files are nested deeper than {MAX_DEPTH} levels"
             self._reader.fault(LaunchFaultKind.LIMIT, parent, message)
-            return
+            return False
         for element in parent.children:
             if not self._reader.charge(element, 1):
-                return
+                return False
             handler = self._handlers.get(element.tag)
             if handler and self._reader.enabled(element, scope):
                 handler(element, scope)
+        return True
 
     def _arg(self, element: Element, scope: Scope) -> None:
         name = element.get("name") or ""
@@ -236,8 +238,8 @@ class _Expansion:
             return
         self._includes.append(Include(document.source.file, arguments, span))
         file = LaunchFile(document, arguments, span, inclusion.passes_all, (*chain, key))
-        self.expand(document.root, scope.of_file(file))
-        if inclusion.passes_all or self._reader.exhausted:
+        complete = self.expand(document.root, scope.of_file(file))
+        if inclusion.passes_all or not complete:
             return
         for name, place in inclusion.argument_places.items():
             if name not in file.declared:

@@ -34,11 +34,6 @@ class Reader:
         self.undecided: list[Located[str]] = []
         self._steps = MAX_STEPS
 
-    @property
-    def exhausted(self) -> bool:
-        """Whether all steps are used up."""
-        return self._steps <= 0
-
     def fault(self, kind: LaunchFaultKind, where: Element | Span, message: str) -> None:
         """Remember a fault."""
         self.faults.append(LaunchFault(kind, where.span, message))
@@ -49,7 +44,7 @@ class Reader:
         if before > 0 >= self._steps:
             message = f"the launch file takes more than {MAX_STEPS} steps to follow"
             self.fault(LaunchFaultKind.LIMIT, element, message)
-        return not self.exhausted
+        return self._steps > 0
 
     def text(self, element: Element, attribute: str, scope: Scope) -> Located[str] | None:
         """Return an attribute with its substitutions made; None when it is absent."""

@@ -11,12 +11,15 @@ from checker.model.robot import Frame, Joint, Link, Model, Plugin, Robot
 from checker.model.sdf.joints import read_frame, read_joint
 from checker.model.sdf.links import read_link, read_plugin
 from checker.model.sdf.scope import Scope
+from checker.model.sdf.unknown_frames import unknown_frames
 from checker.model.transform import Transform
 from checker.model.values import ValueReader
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
 MAX_NESTING = 40
+MAX_INCLUDES = 100
+"""Of one robot in all: files that include one another twice would double at each level."""
 
 IncludeReader = Callable[[str], "XmlDocument | str"]
 """Gives the model file behind the URI of an `<include>`, or says why it cannot be read."""
@@ -54,7 +57,7 @@ def read_robot(element: Element, include: IncludeReader = not_at_hand) -> Robot:
     scope = Scope("", MODEL_FRAME, sdf_version(document), values, graph)
     pose = scope.pose(element)
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), pose.span, "the model"))
-    collected = _Collected(include)
+    collected = _Collected(include, [document])
     collected.read(element, scope, 0)
     robot = Robot(
         values.name(element),
@@ -73,7 +76,7 @@ def read_robot(element: Element, include: IncludeReader = not_at_hand) -> Robot:
     )
     for name in graph.nodes:
         graph.pose(name)
-    return replace(robot, faults=(*values.faults, *graph.faults))
+    return replace(robot, faults=(*values.faults, *graph.faults, *unknown_frames(robot)))
 
 
 @dataclass
@@ -81,6 +84,8 @@ class _Collected:
     """The parts of a robot while it is being read."""
 
     include: IncludeReader
+    open_files: list[XmlDocument]
+    includes: int = 0
     links: list[Link] = field(default_factory=list)
     joints: list[Joint] = field(default_factory=list)
     frames: list[Frame] = field(default_factory=list)
@@ -90,7 +95,8 @@ class _Collected:
 
     def read(self, model: Element, scope: Scope, depth: int) -> None:
         """Read the inside of a model."""
-        for child in model.children:
+        # Joints come last: where one has the name of a link, the name stands for the link.
+        for child in sorted(model.children, key=lambda child: child.tag == "joint"):
             match child.tag:
                 case "link":
                     self.links.append(read_link(child, scope))
@@ -111,11 +117,24 @@ class _Collected:
         if isinstance(document, str):
             self.unresolved.append(uri)
             return
+        self.includes += 1
         model = next(iter(document.root.all("model")), None)
+        if refusal := self._refusal(document, model):
+            scope.values.fault(FaultKind.INCLUDE, uri.span, f"{uri.value} {refusal}")
+        elif model is not None:
+            self.open_files.append(document)
+            self._read_nested(model, include, scope, depth, uri)
+            self.open_files.pop()
+
+    def _refusal(self, document: XmlDocument, model: Element | None) -> str:
+        """Say why an include is not read; empty when it is."""
         if model is None:
-            scope.values.fault(FaultKind.INCLUDE, uri.span, f"{uri.value} holds no <model>")
-            return
-        self._read_nested(model, include, scope, depth, uri)
+            return "holds no <model>"
+        if document in self.open_files:
+            return "includes itself"
+        if self.includes > MAX_INCLUDES:
+            return f"is one of more than {MAX_INCLUDES} includes"
+        return ""
 
     def _read_nested(
         self,
@@ -169,10 +188,7 @@ def _placement(model: Element, placed: Element, inside: Scope) -> Transform:
     frame = stated.text.value if stated is not None else model.get("placement_frame")
     if not frame:
         return Transform()
-    nodes = dict(inside.graph.nodes)
-    root = FrameNode(None, Transform(), placed.span, "the model")
-    nodes[inside.model_frame] = root
-    pose = FrameGraph(nodes).pose(inside.scoped(frame))
+    pose = inside.graph.pose_below(inside.scoped(frame), inside.model_frame)
     if pose is None:
         message = f"placement frame {frame!r} does not exist in the model"
         inside.values.fault(FaultKind.FRAME, placed.span, message)

@@ -58,14 +58,19 @@ class Scope:
         if not element.text.stated:
             return tuple(Located(0.0, element.span, stated=False) for _ in _ZEROS), Transform()
         if element.get("rotation_format") == "quat_xyzw":
-            numbers = self.values.numbers_of(element, (*_ZEROS, 1.0))
+            numbers = self._finite_numbers(element, (*_ZEROS, 1.0))
             x, y, z, qx, qy, qz, qw = (number.value for number in numbers)
             return numbers, self._from_quaternion(element, (x, y, z), (qw, qx, qy, qz))
-        numbers = self.values.numbers_of(element, _ZEROS)
+        numbers = self._finite_numbers(element, _ZEROS)
         x, y, z, roll, pitch, yaw = (number.value for number in numbers)
         if element.get("degrees") in ("true", "1"):
             roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
         return numbers, Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
+
+    def _finite_numbers(
+        self, element: Element, default: tuple[float, ...]
+    ) -> tuple[Located[float], ...]:
+        return self.values.finite(self.values.numbers_of(element, default))
 
     def _from_quaternion(
         self,

@@ -14,6 +14,7 @@ _REFERENCE = re.compile(
     r"[\s,()\w]{0,40}?\blines?\s+(\d{1,6}(?:\s*(?:-|–|to|and|,|&)\s*\d{1,6})*)",
     re.IGNORECASE,
 )
+CLAIM_LENGTH = 300
 _RANGE = re.compile(r"(\d+)(?:\s*(?:-|–|to)\s*(\d+))?", re.IGNORECASE)
 
 
@@ -24,7 +25,7 @@ class LineReference:
     Attributes:
         file: The file as written.
         ranges: First and last line of each stretch, both counted.
-        claim: The words in front: what the lines are said to hold.
+        claim: The words in front (300 characters at most): what the lines are said to hold.
         span: File and lines.
     """
 
@@ -44,6 +45,8 @@ def line_references(passages: Iterable[Passage]) -> Iterator[LineReference]:
             yield LineReference(
                 Located(found.group(1), passage.part(*found.span(1))),
                 ranges,
-                " ".join(passage.text[: found.start()].split()),
+                " ".join(
+                    passage.text[max(0, found.start() - CLAIM_LENGTH) : found.start()].split()
+                ),
                 passage.part(*found.span()),
             )

@@ -18,6 +18,7 @@ from checker.model.specification.quantities import (
 )
 from checker.source.markdown import Passage
 
+MAX_STATEMENTS = 50
 # Kilograms per unit; the pound by definition (international agreement of 1959).
 _UNITS = {"k": 1.0, "g": 1e-3, "l": 0.45359237, "p": 0.45359237}
 _MASS = re.compile(
@@ -36,12 +37,13 @@ def masses(passages: Iterable[Passage]) -> Iterator[Quantity]:
     for passage in passages:
         for sentence in sentences(passage):
             last = 0
+            named = configurations_in(sentence.text)
             for found in _MASS.finditer(sentence.text):
-                yield _mass(sentence, found, sentence.text[last : found.start()])
+                yield _mass(sentence, found, sentence.text[last : found.start()], named)
                 last = found.end()
 
 
-def _mass(sentence: Sentence, found: re.Match[str], before: str) -> Quantity:
+def _mass(sentence: Sentence, found: re.Match[str], before: str, named: frozenset[int]) -> Quantity:
     number, unit = found.groups()
     factor = _UNITS[unit[0].lower()]
     about_robot = _SUBJECT.search(before) and not _NOT_THE_ROBOT.search(before)
@@ -51,7 +53,7 @@ def _mass(sentence: Sentence, found: re.Match[str], before: str) -> Quantity:
         resolution_of(number) * factor,
         unit,
         is_approximate(before),
-        configurations_in(sentence.text),
+        named,
         sentence.part(*found.span()),
     )
 
@@ -66,6 +68,8 @@ def total_mass(stated: Sequence[Quantity]) -> Quantity | None:
         mass for mass in stated if mass.kind is QuantityKind.TOTAL_MASS and not mass.configurations
     ]
     best = [mass for mass in totals if not mass.approximate] or totals
+    if len(best) > MAX_STATEMENTS:
+        return None
     kept = [mass for mass in best if not any(_rounds(other, mass) for other in best)]
     return kept[0] if kept and all(mass.value == kept[0].value for mass in kept) else None
 

@@ -11,6 +11,7 @@ from checker.source.markdown import Passage
 from checker.source.text import Span
 
 NUMBER = r"\d+(?:,\d{3})*(?:\.\d+)?|\.\d+"
+MAX_SENTENCE = 2000
 _NUMBER_WORDS = (
     *("one", "two", "three", "four", "five", "six"),
     *("seven", "eight", "nine", "ten", "eleven", "twelve"),
@@ -74,12 +75,16 @@ class Sentence:
 
 
 def sentences(passage: Passage) -> Iterator[Sentence]:
-    """Split a passage at full stops, semicolons, exclamation and question marks."""
+    """Split a passage at full stops, semicolons, exclamation and question marks.
+
+    A sentence of more than 2000 characters is cut, so that the work stays in proportion.
+    """
     start = 0
-    for end in _SENTENCE_END.finditer(passage.text):
-        yield Sentence(passage, start, passage.text[start : end.end()])
-        start = end.end()
-    yield Sentence(passage, start, passage.text[start:])
+    ends = [found.end() for found in _SENTENCE_END.finditer(passage.text)]
+    for end in (*ends, len(passage.text)):
+        for first in range(start, end, MAX_SENTENCE):
+            yield Sentence(passage, first, passage.text[first : min(end, first + MAX_SENTENCE)])
+        start = end
 
 
 def number_of(text: str) -> float:

@@ -36,6 +36,7 @@ def read_link(element: Element, values: ValueReader) -> Link:
         tuple(_read_visual(child, values) for child in element.all("visual")),
         (),
         (),
+        default_mass=0.0,
     )
 
 
@@ -45,8 +46,8 @@ def read_origin(parent: Element, values: ValueReader) -> Pose:
     if origin is None:
         numbers = tuple(Located(0.0, parent.span, stated=False) for _ in range(6))
         return Pose(Transform(), "", numbers, parent.span)
-    xyz = values.attribute_numbers(origin, "xyz", _ZERO)
-    rpy = values.attribute_numbers(origin, "rpy", _ZERO)
+    xyz = values.finite(values.attribute_numbers(origin, "xyz", _ZERO))
+    rpy = values.finite(values.attribute_numbers(origin, "rpy", _ZERO))
     transform = Transform.from_xyz_rpy(_vector(xyz), _vector(rpy))
     return Pose(transform, "", (*xyz, *rpy), origin.span)
 

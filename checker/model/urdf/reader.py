@@ -23,9 +23,9 @@ def read_urdf(document: XmlDocument) -> Robot:
     values, graph = ValueReader(), FrameGraph()
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), root.span, "the model"))
     joints = tuple(_read_joint(element, values) for element in root.all("joint"))
+    sensors = _sensors(root, values, graph)
     links = tuple(
-        _with_sensors(read_link(element, values), _sensors(root, values, graph))
-        for element in root.all("link")
+        _with_sensors(read_link(element, values), sensors) for element in root.all("link")
     )
     _place(graph, links, joints)
     for name in graph.nodes:

@@ -31,6 +31,8 @@ def disagreements(robot: Robot, path: Path, tolerance: float = 1e-9) -> list[str
     if set(other.joint_map) != set(robot.joints_by_name):
         said.append(f"joints {sorted(set(other.joint_map) ^ set(robot.joints_by_name))}")
     for name, link in robot.links_by_name.items():
+        if name not in other.link_map:
+            continue
         theirs = getattr(other.link_map[name].inertial, "mass", None)
         ours = link.inertial.mass.value if link.inertial is not None else None
         if (ours is None) != (theirs is None) or not math.isclose(ours or 0, theirs or 0):

@@ -141,7 +141,8 @@ def _assign_many(run: Interpreter, target: RubyNode, value: Value) -> None:
         if part.type in {"rest_assignment", "splat_argument"}:
             behind = len(target.parts) - index - 1
             rest = items[index : max(index, len(items) - behind)]
-            assign(run, part.parts[0], run.array(list(rest), value))
+            for name in part.parts:
+                assign(run, name, run.array(list(rest), value))
             items = [*items[:index], Value(None), *items[index + len(rest) :]]
             continue
         item = items[index] if index < len(items) else Value(None)

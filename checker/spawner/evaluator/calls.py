@@ -108,7 +108,7 @@ def call_function(call: Call, function: Function, *, entry: bool = False) -> Val
     if node.broken:
         raise Unreadable(function.span, "holds Ruby that the parser does not understand")
     if run.calls >= MAX_CALLS:
-        raise Unreadable(call.span, f"calls itself more than {MAX_CALLS} times")
+        raise Unreadable(call.span, f"calls functions more than {MAX_CALLS} deep")
     scope = Scope(function.path, node, block=call.block)
     before = run.influences
     run.calls += 1

@@ -28,7 +28,11 @@ def _integer(run: Interpreter, node: RubyNode) -> Value:
     if len(digits) > MAX_INTEGER_BITS // 4:
         raise Unreadable(node.span, "uses an integer that is too large")
     octal = digits[:1] == "0" and digits[1:].isdigit()
-    return run.value(int(digits.removeprefix("0d"), 8 if octal else 10 if digits.isdigit() else 0))
+    try:
+        number = int(digits.removeprefix("0d"), 8 if octal else 10 if digits.isdigit() else 0)
+    except ValueError:
+        raise Unreadable(node.span, f"uses the number {digits}, which is not read") from None
+    return run.value(number)
 
 
 def _float(run: Interpreter, node: RubyNode) -> Value:
@@ -89,7 +93,7 @@ def _interpolation(run: Interpreter, node: RubyNode) -> TracedString:
         raise Unreadable(node.span, "holds Ruby that the parser does not understand")
     value = run.run(node.parts)
     run.budget.spend()
-    return run.written(value, node.span)
+    return run.written(value, node.span).computed_by(node.span)
 
 
 def _heredoc(run: Interpreter, node: RubyNode) -> Value:
@@ -141,7 +145,7 @@ def elements(run: Interpreter, nodes: list[RubyNode]) -> list[Value]:
         if node.type != "splat_argument":
             items.append(run.evaluate(node))
             continue
-        value = run.evaluate(node.parts[0])
+        value = run.run(node.parts)
         if isinstance(value.data, RubyRange):
             run.budget.spend_items(len(value.data.numbers))
             items += [run.value(number, value) for number in value.data.numbers]

@@ -122,7 +122,7 @@ class Interpreter:
         if not isinstance(value.data, RubyString):
             raise Unreadable(span, "needs a string here")
         self.budget.spend(len(value.data.content.pieces) // 50)
-        return value.data.content.influenced(value.parameters).within(span)
+        return value.data.content.influenced(value.parameters).rooted(span)
 
     def written(self, value: Value, span: Span) -> TracedString:
         """Return the pieces of `to_s` of any value, computed at `span`.

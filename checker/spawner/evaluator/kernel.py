@@ -73,8 +73,8 @@ def _run(call: Call, path: str) -> Value:
     """Run a Ruby file; one that is missing is Ruby's LoadError, which `rescue` may catch."""
     run = call.run
     if not run.files.exists(path):
-        package = path.partition("/")[0]
-        if run.files.package_folder(package) is None and not run.files.exists(package):
+        package, inside, _ = path.partition("/")
+        if inside and run.files.package_folder(package) is None and not run.files.exists(package):
             raise Unreadable(call.span, f"package {package} is not at hand")
         raise RubyError("LoadError", f"cannot load such file -- {absolute(path)}", call.span)
     run.run_file(path, call.span)

@@ -6,7 +6,7 @@ from checker.spawner.methods.call import Call, Methods
 from checker.spawner.methods.iteration import listed
 from checker.spawner.signals import Unreadable
 from checker.spawner.traced import TracedString, joined
-from checker.spawner.values import NIL, RubyArray, RubyRange, RubyString, Value, equal
+from checker.spawner.values import NIL, RubyArray, RubyRange, RubyString, Value
 
 _MAX_NESTING = 12
 
@@ -97,8 +97,7 @@ def _plus(call: Call, other: Value) -> Value:
 
 def _minus(call: Call, other: Value) -> Value:
     drop = call.array(other).items
-    call.run.budget.spend(len(drop) * len(_items(call)) // 5 + 1)
-    kept = [item for item in _items(call) if not any(equal(item.data, d.data) for d in drop)]
+    kept = [item for item in _items(call) if not any(call.equal(item, d) for d in drop)]
     return call.run.array(kept, call.receiver, other)
 
 
@@ -149,7 +148,7 @@ def _last(call: Call, count: Value | None = None) -> Value:
 def _index(call: Call, wanted: Value) -> Value:
     call.run.budget.spend_items(len(_items(call)))
     for index, item in enumerate(_items(call)):
-        if equal(item.data, wanted.data):
+        if call.equal(item, wanted):
             return call.value(index, wanted)
     return NIL
 

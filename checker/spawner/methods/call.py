@@ -20,6 +20,7 @@ from checker.spawner.values import (
     RubyString,
     Value,
     class_name,
+    equal,
 )
 
 if TYPE_CHECKING:
@@ -63,8 +64,10 @@ class Call:
 
     @property
     def title(self) -> str:
-        """`String#chomp`, or `File.write` for a class."""
+        """`String#chomp`, `File.write` for a class, or the bare name of a function."""
         data = self.receiver.data
+        if self.node.type in {"call", "identifier"} and "receiver" not in self.node.fields:
+            return self.name
         if isinstance(data, Constant):
             return f"{data.name}.{self.name}"
         return f"{class_name(data)}#{self.name}"
@@ -115,6 +118,14 @@ class Call:
         if not isinstance(value.data, RubyHash):
             raise self.refuse(f"with {class_name(value.data)} instead of a hash")
         return value.data
+
+    def equal(self, left: Value, right: Value) -> bool:
+        """Compare two values as `==` does."""
+        self.run.budget.spend()
+        try:
+            return equal(left.data, right.data)
+        except ValueError as error:
+            raise self.refuse(f"which compares arrays {error}") from None
 
     def changeable(self) -> None:
         """Make sure that the receiver may be changed.

@@ -13,7 +13,6 @@ from checker.spawner.values import (
     RubyString,
     Value,
     class_name,
-    equal,
 )
 
 _MORE_NAMES = {
@@ -44,10 +43,7 @@ def _is_nil(call: Call) -> Value:
 
 
 def _equals(call: Call, other: Value) -> Value:
-    try:
-        return call.value(equal(call.receiver.data, other.data), other)
-    except ValueError as error:
-        raise call.refuse(str(error)) from None
+    return call.value(call.equal(call.receiver, other), other)
 
 
 def _dup(call: Call) -> Value:
@@ -97,7 +93,7 @@ COMMON: Methods = {
     "==": _equals,
     "eql?": lambda call, other: call.value(
         class_name(call.receiver.data) == class_name(other.data)
-        and equal(call.receiver.data, other.data),
+        and call.equal(call.receiver, other),
         other,
     ),
     "dup": _dup,

@@ -7,7 +7,7 @@ from typing import Any
 
 from checker.spawner.methods.call import Call, Methods
 from checker.spawner.methods.iteration import items_of, listed
-from checker.spawner.values import NIL, RubyHash, RubyString, Value, class_name, equal, is_number
+from checker.spawner.values import NIL, RubyHash, RubyString, Value, class_name, is_number
 
 
 def _all(call: Call) -> list[Value]:
@@ -125,11 +125,7 @@ def _extreme(choose: Callable[..., Any]) -> Callable[[Call], Value]:
 def _includes(call: Call, wanted: Value) -> Value:
     if isinstance(call.receiver.data, RubyHash):
         raise call.refuse()
-    try:
-        found = any(equal(item.data, wanted.data) for item in _all(call))
-    except ValueError as error:
-        raise call.refuse(str(error)) from None
-    return call.value(found, wanted)
+    return call.value(any(call.equal(item, wanted) for item in _all(call)), wanted)
 
 
 def _sort_key(call: Call, items: list[Value]) -> Callable[[Value], Any]:

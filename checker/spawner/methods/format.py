@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Decimal
+from fractions import Fraction
 
 from checker.spawner.formatting import NotWritable, to_s
 from checker.spawner.methods.call import Call
 from checker.spawner.signals import RubyError
 from checker.spawner.values import Value
 
+_CLOSE = Fraction(1, 10**9)
+"""Far above the error of a double (1e-16), far below any digit that a spawner writes."""
 _DIRECTIVE = re.compile(r"%([-+0 #]{0,5})(\d{0,4})(?:\.(\d{1,3}))?(.)?", re.DOTALL)
 
 
@@ -48,8 +52,26 @@ def _directive(call: Call, found: re.Match[str], waiting: list[Value]) -> str:
         if kind == "x" and number < 0:
             raise call.refuse("with a negative number for %x")
         flags = flags.replace("0", "") if dot else flags
-        return f"%{flags}{width}{dot}{'x' if kind == 'x' else 'd'}" % math.floor(number)
+        return f"%{flags}{width}{dot}{'x' if kind == 'x' else 'd'}" % math.trunc(number)
+    digits = 6 if precision is None else int(precision)
+    if _on_limit(float(number), kind.lower(), digits):
+        raise call.refuse(f"with {number}, which {found.group()} may round up or down")
     return f"%{flags}{width}{dot}{kind}" % float(number)
+
+
+def _on_limit(number: float, kind: str, digits: int) -> bool:
+    """Whether a number lies so close to a rounding limit that Ruby's own rounding decides.
+
+    Ruby finds the digits by doubles, C by the exact value: they differ next to a half.
+    """
+    if number == 0:
+        return False
+    if kind != "f":
+        leading = Decimal(number).adjusted()
+        digits = (max(digits, 1) - 1 if kind == "g" else digits) - leading
+    scaled = abs(Fraction(number)) * Fraction(10) ** digits
+    distance = abs(scaled % 1 - Fraction(1, 2))
+    return distance < _CLOSE * max(scaled, Fraction(1)) and (distance > 0 or kind == "g")
 
 
 def _text(call: Call, value: Value) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 
-from checker.spawner.arithmetic import calculate, round_number
+from checker.spawner.arithmetic import MAX_ROUND_DIGITS, calculate, round_number
 from checker.spawner.methods.call import Call, Methods
 from checker.spawner.signals import RubyError
 from checker.spawner.values import Value
@@ -25,6 +25,8 @@ def _finite(call: Call) -> int | float:
 
 def _round(call: Call, digits: Value | None = None) -> Value:
     places = call.integer(digits) if digits else 0
+    if places > MAX_ROUND_DIGITS:
+        raise call.refuse(f"with more than {MAX_ROUND_DIGITS} digits")
     number = _finite(call) if places <= 0 else _own(call)
     return call.value(round_number(number, places))
 
@@ -41,11 +43,7 @@ def _div(call: Call, other: Value) -> Value:
     number = call.number(other)
     if number == 0:
         raise RubyError("ZeroDivisionError", "divided by 0", call.span)
-    return (
-        call.value(math.floor(_finite(call) / number), other)
-        if isinstance(number, float) or isinstance(_own(call), float)
-        else call.value(int(_own(call) // number), other)
-    )
+    return call.value(int(_finite(call) // number), other)
 
 
 def _fdiv(call: Call, other: Value) -> Value:
@@ -57,6 +55,14 @@ def _modulo(call: Call, other: Value) -> Value:
         return call.value(calculate("%", _own(call), call.number(other)), other)
     except ZeroDivisionError:
         raise RubyError("ZeroDivisionError", "divided by 0", call.span) from None
+
+
+def _divmod(call: Call, other: Value) -> Value:
+    return call.run.array([_div(call, other), _modulo(call, other)], call.receiver)
+
+
+def _between(call: Call, low: Value, high: Value) -> Value:
+    return call.value(call.number(low) <= _own(call) <= call.number(high), low, high)
 
 
 def _clamp(call: Call, low: Value, high: Value) -> Value:
@@ -108,6 +114,8 @@ NUMBER: Methods = {
     "div": _div,
     "fdiv": _fdiv,
     "modulo": _modulo,
+    "divmod": _divmod,
+    "between?": _between,
     "clamp": _clamp,
     "-@": lambda call: call.value(-_own(call)),
     "integer?": lambda call: call.value(isinstance(_own(call), int)),

@@ -237,9 +237,9 @@ def _format(call: Call, values: Value) -> Value:
 def _in_place(method: Callable[..., Value]) -> Callable[..., Value]:
     """Make `gsub!` of `gsub`: it changes the receiver, and answers nil when nothing changed."""
 
-    def changed(call: Call, *arguments: Value) -> Value:
+    def changed(call: Call, wanted: Value, replacement: Value) -> Value:
         call.changeable()
-        result = method(call, *arguments)
+        result = method(call, wanted, replacement)
         own, new = call.string(call.receiver), call.string(result)
         same = own.text == new.text
         own.content = new.content

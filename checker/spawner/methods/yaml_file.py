@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from checker.source.text import SourceText, Span
+from checker.spawner.limits import MAX_INTEGER_BITS
 from checker.spawner.methods.call import Call, Methods
 from checker.spawner.methods.file import resolve
 from checker.spawner.traced import Piece, TracedString
@@ -90,6 +91,8 @@ def _value(
         here = span or Span(source, node.start_mark.index, node.end_mark.index)
         pieces = (Piece(data, here, False, call.run.influences),) if data else ()
         return Value(RubyString(TracedString(pieces)), call.run.influences)
+    if isinstance(data, int) and data.bit_length() > MAX_INTEGER_BITS:
+        raise call.refuse(f"but {source.file} holds an integer that is too large")
     if data is not None and not isinstance(data, (bool, int, float)):
         raise call.refuse(f"but {source.file} holds a value of the type {node.tag}")
     return Value(data, call.run.influences)

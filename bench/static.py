@@ -1,0 +1,123 @@
+"""Speed and memory of the static rules: medians, on real packages and on generated robots.
+
+Run with `make bench`; SUBT_CHECK_CORPUS names the folder of real packages, the samples stand in
+where there is none. Machines differ and are shared: compare ratios, not milliseconds.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+
+from checker.check import check_package
+from checker.settings import Settings
+
+ROOT = Path(__file__).parent.parent
+COMMAND = [sys.executable, "-m", "checker.cli"]
+LIMITS = {
+    "a package, within a process": 0.15,
+    "a package, cold process": 0.5,
+    "--help": 0.15,
+    "2000 links": 10.0,
+}
+"""Seconds that each figure is meant to stay below."""
+
+
+def seconds(action: Callable[[], object], repeats: int = 5) -> float:
+    """Return the median time of an action."""
+    times = []
+    for _ in range(repeats):
+        started = perf_counter()
+        action()
+        times.append(perf_counter() - started)
+    return statistics.median(times)
+
+
+def cold(*arguments: str) -> Callable[[], object]:
+    """Return the action that runs the command in a process of its own."""
+    return lambda: subprocess.run(
+        [*COMMAND, *arguments], cwd=ROOT, capture_output=True, check=False
+    )
+
+
+def robot_of(links: int, folder: Path) -> Path:
+    """Write a package whose model is a chain of so many links."""
+    package = folder / f"bench_chain{links}_sensor_config_1"
+    package.mkdir()
+    parts = ["<sdf version='1.6'><model name='chain'><link name='l0'/>"]
+    for n in range(1, links):
+        parts.append(
+            f"<link name='l{n}'><pose>0 0 {n} 0 0 1.57</pose><inertial><mass>1</mass></inertial>"
+            f"<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry>"
+            f"</collision></link>\n<joint name='j{n}' type='revolute'><parent>l{n - 1}</parent>"
+            f"<child>l{n}</child><axis><xyz>0 0 1</xyz></axis></joint>\n"
+        )
+    (package / "model.sdf").write_text("".join([*parts, "</model></sdf>"]), "utf-8")
+    (package / "package.xml").write_text(f"<package><name>{package.name}</name></package>", "utf-8")
+    return package
+
+
+def show(name: str, value: float) -> None:
+    """Print a figure beside its limit."""
+    limit = LIMITS.get(name)
+    judged = f"  (≤ {limit:g} s: {'yes' if value <= limit else 'NO'})" if limit else ""
+    print(f"{name:<32} {value:8.3f} s{judged}")
+
+
+def real_packages() -> list[Path]:
+    """Return the packages of the corpus, else the samples."""
+    folder = Path(os.environ.get("SUBT_CHECK_CORPUS") or ROOT / "samples")
+    return sorted(path.parent for path in folder.glob("*/package.xml"))
+
+
+def main() -> None:
+    """Measure and print everything."""
+    packages = real_packages()
+    settings = Settings()
+    check_package(packages[0], settings)
+    within = [seconds(lambda path=path: check_package(path, settings), 3) for path in packages]
+    show("a package, within a process", statistics.median(within))
+    print(f"{'  slowest of ' + str(len(packages)):<32} {max(within):8.3f} s")
+    show("a package, cold process", statistics.median(seconds(cold(str(p)), 1) for p in packages))
+    show("--help", seconds(cold("--help")))
+    with tempfile.TemporaryDirectory() as folder:
+        times = {}
+        for links in (500, 1000, 2000, 4000):
+            package = robot_of(links, Path(folder))
+            times[links] = seconds(lambda path=package: check_package(path, settings), 1)
+            show(f"{links} links", times[links])
+    print(f"{'4000 links against 2000':<32} {times[4000] / times[2000]:8.2f} ×")
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"{'memory, all of the above':<32} {peak:8.0f} MB")
+    alone = memory_of(packages[0])
+    print(
+        f"{'memory, one package':<32} {alone:8.0f} MB  (≤ 200 MB: {'yes' if alone <= 200 else 'NO'})"
+    )
+
+
+def memory_of(package: Path) -> float:
+    """Return the peak memory of one check in a process of its own, MB.
+
+    It is read from /proc: the figure of `getrusage` is inherited from the parent.
+    """
+    code = (
+        "import re, sys; from checker.cli import main; main([sys.argv[1]]);"
+        "status = open('/proc/self/status').read();"
+        "print(re.search(r'VmHWM:\\s+(\\d+)', status).group(1), file=sys.stderr)"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", code, str(package)],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    return int(run.stderr.split()[-1]) / 1024
+
+
+if __name__ == "__main__":
+    main()

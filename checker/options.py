@@ -1,0 +1,83 @@
+"""What settings say about rules, held against the rules that there are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+from typing import Any
+
+from checker.errors import InvalidSettings
+from checker.rule import Rule
+from checker.settings import Settings
+
+
+def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
+    """Make sure that every rule and option that the settings name exists.
+
+    Raises:
+        InvalidSettings: One does not; the message names the nearest that does.
+    """
+    by_id = {rule.id: rule for rule in rules}
+    known = {name for rule in rules for name in (rule.id, rule.group, rule.name)}
+    for name in (*settings.select, *settings.ignore):
+        if name not in known:
+            raise InvalidSettings(settings.source, no_such_rule(name, known))
+    for id in (*settings.severity, *settings.options):
+        if id not in by_id:
+            raise InvalidSettings(settings.source, no_such_rule(id, by_id))
+    for id in settings.options:
+        options_of(by_id[id], settings)
+
+
+def no_such_rule(name: str, known: Iterable[str]) -> str:
+    """Say that there is no such rule, and which one may be meant."""
+    names = sorted(known)
+    near = get_close_matches(name.upper(), names, 1) or get_close_matches(name.lower(), names, 1)
+    hint = f"did you mean {near[0]}?" if near else "`subt-check rules` lists them"
+    return f"there is no rule {name!r}; {hint}"
+
+
+def options_of(rule: Rule, settings: Settings) -> dict[str, Any]:
+    """Return the options that the user sets for a rule, in the types of their defaults.
+
+    Raises:
+        InvalidSettings: The rule has no such option, or the value has another type.
+    """
+    defaults = rule.options
+    options = {}
+    for name, value in settings.options.get(rule.id, {}).items():
+        if name not in defaults:
+            known = ", ".join(defaults) or "none"
+            problem = f"rules.{rule.id} has no option {name!r}, expected one of: {known}"
+            raise InvalidSettings(settings.source, problem)
+        options[name] = _typed(value, defaults[name])
+        if options[name] is None:
+            problem = f"rules.{rule.id}.{name} is {value!r}, expected {_kind(defaults[name])}"
+            raise InvalidSettings(settings.source, problem)
+    return options
+
+
+def _typed(value: object, default: object) -> object:
+    """Return a value of TOML in the type of a default; None when it has another."""
+    if isinstance(default, tuple) and isinstance(value, list):
+        typed = tuple(_typed(each, default[0]) for each in value) if default else tuple(value)
+        return None if None in typed else typed
+    if isinstance(default, float) and type(value) in (int, float):
+        number = _float(value)
+        return number if math.isfinite(number) else None
+    return value if type(value) is type(default) else None
+
+
+def _float(value: Any) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
+
+
+def _kind(default: object) -> str:
+    if isinstance(default, tuple):
+        return "a list" + (f" in which each is {_kind(default[0])}" if default else "")
+    names = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
+    return names.get(type(default), type(default).__name__)

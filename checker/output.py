@@ -1,0 +1,42 @@
+"""Where results go: standard output, files, and the exit code."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+from checker.errors import CheckerError
+
+EXIT_CLEAN, EXIT_FINDINGS, EXIT_USAGE, EXIT_CRASH = 0, 1, 2, 3
+
+
+def show(text: str) -> None:
+    """Write to standard output; a reader that went away, as `head` does, is no fault.
+
+    Raises:
+        CheckerError: The disk behind it is full, or the like.
+    """
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Point stdout at nothing, so that Python's own flush at the end is silent too.
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+    except OSError as error:
+        raise CheckerError(f"the result cannot be written: {error.strerror}") from None
+
+
+def write(path: Path, text: str) -> None:
+    """Write a file, and the folders above it.
+
+    Raises:
+        CheckerError: It cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+    except OSError as error:
+        raise CheckerError(f"{path} cannot be written: {error.strerror}") from None

@@ -1,0 +1,28 @@
+"""What a package has to offer to a rule, or why it cannot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+
+@dataclass(frozen=True)
+class NotAtHand:
+    """A part of a package that a rule asks for and that cannot be had.
+
+    Attributes:
+        reason: Why, as the end of a sentence.
+        applicable: False when the package has no such part and needs none.
+    """
+
+    reason: str
+    applicable: bool = True
+
+
+class Parts(Protocol):
+    """Gives the parts of a package by their type."""
+
+    def part(self, kind: type) -> Sequence[object] | NotAtHand:
+        """Return the part; several when a file holds several robots."""
+        ...

@@ -1,0 +1,75 @@
+"""One finding for a person at a terminal: place, message, source line, why and how to mend it."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator, Sequence
+
+from checker.finding import Place, Severity
+from checker.report.palette import Palette
+from checker.report.report import PackageReport, ReportedFinding
+from checker.report.wording import count, plain, shortened
+
+MORE_PLACES = 3
+"""So many places of a repeated fault are named; the rest is counted."""
+
+MESSAGE_LIMIT = 600
+SNIPPET_WIDTH = 160
+
+
+def finding_text(
+    finding: ReportedFinding, package: PackageReport, palette: Palette, explained: bool
+) -> Iterator[str]:
+    """Yield the lines of a finding.
+
+    Args:
+        finding: What was found.
+        package: Where it was found; its path stands in front of each file.
+        palette: Colours.
+        explained: Whether why and how were said before, for another finding of the rule.
+    """
+    place = finding.places[0]
+    message = plain(shortened(finding.message, MESSAGE_LIMIT))
+    severity = palette.severity(finding.severity)
+    yield f"{_where(place, package)} {severity} {finding.rule} {finding.name}: {message}"
+    if finding.severity is not Severity.INFO:
+        yield from _frame(place, palette)
+    yield from _other_places(finding.places[1:], package)
+    if finding.severity is Severity.INFO or explained:
+        return
+    if finding.why:
+        yield f"    why: {finding.why}"
+    if finding.how:
+        yield f"    fix: {finding.how}"
+    yield palette.dim(f"    {finding.help}")
+
+
+def _where(place: Place, package: PackageReport) -> str:
+    """Give a place as editors and terminals understand it; a folder has no line."""
+    path = posixpath.normpath(posixpath.join(package.path, place.file or "."))
+    return plain(path) + (f":{place.line}:{place.column}" if place.file else "/")
+
+
+def _other_places(places: Sequence[Place], package: PackageReport) -> Iterator[str]:
+    notes = [place for place in places if place.note]
+    repeats = [place for place in places if not place.note]
+    for other in notes[:MORE_PLACES]:
+        yield f"    {_where(other, package)}: {plain(shortened(other.note, MESSAGE_LIMIT))}"
+    if repeats:
+        named = [plain(f"{place.file}:{place.line}") for place in repeats[:MORE_PLACES]]
+        more = len(repeats) - len(named)
+        yield f"    also {', '.join(named)}" + (f" and {count(more, 'more place')}" if more else "")
+
+
+def _frame(place: Place, palette: Palette) -> Iterator[str]:
+    """Show the source line with a caret below the marked text, if the snippet reaches so far."""
+    column = place.column - 1
+    if not place.snippet.strip() or column >= len(place.snippet):
+        return
+    end = place.end_column - 1 if place.end_line == place.line else len(place.snippet)
+    start = max(0, min(column - 40, len(place.snippet) - SNIPPET_WIDTH))
+    shown = plain(place.snippet.expandtabs(1))[start : start + SNIPPET_WIDTH]
+    width = max(1, min(end, start + SNIPPET_WIDTH) - column)
+    number = str(place.line)
+    yield f"    {palette.dim(number + ' |')} {shown.rstrip()}"
+    yield f"    {' ' * len(number)} {palette.dim('|')} {' ' * (column - start)}{'^' * width}"

@@ -1,0 +1,62 @@
+"""Rules and parts made up for tests of the engine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from typing import Any
+
+from checker.engine import Outcome, run_rules
+from checker.finding import Place
+from checker.parts import NotAtHand
+from checker.profiles import Profile, profile
+from checker.rule import Finding, Findings, Rule, Severity
+from checker.settings import Settings
+
+
+class Wheel:
+    """A part that a rule asks for; one that is not an answer to `part` is not at hand."""
+
+    def __init__(self, line: int = 1) -> None:
+        self.place = Place("model.sdf", line, 1, line, 5, element=f"wheel[{line}]")
+
+
+class Parts:
+    def __init__(self, *wheels: Wheel, missing: NotAtHand | None = None) -> None:
+        self.answer: Sequence[object] | NotAtHand = missing or wheels
+
+    def part(self, kind: type) -> Sequence[object] | NotAtHand:
+        assert kind is Wheel
+        return self.answer
+
+
+def at(line: int, element: str = "", file: str = "model.sdf") -> Place:
+    return Place(file, line, 1, line, 2, element=element)
+
+
+def rule_saying(*found: Finding, id: str = "TST001", severity: Severity = Severity.ERROR) -> Rule:
+    def check(_: Wheel) -> Findings:
+        yield from found
+
+    return Rule(id, f"fault-{id.lower()}", severity, check, "Something.\n\nIt matters.")
+
+
+def run(
+    *rules: Rule,
+    parts: Parts | None = None,
+    profile: Profile | None = None,
+    **settings: Any,
+) -> Outcome:
+    return run_rules(rules, parts or Parts(Wheel()), profile or subt(), Settings(**settings))
+
+
+def subt(**changes: Any) -> Profile:
+    return replace(profile("subt"), **changes)
+
+
+def reported(outcome: Outcome) -> list[str]:
+    return [each.rule for each in outcome.findings]
+
+
+def fingerprints(found: Iterable[Finding]) -> list[str]:
+    return [each.fingerprint for each in run(rule_saying(*found)).findings]

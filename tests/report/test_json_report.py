@@ -1,0 +1,103 @@
+"""The JSON report follows its schema, whatever was found."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jsonschema
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checker.check import check_package
+from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.package.kind import PackageKind
+from checker.report.json_report import to_json
+from checker.report.report import (
+    Cause,
+    NotChecked,
+    NotOpened,
+    PackageReport,
+    Report,
+    ReportedFinding,
+    VerdictKind,
+)
+from checker.settings import Settings
+from tests.test_samples import SCHEMA
+
+NOT_AT_HAND = NotChecked("SEN001", "it lies elsewhere", Cause.NOT_AT_HAND)
+CRASHED = NotChecked("SEN001", "it could not run", Cause.CRASHED)
+OFF = NotChecked("SEN001", "switched off", Cause.SWITCHED_OFF)
+NOTHING_THERE = NotChecked("SEN001", "the package has none", Cause.NOT_APPLICABLE)
+
+
+def found(severity: Severity) -> ReportedFinding:
+    return ReportedFinding("SEN005", "fault", severity, "is 3", "0" * 16, (Place("a"),))
+
+
+def package(*not_checked: NotChecked, severities: tuple[Severity, ...] = ()) -> PackageReport:
+    return PackageReport("r", "r", "robot", tuple(map(found, severities)), not_checked)
+
+
+def test_the_schema_is_a_schema() -> None:
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+def test_the_schema_knows_every_word_that_the_checker_uses() -> None:
+    of_package = SCHEMA["$defs"]["package"]["properties"]
+    assert set(of_package["kind"]["enum"]) == set(PackageKind)
+    assert set(of_package["verdict"]["enum"]) == set(VerdictKind)
+    causes = of_package["not_checked"]["items"]["properties"]["cause"]["enum"]
+    assert set(causes) == set(Cause)
+    of_finding = SCHEMA["$defs"]["finding"]["properties"]
+    assert set(of_finding["severity"]["enum"]) == set(Severity)
+    assert set(of_finding["fix"]["properties"]["safety"]["enum"]) == set(Safety)
+
+
+def test_the_verdict() -> None:
+    error, warning = Severity.ERROR, Severity.WARNING
+    assert package().verdict is VerdictKind.READY
+    assert package(severities=(warning,)).verdict is VerdictKind.READY
+    assert package(OFF, NOTHING_THERE).verdict is VerdictKind.READY
+    assert package(NOT_AT_HAND, severities=(warning,)).verdict is VerdictKind.INCOMPLETE
+    assert package(CRASHED).verdict is VerdictKind.INCOMPLETE
+    assert package(NOT_AT_HAND, severities=(error,)).verdict is VerdictKind.NOT_READY
+
+
+@given(st.text(st.characters(exclude_categories=())), st.sampled_from(PackageKind))
+def test_any_text_makes_a_valid_report_that_is_safe_to_print(text: str, kind: PackageKind) -> None:
+    place = Place(text, element=text, note=text, snippet=text)
+    fix = Fix(Safety.SAFE, (Edit(place, text),))
+    finding = ReportedFinding(
+        "SEN005", text, Severity.INFO, f"x{text}", "0" * 16, (place,), fix, text, text
+    )
+    one = PackageReport(text, text, str(kind), (finding,), (NOT_AT_HAND,), facts={"robot": text})
+    written = to_json(Report((one,), {"python": "3"}, (NotOpened(text, text, failed=True),)))
+    again = json.loads(written.encode("utf-8"))
+    jsonschema.validate(again, SCHEMA)
+    assert again["packages"][0]["name"] == json.loads(json.dumps(text))
+    assert not [c for c in written if c != "\n" and (ord(c) < 32 or 127 <= ord(c) < 160)]
+
+
+def test_every_package_of_the_corpus_is_checked_to_the_end(corpus: Path) -> None:
+    report = check_package(corpus, Settings())
+    folders = {path.parent.name for path in corpus.glob("*/package.xml")}
+    assert {each.name for each in report.packages} == folders
+    assert len(folders) == 18
+    jsonschema.validate(json.loads(to_json(report)), SCHEMA)
+    for each in report.packages:
+        assert not each.crashed, each.not_checked
+        assert all(part.at_hand for part in each.inherited)
+        assert each.facts["links"] > 0
+        assert each.kind in ("robot", "configuration")
+        assert len({finding.fingerprint for finding in each.findings}) == len(each.findings)
+
+
+def test_packages_without_a_model_inherit_their_siblings(corpus: Path) -> None:
+    report = check_package(corpus, Settings())
+    aliases = {each.name for each in report.packages if each.kind == "configuration"}
+    without = {path.name for path in corpus.iterdir() if path.is_dir()} - {
+        path.parent.name for path in corpus.glob("*/model.sdf")
+    }
+    assert aliases == without
+    assert len(aliases) == 4

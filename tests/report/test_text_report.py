@@ -1,0 +1,218 @@
+"""What a person at a terminal reads."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checker.finding import Place, Severity
+from checker.report.palette import Palette
+from checker.report.report import (
+    Cause,
+    InheritedPart,
+    NotChecked,
+    NotOpened,
+    PackageReport,
+    Report,
+    ReportedFinding,
+)
+from checker.report.text_report import to_text
+from checker.report.wording import count, listed, plain, shortened
+
+LINE = "      <resolution>0.1</resolution>"
+PLACE = Place("model.sdf", 141, 19, 141, 22, snippet=LINE)
+FAULT = ReportedFinding(
+    "SEN005",
+    "lidar-scan-resolution",
+    Severity.ERROR,
+    "scan resolution is 0.1, expected 1",
+    "0" * 16,
+    (PLACE,),
+    why="Rays are lost.",
+    how="write 1.",
+)
+PACKAGE = PackageReport("rover", "models/rover", "base_model", ())
+
+
+def text(*packages: PackageReport, not_opened: tuple[NotOpened, ...] = ()) -> str:
+    return to_text(Report(packages, {}, not_opened), Palette(enabled=False))
+
+
+def lines(*findings: ReportedFinding) -> list[str]:
+    return text(replace(PACKAGE, findings=findings)).splitlines()
+
+
+def test_a_finding_has_place_message_frame_why_how_and_page() -> None:
+    assert lines(FAULT) == [
+        "rover  base model",
+        "",
+        "models/rover/model.sdf:141:19 error SEN005 lidar-scan-resolution: "
+        "scan resolution is 0.1, expected 1",
+        "    141 |       <resolution>0.1</resolution>",
+        "        |                   ^^^",
+        "    why: Rays are lost.",
+        "    fix: write 1.",
+        "    subt-check rule SEN005",
+        "",
+        "rover: Not ready: 1 error to fix",
+    ]
+
+
+def test_a_finding_about_the_folder_shows_the_folder_alone() -> None:
+    assert lines(replace(FAULT, places=(Place(""),)))[2].startswith("models/rover/ error SEN005 ")
+
+
+def test_why_and_how_are_said_once_for_a_rule_in_a_run() -> None:
+    twice = text(
+        replace(PACKAGE, findings=(FAULT, FAULT)), replace(PACKAGE, name="b", findings=(FAULT,))
+    )
+    assert twice.count("why: ") == 1
+    assert twice.count("141 |") == 3
+
+
+def test_repeats_are_named_up_to_three_and_counted() -> None:
+    places = tuple(replace(PLACE, line=line) for line in range(1, 26))
+    (also,) = (line for line in lines(replace(FAULT, places=places)) if "also" in line)
+    assert also == "    also model.sdf:2, model.sdf:3, model.sdf:4 and 21 more places"
+    four = [line for line in lines(replace(FAULT, places=places[:4])) if "also" in line]
+    assert four == ["    also model.sdf:2, model.sdf:3, model.sdf:4"]
+
+
+def test_a_related_place_says_what_it_has_to_do_with_it() -> None:
+    related = replace(PLACE, file="../other/model.sdf", line=3, note="the first of that name")
+    assert "    models/other/model.sdf:3:19: the first of that name" in lines(
+        replace(FAULT, places=(PLACE, related))
+    )
+
+
+def test_what_is_worth_knowing_takes_one_line() -> None:
+    info = replace(FAULT, severity=Severity.INFO)
+    assert len(lines(info)) == 5
+    assert lines(info)[-1] == "rover: Ready: nothing to fix"
+
+
+def test_the_caret_stays_below_the_marked_words_of_a_long_line() -> None:
+    start = 150
+    place = Place("a", 7, start + 1, 7, start + 5, snippet="x" * start + "here" + "y" * 80)
+    code, caret = lines(replace(FAULT, places=(place,)))[3:5]
+    at = caret.index("^")
+    assert code[at : at + 4] == "here"
+    assert caret[at:] == "^^^^"
+
+
+def test_a_mark_that_spans_lines_ends_with_the_first() -> None:
+    place = replace(PLACE, end_line=143, end_column=4)
+    caret = lines(replace(FAULT, places=(place,)))[4]
+    assert caret.count("^") == len(LINE) - 18
+
+
+def test_tabs_do_not_move_the_caret() -> None:
+    place = Place("a", 1, 3, 1, 4, snippet="\t\tx")
+    code, caret = lines(replace(FAULT, places=(place,)))[3:5]
+    assert code[caret.index("^")] == "x"
+
+
+_places = st.builds(
+    lambda line, column, width, snippet: Place(
+        "a", line, column, line, column + width, "", "", snippet
+    ),
+    st.integers(1, 10**6),
+    st.integers(1, 10**6),
+    st.integers(0, 10**6),
+    st.text(max_size=240),
+)
+
+
+@given(_places, st.text(), st.text())
+def test_any_text_is_shown_without_control_characters_in_lines_of_bounded_length(
+    place: Place, message: str, name: str
+) -> None:
+    finding = replace(FAULT, places=(place, replace(place, note=message)), message=message * 100)
+    package = replace(
+        PACKAGE,
+        name=name,
+        path="p",
+        findings=(finding,),
+        not_checked=(NotChecked("SEN001", message * 100, Cause.NOT_AT_HAND),),
+        inherited=(InheritedPart(name, message, at_hand=False),),
+        facts={"robot": name, "mass_kg": 1.0},
+    )
+    shown = text(package, not_opened=(NotOpened(name, message, failed=False),))
+    assert plain(shown.replace("\n", "")) == shown.replace("\n", "")
+    assert max(map(len, shown.split("\n"))) < 1000 + 4 * len(name + message)
+
+
+def test_findings_in_a_sibling_that_is_checked_too_are_shown_there() -> None:
+    foreign = replace(FAULT, places=(replace(PLACE, file="../base/model.sdf"),))
+    package = replace(PACKAGE, findings=(foreign,))
+    alone = text(package)
+    assert "models/base/model.sdf:141:19 error" in alone
+    both = text(replace(PACKAGE, name="base"), package)
+    assert "1 finding in base: see there" in both
+    assert "models/base/model.sdf:141:19" not in both
+    assert "rover: Not ready: 1 error to fix" in both
+
+
+def test_what_was_not_checked_is_grouped_by_its_reason() -> None:
+    reasons = [
+        NotChecked("SEN001", "the model is not at hand", Cause.NOT_AT_HAND),
+        NotChecked("SEN002", "the model is not at hand", Cause.NOT_AT_HAND),
+        NotChecked("SEN003", "switched off", Cause.SWITCHED_OFF),
+        NotChecked("SEN004", "the package carries no robot", Cause.NOT_APPLICABLE),
+    ]
+    shown = text(replace(PACKAGE, not_checked=tuple(reasons)))
+    assert "not checked: SEN001, SEN002: the model is not at hand\n" in shown
+    assert "not checked: SEN003: switched off\n" in shown
+    assert "SEN004" not in shown
+    assert shown.endswith(
+        "rover: Incomplete: no error, but 2 rules could not look: the model is not at hand "
+        "(1 rule switched off)\n"
+    )
+
+
+def test_facts_have_their_units() -> None:
+    facts = {"robot": "rover", "mass_kg": 18.4, "links": 10, "joints": 1, "drive": "none found"}
+    shown = text(replace(PACKAGE, facts=facts))
+    assert "robot rover, mass 18.4 kg, 10 links, 1 joint, drive none found\n" in shown
+
+
+def test_inherited_parts_name_their_source() -> None:
+    parts = (
+        InheritedPart("model", "base", at_hand=True),
+        InheritedPart("launch/a.launch", "base", at_hand=True),
+        InheritedPart("spawner", "gone", at_hand=False),
+    )
+    shown = text(replace(PACKAGE, inherited=parts))
+    assert "inherited from base: model and launch/a.launch\n" in shown
+    assert "inherited from gone (not at hand): spawner\n" in shown
+
+
+def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
+    shown = text(
+        replace(PACKAGE, findings=(FAULT,)),
+        replace(PACKAGE, name="long_name"),
+        not_opened=(
+            NotOpened("models/docs", "holds no package", failed=False),
+            NotOpened("nowhere", "does not exist", failed=True),
+        ),
+    )
+    assert shown.splitlines()[-5:] == [
+        "rover      not ready      1 error     0 warning     0 info",
+        "long_name  ready          0 error     0 warning     0 info",
+        "2 packages, 1 ready",
+        "",
+        "not looked at: models/docs holds no package",
+    ]
+
+
+def test_nothing_checked_says_nothing() -> None:
+    assert text() == ""
+
+
+def test_wording() -> None:
+    assert [count(n, "error") for n in (0, 1, 2)] == ["0 errors", "1 error", "2 errors"]
+    assert [listed(list("abc")[:n]) for n in range(4)] == ["", "a", "a and b", "a, b and c"]
+    assert (shortened("abc", 3), shortened("abcd", 3)) == ("abc", "ab…")
+    assert plain("a\x1b[31m\n\u202e\udcff") == "a\ufffd[31m\ufffd\ufffd\ufffd"

@@ -1,0 +1,19 @@
+"""Texts as documents and as faults."""
+
+from __future__ import annotations
+
+from checker.source.positions import XmlFault
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument, parse_xml
+
+
+def document(text: str) -> XmlDocument:
+    parsed = parse_xml(SourceText("model.sdf", text))
+    assert isinstance(parsed, XmlDocument), f"{parsed.message}: {parsed.hint}"
+    return parsed
+
+
+def fault(text: str) -> XmlFault:
+    parsed = parse_xml(SourceText("model.sdf", text))
+    assert isinstance(parsed, XmlFault)
+    return parsed

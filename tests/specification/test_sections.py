@@ -1,0 +1,68 @@
+"""Sections of a sheet."""
+
+from __future__ import annotations
+
+from checker.model.specification.sheet import read_specification
+from checker.source.text import SourceText
+
+TEXT = """# Robot
+intro
+
+## Sensor Config Guide
+guide
+
+## Usage Rights
+
+## Cost and Scale #
+### Sensors
+* 1 x IMU
+
+# <a name="validation_links"></a>Robot Validation and Specification Links
+* https://example.org
+"""
+
+
+def read(text: str):
+    return read_specification(SourceText("specifications.md", text))
+
+
+def test_sections_know_title_level_and_place():
+    assert [(each.title, each.level, each.span.line) for each in read(TEXT).sections] == [
+        ("Robot", 1, 1),
+        ("Sensor Config Guide", 2, 4),
+        ("Usage Rights", 2, 7),
+        ("Cost and Scale", 2, 9),
+        ("Sensors", 3, 10),
+        ("Robot Validation and Specification Links", 1, 13),
+    ]
+
+
+def test_a_section_is_found_by_words_of_its_heading_at_any_level():
+    sheet = read(TEXT)
+    assert sheet.section("sensors").level == 3
+    assert sheet.section("Validation and Specification Links").level == 1
+    assert sheet.section("Sensor") .title == "Sensor Config Guide"  # fmt: skip
+    assert sheet.section("Endurance") is None
+
+
+def test_a_heading_of_just_the_words_goes_before_one_that_contains_them():
+    assert read("# Control of X\na\n# Control\nb").section("control").text == "b"
+
+
+def test_what_stands_in_lower_sections_belongs_to_the_higher_one():
+    cost = read(TEXT).section("Cost and Scale")
+    assert cost.text == "Sensors\n1 x IMU"
+    assert not cost.is_empty
+
+
+def test_an_empty_section_is_empty_and_one_of_bare_links_is_not():
+    sheet = read(TEXT)
+    assert sheet.section("Usage Rights").is_empty
+    assert not sheet.section("Specification Links").is_empty
+    assert read("# A\n<!-- b -->\n## C\n").section("A").is_empty
+
+
+def test_an_empty_sheet_claims_nothing():
+    sheet = read("")
+    assert (sheet.title, sheet.sections, sheet.sensors) == ("", (), ())
+    assert (sheet.total_mass, sheet.endurance, sheet.limits) == (None, None, ())

@@ -1,0 +1,251 @@
+"""The documents say what is so: tables are fresh, links lead somewhere, commands and examples run.
+
+`pytest tests/test_docs.py --update-golden` writes the generated parts of README.md anew.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import re
+import shlex
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+
+from checker import cli
+from checker.discovery import _rules_in, all_rules
+from checker.options import check_against_rules
+from checker.page import parse_page
+from checker.profiles import profile, profile_names
+from checker.rule import Rule
+from checker.settings import parse_settings
+from tests.test_rule_examples import test_example as check_example
+
+ROOT = Path(__file__).parent.parent
+README = ROOT / "README.md"
+DOCUMENTS = [
+    README,
+    ROOT / "ARCHITECTURE.md",
+    ROOT / "CONTRIBUTING.md",
+    ROOT / "CHANGELOG.md",
+    ROOT / "samples/README.md",
+    ROOT / "checker/data/README.md",
+]
+OUR_RULES = [rule for rule in all_rules() if rule.check.__module__.startswith("rules.")]
+SHOWN = ["samples/broken_rover_sensor_config_1", "--select", "GEO001,INE008,KIN001,SPW005"]
+"""The check whose output README.md shows."""
+
+
+def _tokens(document: Path) -> Iterator[Token]:
+    for token in MarkdownIt().enable("table").parse(document.read_text("utf-8")):
+        yield token
+        yield from token.children or ()
+
+
+def _code(document: Path, language: str) -> list[str]:
+    return [
+        token.content
+        for token in _tokens(document)
+        if token.type == "fence" and token.info == language
+    ]
+
+
+def _code_spans(document: Path) -> list[str]:
+    return [token.content for token in _tokens(document) if token.type == "code_inline"]
+
+
+def _command_lines(document: Path) -> list[str]:
+    blocks = [line.strip() for block in _code(document, "sh") for line in block.splitlines()]
+    return [*blocks, *_code_spans(document)]
+
+
+def _rule_table() -> str:
+    rows = ["| rule | usual severity | what it reports |", "|---|---|---|"]
+    for rule in OUR_RULES:
+        path = rule.check.__module__.replace(".", "/") + ".py"
+        title = parse_page(rule.page).title
+        rows.append(f"| [{rule.id}]({path}) `{rule.name}` | {rule.severity} | {title} |")
+    return "\n".join(rows)
+
+
+def _part(text: str, name: str) -> re.Match[str]:
+    found = re.search(rf"(?<=<!-- {name} -->\n).*?(?=<!-- /{name} -->)", text, re.DOTALL)
+    assert found is not None, f"README.md has no part between <!-- {name} --> and <!-- /{name} -->"
+    return found
+
+
+def _assert_fresh(name: str, expected: str, request: pytest.FixtureRequest) -> None:
+    text = README.read_text("utf-8")
+    part = _part(text, name)
+    if request.config.getoption("--update-golden"):
+        README.write_text(text[: part.start()] + expected + text[part.end() :], "utf-8")
+    else:
+        assert part.group() == expected, "stale: pytest tests/test_docs.py --update-golden"
+
+
+def test_readme_lists_the_rules(request: pytest.FixtureRequest) -> None:
+    _assert_fresh("rules", _rule_table() + "\n", request)
+
+
+def test_readme_shows_what_the_command_prints(
+    request: pytest.FixtureRequest,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(ROOT)
+    assert cli.main([*SHOWN, "--color", "never"]) == 1
+    printed = capsys.readouterr().out
+    shown = f"```\n$ subt-check {shlex.join(SHOWN)}\n{printed}```\n"
+    _assert_fresh("output", shown, request)
+
+
+def test_readme_settings_are_valid() -> None:
+    (example,) = _code(README, "toml")
+    settings = parse_settings(tomllib.loads(example), README)
+    check_against_rules(settings, all_rules())
+    assert settings.options
+    assert settings.severity
+
+
+def test_readme_names_the_profiles_in_order() -> None:
+    section = README.read_text("utf-8").partition("### Profiles")[2].partition("###")[0]
+    assert tuple(re.findall(r"^\| `([\w-]+)` \|", section, re.MULTILINE)) == profile_names()
+    assert profile_names() == cli.PROFILES
+
+
+def test_commands_in_the_documents_are_understood() -> None:
+    lines = [
+        line
+        for document in DOCUMENTS
+        for line in _command_lines(document)
+        if line.startswith("subt-check ")
+    ]
+    parser = cli.build_parser()
+    for line in lines:
+        words = shlex.split(line, comments=True)[1:]
+        parser.parse_args(words if words[0] in cli.COMMANDS else ["check", *words])
+    used = {word for line in lines for word in line.split()}
+    assert {"rule", "rules", "--format", "--profile", "--select", "--jobs", "--fail-on"} <= used
+
+
+def test_make_targets_in_the_documents_exist() -> None:
+    makefile = (ROOT / "Makefile").read_text("utf-8")
+    targets = set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))
+    lines = [line for document in DOCUMENTS for line in _command_lines(document)]
+    named = {line.split()[1] for line in lines if line.startswith("make ")}
+    assert {"demo", "test"} <= named
+    assert named <= targets
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_relative_links_lead_to_files(document: Path) -> None:
+    links = [str(t.attrGet("href")) for t in _tokens(document) if t.type == "link_open"]
+    local = [link.partition("#") for link in links if not link.startswith("https://")]
+    dead = [path for path, _, _ in local if not (document.parent / path).exists()]
+    assert not dead
+    for path, _, anchor in local:
+        target = document.parent / path if path else document
+        assert not anchor or anchor in _anchors(target)
+
+
+def _anchors(document: Path) -> set[str]:
+    headings = re.findall(r"^#+ (.+)$", document.read_text("utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("document", ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"])
+def test_paths_in_the_documents_exist(document: str) -> None:
+    ours = re.compile(r"(?:checker|rules|samples|tests|bench|scripts|\.ci)/[\w./-]*")
+    named = [span for span in _code_spans(ROOT / document) if ours.fullmatch(span)]
+    assert not [path for path in named if not (ROOT / path).exists()]
+
+
+def test_architecture_names_every_folder() -> None:
+    folders = {f"checker/{p.name}/" for p in (ROOT / "checker").iterdir() if p.is_dir()}
+    folders.discard("checker/__pycache__/")
+    assert folders <= set(_code_spans(ROOT / "ARCHITECTURE.md"))
+
+
+def test_every_table_of_facts_is_listed() -> None:
+    listed = (ROOT / "checker/data/README.md").read_text("utf-8")
+    tables = [path.name for path in (ROOT / "checker/data").glob("*.json")]
+    assert not [name for name in tables if _family(name) not in listed]
+
+
+def _family(table: str) -> str:
+    return re.sub(r"(?<=^sdf_spec_)[\d.]+(?=\.json$)", "<version>", table)
+
+
+def _imports(folder: str) -> set[str]:
+    """Return the modules of ours that the files below a folder import."""
+    names: set[str] = set()
+    for file in (ROOT / folder).rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                names.add(node.module)
+            elif isinstance(node, ast.Import):
+                names.update(alias.name for alias in node.names)
+    return {name for name in names if name.partition(".")[0] in ("checker", "rules")}
+
+
+@pytest.mark.parametrize(
+    ("folder", "allowed"),
+    [
+        ("checker", "checker"),
+        ("checker/source", "checker.(source|finding)"),
+        ("checker/model", "checker.(model|source|finding|resources)"),
+        ("checker/package", "checker.(package|source|finding|errors)"),
+        ("checker/spawner", "checker.(spawner|source|finding)"),
+        ("checker/report", "checker.(report|finding)"),
+        (
+            "rules",
+            "checker.(rule|finding|model|package|source|spawner|spawning|paperwork|resources)",
+        ),
+    ],
+)
+def test_dependencies_point_one_way(folder: str, allowed: str) -> None:
+    imported = _imports(folder)
+    assert imported
+    assert not [name for name in imported if not re.fullmatch(rf"{allowed}(\..*)?", name)]
+
+
+@pytest.mark.parametrize("rule", OUR_RULES, ids=lambda rule: rule.id)
+def test_every_rule_has_a_page(rule: Rule) -> None:
+    first = rule.page.partition("\n\n")[0]
+    assert re.fullmatch(r"[A-Z`][^\n|<>]{10,98}[^\s.,:;!?…]\.", first)
+    page = parse_page(rule.page)
+    assert page.why
+    assert page.fix
+    assert page.source
+    assert page.reason.endswith(".")
+
+
+@pytest.mark.parametrize("rule", OUR_RULES, ids=lambda rule: rule.id)
+def test_every_rule_is_where_its_id_says(rule: Rule) -> None:
+    module = rule.check.__module__.rpartition(".")[2]
+    assert module.startswith(f"{rule.id.lower()}_")
+    assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)+", rule.name)
+    assert any(profile(name).includes(rule) for name in profile_names())
+
+
+def test_the_rule_in_contributing_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (code,) = _code(ROOT / "CONTRIBUTING.md", "python")
+    file = tmp_path / "kin900_negative_damping.py"
+    file.write_text(code, "utf-8")
+    spec = importlib.util.spec_from_file_location(file.stem, file)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, file.stem, module)
+    spec.loader.exec_module(module)
+    (rule,) = _rules_in(module)
+    test_every_rule_has_a_page(rule)
+    for kind in ("good", "bad"):
+        for example in getattr(rule, kind):
+            check_example(rule, kind, example, tmp_path / kind)

@@ -1,0 +1,98 @@
+"""Every sample gets the report that lies beside it, and every fault put there is found."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+import jsonschema
+import pytest
+
+from checker.check import check_package
+from checker.discovery import all_rules
+from checker.report.json_report import to_dict, to_json
+from checker.report.report import PackageReport, VerdictKind
+from checker.settings import Settings
+from tests.conftest import SAMPLES
+
+NAMES = sorted(folder.name for folder in SAMPLES.iterdir() if (folder / "package.xml").is_file())
+BROKEN = "broken_rover_sensor_config_1"
+GOOD = [name for name in NAMES if name != BROKEN]
+SCHEMA = json.loads((SAMPLES.parent / "checker/report/report.schema.json").read_text("utf-8"))
+
+
+def report_of(name: str) -> PackageReport:
+    (package,) = check_package(SAMPLES / name, Settings()).packages
+    return package
+
+
+def golden(name: str) -> dict[str, Any]:
+    """Return the report without what differs between machines and runs."""
+    report = to_dict(check_package(SAMPLES / name, Settings()))
+    del report["tool"]["versions"]
+    for package in report["packages"]:
+        del package["timings"]
+        package["path"] = package["name"]
+    return report
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_report_is_the_one_beside_the_sample(name: str, pytestconfig: pytest.Config) -> None:
+    beside = SAMPLES / f"{name}.report.json"
+    report = golden(name)
+    if pytestconfig.getoption("--update-golden"):
+        beside.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    assert report == json.loads(beside.read_text("utf-8"))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_report_is_valid(name: str) -> None:
+    report = to_json(check_package(SAMPLES / name, Settings()))
+    jsonschema.validate(json.loads(report), SCHEMA)
+
+
+@pytest.mark.parametrize("name", GOOD)
+def test_a_good_sample_is_ready_and_nothing_is_said_about_it(name: str) -> None:
+    package = report_of(name)
+    assert not [f"{each.rule}: {each.message}" for each in package.findings]
+    assert not package.blind_spots
+    assert package.verdict is VerdictKind.READY
+
+
+def test_the_broken_sample_is_not_ready() -> None:
+    assert report_of(BROKEN).verdict is VerdictKind.NOT_READY
+
+
+Fault = tuple[str, str, int]
+"""Rule, file (empty for the package), and line (1 where it cannot have any other)."""
+
+
+def faults_listed() -> set[Fault]:
+    """Return the faults that the table beside the broken sample lists, for rules that exist."""
+    rules = {rule.id for rule in all_rules()}
+    table = (SAMPLES / f"{BROKEN}.faults.md").read_text("utf-8")
+    rows = re.findall(r"^\| ([A-Z]+\d+) \| (.+?) \| (\d+|–) \|", table, re.MULTILINE)
+    assert len(rows) > 150
+    return {
+        (rule, "" if file == "(package)" else file, 1 if line == "–" else int(line))
+        for rule, file, line in rows
+        if rule in rules
+    }
+
+
+def faults_reported() -> set[Fault]:
+    return {
+        (finding.rule, place.file, place.line)
+        for finding in report_of(BROKEN).findings
+        for place in finding.places
+        if not place.note
+    }
+
+
+def test_every_fault_of_the_broken_sample_is_reported() -> None:
+    assert not sorted(faults_listed() - faults_reported())
+
+
+def test_nothing_else_is_reported_about_the_broken_sample() -> None:
+    assert not sorted(faults_reported() - faults_listed())
