@@ -51,15 +51,15 @@ def robot_of(links: int, folder: Path) -> Path:
     """Write a package whose model is a chain of so many links."""
     package = folder / f"bench_chain{links}_sensor_config_1"
     package.mkdir()
-    parts = ["<sdf version='1.6'><model name='chain'><link name='l0'/>"]
-    for n in range(1, links):
-        parts.append(
-            f"<link name='l{n}'><pose>0 0 {n} 0 0 1.57</pose><inertial><mass>1</mass></inertial>"
-            f"<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry>"
-            f"</collision></link>\n<joint name='j{n}' type='revolute'><parent>l{n - 1}</parent>"
-            f"<child>l{n}</child><axis><xyz>0 0 1</xyz></axis></joint>\n"
-        )
-    (package / "model.sdf").write_text("".join([*parts, "</model></sdf>"]), "utf-8")
+    parts = "".join(
+        f"<link name='l{n}'><pose>0 0 {n} 0 0 1.57</pose><inertial><mass>1</mass></inertial>"
+        "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry>"
+        f"</collision></link>\n<joint name='j{n}' type='revolute'><parent>l{n - 1}</parent>"
+        f"<child>l{n}</child><axis><xyz>0 0 1</xyz></axis></joint>\n"
+        for n in range(1, links)
+    )
+    model = f"<sdf version='1.6'><model name='chain'><link name='l0'/>{parts}</model></sdf>"
+    (package / "model.sdf").write_text(model, "utf-8")
     (package / "package.xml").write_text(f"<package><name>{package.name}</name></package>", "utf-8")
     return package
 
@@ -85,7 +85,8 @@ def main() -> None:
     within = [seconds(lambda path=path: check_package(path, settings), 3) for path in packages]
     show("a package, within a process", statistics.median(within))
     print(f"{'  slowest of ' + str(len(packages)):<32} {max(within):8.3f} s")
-    show("a package, cold process", statistics.median(seconds(cold(str(p)), 1) for p in packages))
+    alone_times = [seconds(cold(str(path)), 1) for path in packages]
+    show("a package, cold process", statistics.median(alone_times))
     show("--help", seconds(cold("--help")))
     with tempfile.TemporaryDirectory() as folder:
         times = {}

@@ -77,7 +77,9 @@ install(FILES model.sdf model.config DESTINATION ${{CATKIN_PACKAGE_SHARE_DESTINA
 """,
     "specifications.md": "# Acme Rover Sensor Config 1\n\n## Description\nA rover.\n",
     "launch/spawner.rb": SPAWNER,
-    "launch/description.launch": '<launch>\n<arg name="name"/>\n<arg name="world_name"/>\n</launch>\n',
+    "launch/description.launch": (
+        '<launch>\n<arg name="name"/>\n<arg name="world_name"/>\n</launch>\n'
+    ),
     "launch/vehicle_topics.launch": (
         '<launch>\n<arg name="name"/>\n<arg name="world_name"/>\n</launch>\n'
     ),
