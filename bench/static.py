@@ -98,9 +98,8 @@ def main() -> None:
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     print(f"{'memory, all of the above':<32} {peak:8.0f} MB")
     alone = memory_of(packages[0])
-    print(
-        f"{'memory, one package':<32} {alone:8.0f} MB  (≤ 200 MB: {'yes' if alone <= 200 else 'NO'})"
-    )
+    judged = "yes" if alone <= 200 else "NO"
+    print(f"{'memory, one package':<32} {alone:8.0f} MB  (≤ 200 MB: {judged})")
 
 
 def memory_of(package: Path) -> float:
