@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from checker.model.robot import Joint, Link, Plugin
+from checker.model.components import Joint, Link, Plugin
 
 DRIVE_CLASSES = {
     "DiffDrive": "differential or skid-steer drive",

@@ -8,230 +8,27 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from checker.model.components import (
+    Axis,
+    Collision,
+    Frame,
+    Joint,
+    Link,
+    Model,
+    Part,
+    Plugin,
+    Pose,
+    Sensor,
+    Visual,
+)
 from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
-from checker.model.shapes import Geometry, Material
 from checker.model.transform import Transform, Vector
-from checker.source.text import Located, Span
-from checker.source.xml import Element, XmlDocument
-
-UNLIMITED = 1e16
-"""SDFormat's own bound: limits at or beyond ±1e16 mean that there is none."""
+from checker.source.text import Located
+from checker.source.xml import XmlDocument
 
 _LINKS_ONLY = ("1.4", "1.5", "1.6")
 """SDF versions in which joints tie links and nothing else."""
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """Anything of a robot that has a name and an element.
-
-    Attributes:
-        name: As written.
-        element: Where it is described; it leads to whatever the model does not spell out.
-    """
-
-    name: Located[str]
-    element: Element
-
-    @property
-    def span(self) -> Span:
-        """The start tag."""
-        return self.element.span
-
-
-@dataclass(frozen=True, eq=False)
-class Pose:
-    """A pose as written.
-
-    Attributes:
-        transform: The numbers, as a transform into the frame `relative_to`.
-        relative_to: Name of that frame; empty for the default of the place it stands in.
-        numbers: x, y, z (metres), roll, pitch, yaw (radians), each with its place.
-        span: The pose element, or the element that could have stated one.
-    """
-
-    transform: Transform
-    relative_to: str
-    numbers: tuple[Located[float], ...]
-    span: Span
-
-
-@dataclass(frozen=True, eq=False)
-class Inertial:
-    """Mass and inertia of a link.
-
-    Attributes:
-        pose: Centre of mass and axes, in the link's frame.
-        mass: Kilograms.
-        moments: ixx, ixy, ixz, iyy, iyz, izz about the centre of mass, kg·m².
-        span: The inertial element.
-    """
-
-    pose: Pose
-    mass: Located[float]
-    moments: tuple[Located[float], ...]
-    span: Span
-
-
-@dataclass(frozen=True, eq=False)
-class Collision(Part):
-    """A shape that touches things, posed in its link's frame."""
-
-    pose: Pose
-    geometry: Geometry
-
-
-@dataclass(frozen=True, eq=False)
-class Visual(Part):
-    """A shape that is seen, posed in its link's frame."""
-
-    pose: Pose
-    geometry: Geometry
-    material: Material | None
-
-
-@dataclass(frozen=True, eq=False)
-class Plugin(Part):
-    """A plugin and its parameters (below `element`).
-
-    Attributes:
-        filename: The library.
-        owner: Name of the link or sensor it stands in; empty for the model.
-        nested_in: Scoped name of the nested model it stands in, else empty.
-    """
-
-    filename: Located[str]
-    owner: str = ""
-    nested_in: str = ""
-
-    @property
-    def class_name(self) -> str:
-        """Last word of the class: `DiffDrive` of `ignition::gazebo::systems::DiffDrive`."""
-        return self.name.value.rsplit("::", 1)[-1]
-
-    def values(self, *tags: str) -> list[Located[str]]:
-        """Return the texts of all elements of these names, at any depth."""
-        return [e.text for e in self.element.descendants() if e.tag in tags and e.text.stated]
-
-
-@dataclass(frozen=True, eq=False)
-class Sensor(Part):
-    """A sensor.
-
-    Attributes:
-        type: As written (`gpu_lidar`).
-        link: Name of the link (or joint) that carries it.
-        pose: In that link's frame, unless it says otherwise.
-        topic: Empty for the default.
-    """
-
-    type: Located[str]
-    link: str
-    pose: Pose
-    topic: Located[str]
-    plugins: tuple[Plugin, ...] = ()
-
-
-@dataclass(frozen=True, eq=False)
-class Light(Part):
-    """A light and the link that carries it."""
-
-    type: str
-    link: str
-    pose: Pose
-
-
-@dataclass(frozen=True, eq=False)
-class Link(Part):
-    """A rigid body.
-
-    Attributes:
-        scoped_name: With the names of nested models in front: `arm::wrist`.
-        inertial: None when the file states none.
-        default_mass: Kilograms of a link without inertial: 1 in SDF, 0 in URDF.
-    """
-
-    scoped_name: str
-    pose: Pose
-    inertial: Inertial | None
-    collisions: tuple[Collision, ...]
-    visuals: tuple[Visual, ...]
-    sensors: tuple[Sensor, ...]
-    lights: tuple[Light, ...]
-    default_mass: float = 1.0
-
-    @property
-    def mass(self) -> float:
-        """Kilograms; what simulators assume where the file states none."""
-        return self.inertial.mass.value if self.inertial is not None else self.default_mass
-
-
-@dataclass(frozen=True, eq=False)
-class Axis:
-    """One axis of a joint.
-
-    Attributes:
-        xyz: Direction, expressed in `expressed_in`.
-        expressed_in: Name of a frame; empty for the joint's own, `__model__` for the model's.
-        lower: Metres or radians; −inf without limit.
-        upper: Metres or radians; inf without limit.
-        effort: Newtons or newton metres; inf without limit.
-        velocity: Metres or radians a second; inf without limit.
-    """
-
-    xyz: tuple[Located[float], ...]
-    expressed_in: str
-    lower: Located[float]
-    upper: Located[float]
-    effort: Located[float]
-    velocity: Located[float]
-    damping: Located[float]
-    friction: Located[float]
-    span: Span
-
-
-@dataclass(frozen=True, eq=False)
-class Joint(Part):
-    """A joint.
-
-    Attributes:
-        parent: Name of a link or frame, as written; `world` for the world.
-        child: Name of a link or frame, as written.
-        scope: Scoped name of the model it stands in, with `::` behind; empty for the robot.
-    """
-
-    scoped_name: str
-    scope: str
-    type: Located[str]
-    parent: Located[str]
-    child: Located[str]
-    pose: Pose
-    axes: tuple[Axis, ...]
-    sensors: tuple[Sensor, ...] = ()
-
-
-@dataclass(frozen=True, eq=False)
-class Frame(Part):
-    """A named frame (SDF 1.7 and later)."""
-
-    scoped_name: str
-    attached_to: str
-    pose: Pose
-
-
-@dataclass(frozen=True, eq=False)
-class Model(Part):
-    """A nested model, or an include that was read.
-
-    Attributes:
-        scoped_name: `arm` for a model nested in the robot.
-        included_from: URI of the include; None for a model written in place.
-    """
-
-    scoped_name: str
-    pose: Pose
-    included_from: Located[str] | None = None
 
 
 @dataclass(frozen=True, eq=False)

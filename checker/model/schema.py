@@ -52,16 +52,14 @@ class ElementType:
         types = _types(self.version)
         around = (*self.enclosing, self.description)
         for kid in self.description.get("kids", ()):
+            description, enclosing = kid, around
             if "ref" in kid:
                 description = types[kid["ref"]]
             elif "self" in kid:
-                description = next(d for d in reversed(around) if d["name"] == kid["self"])
-            else:
-                description = kid
-            recursive = "self" in kid
-            yield ElementType(
-                description["name"], description, self.version, () if recursive else around
-            )
+                # The enclosing element again, with what stood around it the first time.
+                description = types[kid["self"]]
+                enclosing = around[: next(i for i, d in enumerate(around) if d is description)]
+            yield ElementType(description["name"], description, self.version, enclosing)
 
 
 def _types(version: str) -> dict[str, Any]:

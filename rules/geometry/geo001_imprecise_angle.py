@@ -12,7 +12,8 @@ high precision numbers".
 import math
 from collections.abc import Iterator
 
-from checker.model.robot import Pose, Robot
+from checker.model.components import Pose
+from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 

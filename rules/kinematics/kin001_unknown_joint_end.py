@@ -6,7 +6,8 @@ Fix: name a link of the model as its `name` attribute spells it.
 Source: SDFormat specification, joint/parent and joint/child.
 """
 
-from checker.model.robot import Joint, Robot
+from checker.model.components import Joint
+from checker.model.robot import Robot
 from checker.model.schema import nearest
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located

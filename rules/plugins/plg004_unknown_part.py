@@ -9,7 +9,8 @@ Source: parameter descriptions of Gazebo's systems (`plugin_references.json`).
 
 from collections.abc import Iterator
 
-from checker.model.robot import Plugin, Robot
+from checker.model.components import Plugin
+from checker.model.robot import Robot
 from checker.model.schema import nearest
 from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule, unchecked

@@ -11,9 +11,10 @@ Source: topics that gz-sensors publishes by default; SubT review findings of IMU
 
 from collections.abc import Mapping
 
+from checker.model.components import Link
 from checker.model.launch.bridge import Bridge, SensorTopic
 from checker.model.launch.graph import LaunchGraph
-from checker.model.robot import Link, Robot
+from checker.model.robot import Robot
 from checker.model.schema import nearest
 from checker.rule import Finding, Findings, Severity, finding, rule
 

@@ -39,6 +39,19 @@ def test_a_version_that_is_not_known_is_read_as_1_6() -> None:
     assert sdf_root("9.9").version == "1.6"
 
 
+@pytest.mark.parametrize("version", VERSIONS)
+def test_every_place_of_a_version_can_be_reached(version: str) -> None:
+    seen: set[tuple[int, ...]] = set()
+    stack = [sdf_root(version)]
+    while stack:
+        kind = stack.pop()
+        place = (id(kind.description), *(id(outer) for outer in kind.enclosing))
+        if place not in seen:
+            seen.add(place)
+            stack.extend(kind.children.values())
+    assert len(seen) > 2000
+
+
 def test_models_nest_without_end() -> None:
     text = '<sdf version="1.8">' + "<model>" * 100 + "<bad/>" + "</model>" * 100 + "</sdf>"
     kinds = [kind for _, kind in walk(document(text).root, "1.8")]

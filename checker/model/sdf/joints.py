@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from checker.model.components import UNLIMITED, Axis, Frame, Joint
 from checker.model.frames import MODEL_FRAME, FrameNode
-from checker.model.robot import UNLIMITED, Axis, Frame, Joint
 from checker.model.sdf.links import read_sensor
 from checker.model.sdf.scope import Scope
 from checker.source.text import Located

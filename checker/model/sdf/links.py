@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
+from checker.model.components import Collision, Inertial, Light, Link, Plugin, Sensor, Visual
 from checker.model.frames import FrameNode
-from checker.model.robot import (
-    Collision,
-    Inertial,
-    Light,
-    Link,
-    Plugin,
-    Sensor,
-    Visual,
-)
 from checker.model.sdf.geometry import read_geometry, read_material
 from checker.model.sdf.scope import Scope
 from checker.source.text import Located

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
+from checker.model.components import Frame, Joint, Link, Model, Plugin
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
-from checker.model.robot import Frame, Joint, Link, Model, Plugin, Robot
+from checker.model.robot import Robot
 from checker.model.sdf.joints import read_frame, read_joint
 from checker.model.sdf.links import read_link, read_plugin
 from checker.model.sdf.scope import Scope

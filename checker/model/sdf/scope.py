@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import radians
 
+from checker.model.components import Pose
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
-from checker.model.robot import Pose
 from checker.model.transform import Transform, Vector, rotation_from_quaternion
 from checker.model.values import ValueReader
 from checker.source.text import Located

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from checker.model.components import Link, Part, Pose
 from checker.model.faults import Fault, FaultKind
-from checker.model.robot import Link, Part, Pose, Robot
+from checker.model.robot import Robot
 
 
 def unknown_frames(robot: Robot) -> Iterator[Fault]:

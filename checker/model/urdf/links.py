@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from checker.model.robot import Collision, Inertial, Link, Pose, Visual
+from checker.model.components import Collision, Inertial, Link, Pose, Visual
 from checker.model.shapes import Geometry, Material
 from checker.model.transform import Transform, Vector
 from checker.model.values import ValueReader

@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
+from checker.model.components import Axis, Joint, Link, Plugin, Pose, Sensor
 from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
-from checker.model.robot import Axis, Joint, Link, Plugin, Pose, Robot, Sensor
+from checker.model.robot import Robot
 from checker.model.sdf.links import read_plugin, read_sensor
 from checker.model.sdf.scope import Scope
 from checker.model.transform import Transform
