@@ -4,6 +4,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 CORPUS ?= $(wildcard ../shared/corpus)
+REVIEWS ?= $(wildcard ../shared/reviews)
 WORKERS ?= auto
 
 .PHONY: demo test lint types format bench constraints clean golden
@@ -20,7 +21,8 @@ demo: .venv/installed
 	@echo "== results: demo/good.txt, demo/broken.txt, demo/report.json"
 
 test: .venv/tested
-	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/pytest -n $(WORKERS)
+	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS)) \
+	  $(BIN)/pytest -n $(WORKERS)
 
 lint: .venv/tested
 	$(BIN)/ruff check .

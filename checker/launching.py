@@ -67,6 +67,7 @@ def _joined(graphs: Sequence[LaunchGraph]) -> LaunchGraph:
     return LaunchGraph(
         nodes=tuple(chain.from_iterable(graph.nodes for graph in graphs)),
         bridges=tuple(chain.from_iterable(graph.bridges for graph in graphs)),
+        dormant_bridges=tuple(chain.from_iterable(graph.dormant_bridges for graph in graphs)),
         params=tuple(chain.from_iterable(graph.params for graph in graphs)),
         environment=tuple(chain.from_iterable(graph.environment for graph in graphs)),
         includes=tuple(chain.from_iterable(graph.includes for graph in graphs)),

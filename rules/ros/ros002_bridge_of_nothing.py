@@ -1,7 +1,8 @@
 """A bridge of a sensor or topic that does not exist.
 
 Gazebo names a sensor's topic by world, model, link and sensor. A bridge that names the wrong link
-listens to silence: the ROS topic is there and never carries a message.
+listens to silence: the ROS topic is there and never carries a message. A bridge that a condition
+switches off is only a leftover of another robot's launch file.
 
 Fix: name the link that carries the sensor and the sensor as the model spells them, and a topic
 that its type publishes.
@@ -16,7 +17,7 @@ from checker.model.launch.bridge import Bridge, SensorTopic
 from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot
 from checker.model.schema import nearest
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Findings, Severity, finding, rule
 
 _SCAN = frozenset({"scan", "scan/points"})
 _IMAGE = frozenset({"image", "camera_info"})
@@ -46,18 +47,25 @@ THERMAL = ("thermal", "thermal_camera")
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report bridges of sensor topics that no sensor of the robot publishes."""
     for bridge in launch.bridges:
-        topic = bridge.sensor
-        if topic is None or "$(" in bridge.ign_topic:
-            continue
-        if (fault := _fault(robot, topic)) is not None:
-            yield _finding(bridge, fault)
+        if fault := _fault(robot, bridge):
+            yield finding(bridge, _message(bridge, "listens", fault), key=bridge.ign_topic)
+    for bridge in launch.dormant_bridges:
+        if fault := _fault(robot, bridge):
+            said = _message(bridge, "is switched off and would listen", fault)
+            yield finding(bridge, said, severity=Severity.WARNING, key=f"off {bridge.ign_topic}")
 
 
-def _finding(bridge: Bridge, fault: str) -> Finding:
-    return finding(bridge, f"bridge {bridge.node.name!r} listens to {fault}", key=bridge.ign_topic)
+def _message(bridge: Bridge, listens: str, fault: str) -> str:
+    return f"bridge {bridge.node.name!r} {listens} to {fault}"
 
 
-def _fault(robot: Robot, topic: SensorTopic) -> str | None:
+def _fault(robot: Robot, bridge: Bridge) -> str | None:
+    """Say what a bridge listens to in vain."""
+    topic = bridge.sensor
+    return None if topic is None or "$(" in bridge.ign_topic else _nothing_at(robot, topic)
+
+
+def _nothing_at(robot: Robot, topic: SensorTopic) -> str | None:
     link = robot.links_by_name.get(topic.link)
     if link is None:
         near = nearest(topic.link, frozenset(robot.links_by_name))
@@ -110,4 +118,12 @@ BAD = [
     {"@fragment": _FRAGMENT, _TOPICS: _launch("base_link/sensor/imu_sensor/imu", _MARK)},
     {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_lnk/sensor/imu_sensor/imu", _MARK)},
     {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_link/sensor/imu_sensor/scan", _MARK)},
+    {
+        _TOPICS: """<launch>
+  <arg name="lidar" default="0"/>
+  <node if="$(arg lidar)" pkg="ros_ign_bridge" type="parameter_bridge" name="lidar_bridge"
+        args="/world/w/model/m/link/mast/sensor/lidar/scan@a/B[c.D"/>  <!-- ^ ROS002 -->
+</launch>
+"""
+    },
 ]

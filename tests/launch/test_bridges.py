@@ -130,3 +130,20 @@ def test_a_launch_command_names_package_and_file(text, package, file):
 @pytest.mark.parametrize("text", ["", "rosrun p t", "rosparam set a b"])
 def test_other_commands_are_no_launch_commands(text):
     assert LaunchCommand.parse(text) is None
+
+
+def test_bridges_that_a_condition_leaves_out_are_dormant(expand):
+    off = bridge_node("/sleeps@s/A[i.A").replace("<group", '<group if="$(arg more)"')
+    graph = expand('<arg name="more" default="0"/>' + off + bridge_node("/wakes@s/A[i.A"))
+    assert [bridge.ign_topic for bridge in graph.bridges] == ["/wakes"]
+    assert [bridge.ign_topic for bridge in graph.dormant_bridges] == ["/sleeps"]
+    assert not graph.faults
+
+
+def test_what_is_dormant_starts_nothing_and_follows_no_include(expand):
+    graph = expand(
+        '<group if="0"><include file="$(find p)/launch/a.launch"/>'
+        '<node pkg="b" type="x" name="n"/><param name="a" value="1"/></group>'
+    )
+    assert not (graph.nodes or graph.params or graph.includes or graph.dormant_bridges)
+    assert not (graph.unresolved_includes or graph.faults)

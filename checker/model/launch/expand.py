@@ -51,14 +51,20 @@ def expand_launch(
     return expansion.graph(file)
 
 
+def _follow_nothing(package: str, path: str, from_file: str) -> str:
+    return f"{path} of {package or from_file} is not started"
+
+
 class _Expansion:
     """Walks the elements and gathers what they start."""
 
-    def __init__(self, read_launch: ReadLaunch) -> None:
+    def __init__(self, read_launch: ReadLaunch, *, asleep: bool = False) -> None:
         self._read_launch = read_launch
+        self._asleep = asleep
         self._reader = Reader()
         self._nodes: list[Node] = []
         self._bridges: list[Bridge] = []
+        self._dormant_bridges: list[Bridge] = []
         self._params: list[Param] = []
         self._environment: list[EnvironmentVariable] = []
         self._includes: list[Include] = []
@@ -78,6 +84,7 @@ class _Expansion:
         return LaunchGraph(
             nodes=tuple(self._nodes),
             bridges=tuple(self._bridges),
+            dormant_bridges=tuple(self._dormant_bridges),
             params=tuple(self._params),
             environment=tuple(self._environment),
             includes=tuple(self._includes),
@@ -99,7 +106,15 @@ class _Expansion:
             handler = self._handlers.get(element.tag)
             if handler and self._reader.enabled(element, scope):
                 handler(element, scope)
+            elif element.tag in ("group", "node") and not self._asleep:
+                self._read_dormant(element, scope)
         return True
+
+    def _read_dormant(self, element: Element, scope: Scope) -> None:
+        """Read what a condition leaves out for its bridges; includes in it are not followed."""
+        dormant = _Expansion(_follow_nothing, asleep=True)
+        dormant._handlers[element.tag](element, scope)
+        self._dormant_bridges += dormant._bridges
 
     def _arg(self, element: Element, scope: Scope) -> None:
         name = element.get("name") or ""

@@ -161,6 +161,7 @@ class LaunchGraph:
     Attributes:
         nodes: In the order of the files.
         bridges: Topics that the nodes pass between ROS and Gazebo.
+        dormant_bridges: Those of nodes that a condition leaves out.
         params: Parameters set.
         environment: Environment variables set.
         includes: Files followed.
@@ -172,6 +173,7 @@ class LaunchGraph:
 
     nodes: tuple[Node, ...] = ()
     bridges: tuple[Bridge, ...] = ()
+    dormant_bridges: tuple[Bridge, ...] = ()
     params: tuple[Param, ...] = ()
     environment: tuple[EnvironmentVariable, ...] = ()
     includes: tuple[Include, ...] = ()
