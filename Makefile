@@ -38,9 +38,9 @@ format: .venv/tested
 bench: .venv/tested
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/static.py
 
-# Reports beside the samples: written anew, then read by a person before they are committed.
+# Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested
-	$(BIN)/pytest -q tests/test_samples.py --update-golden
+	$(BIN)/pytest -q tests/test_samples.py tests/test_docs.py tests/test_checklist.py --update-golden
 
 .venv/bin/python:
 	scripts/require venv=python3-venv

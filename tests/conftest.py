@@ -12,7 +12,7 @@ SAMPLES = Path(__file__).parent.parent / "samples"
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
-        "--update-golden", action="store_true", help="write the reports beside the samples anew"
+        "--update-golden", action="store_true", help="write reports and generated pages anew"
     )
 
 

@@ -16,7 +16,7 @@ LAYERS = (
     {"errors", "finding", "page", "parts", "resources", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
-    {"discovery", "paperwork", "profiles", "spawning"},
+    {"checklist", "discovery", "paperwork", "profiles", "spawning"},
     {"launching", "settings"},
     {"options", "subject"},
     {"engine", "facts"},

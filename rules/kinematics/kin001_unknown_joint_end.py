@@ -8,7 +8,7 @@ Source: SDFormat specification, joint/parent and joint/child.
 
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.model.schema import nearest
+from checker.model.suggestions import Suggestions
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
@@ -19,12 +19,12 @@ def check(robot: Robot) -> Findings:
     for uri in robot.unresolved_includes:
         yield unchecked(f"{uri.value or 'an include without <uri>'} is not at hand")
     names = robot.attachable_names
+    suggestions = Suggestions(names)
     for joint in robot.joints:
         for role, end in (("parent", joint.parent), ("child", joint.child)):
             if _exists(joint, role, end, names) or _may_be_included(robot, end):
                 continue
-            near = nearest(end.value, names)
-            hint = f"; did you mean {near!r}?" if near else ""
+            hint = suggestions.hint(end.value)
             said = f"{role} {end.value!r}, which does not exist" if end.value else f"no {role}"
             yield finding(end, f"joint {joint.name.value!r} has {said}{hint}")
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.model.schema import nearest
+from checker.model.suggestions import Suggestions
 from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
@@ -25,6 +25,7 @@ def check(robot: Robot) -> Findings:
         "joint": frozenset(robot.joints_by_name),
         "link": frozenset(robot.links_by_name),
     }
+    suggestions = {kind: Suggestions(names) for kind, names in parts.items()}
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     for plugin in robot.all_plugins:
@@ -33,8 +34,7 @@ def check(robot: Robot) -> Findings:
             for named in _named(plugin.element, path.split("/")):
                 if _exists(robot, plugin, named.value, parts[kind]):
                     continue
-                near = nearest(named.value, parts[kind])
-                hint = f"; did you mean {near!r}?" if near else ""
+                hint = suggestions[kind].hint(named.value)
                 yield finding(
                     named,
                     f"{plugin.class_name} names {kind} {named.value!r}, "

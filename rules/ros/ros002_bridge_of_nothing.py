@@ -16,7 +16,7 @@ from checker.model.components import Link
 from checker.model.launch.bridge import Bridge, SensorTopic
 from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot
-from checker.model.schema import nearest
+from checker.model.suggestions import Suggestions
 from checker.rule import Findings, Severity, finding, rule
 
 _SCAN = frozenset({"scan", "scan/points"})
@@ -46,11 +46,12 @@ THERMAL = ("thermal", "thermal_camera")
 @rule("ROS002", "bridge-of-nothing", Severity.ERROR)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report bridges of sensor topics that no sensor of the robot publishes."""
+    names = Suggestions([*robot.links_by_name, *(each.name.value for each in robot.sensors)])
     for bridge in launch.bridges:
-        if fault := _fault(robot, bridge):
+        if fault := _fault(robot, bridge, names):
             yield finding(bridge, _message(bridge, "listens", fault), key=bridge.ign_topic)
     for bridge in launch.dormant_bridges:
-        if fault := _fault(robot, bridge):
+        if fault := _fault(robot, bridge, names):
             said = _message(bridge, "is switched off and would listen", fault)
             yield finding(bridge, said, severity=Severity.WARNING, key=f"off {bridge.ign_topic}")
 
@@ -59,23 +60,26 @@ def _message(bridge: Bridge, listens: str, fault: str) -> str:
     return f"bridge {bridge.node.name!r} {listens} to {fault}"
 
 
-def _fault(robot: Robot, bridge: Bridge) -> str | None:
+def _fault(robot: Robot, bridge: Bridge, names: Suggestions) -> str | None:
     """Say what a bridge listens to in vain."""
     topic = bridge.sensor
-    return None if topic is None or "$(" in bridge.ign_topic else _nothing_at(robot, topic)
+    if topic is None or "$(" in bridge.ign_topic:
+        return None
+    return _nothing_at(robot, topic, names)
 
 
-def _nothing_at(robot: Robot, topic: SensorTopic) -> str | None:
+def _nothing_at(robot: Robot, topic: SensorTopic, names: Suggestions) -> str | None:
     link = robot.links_by_name.get(topic.link)
     if link is None:
-        near = nearest(topic.link, frozenset(robot.links_by_name))
-        hint = f"; did you mean {near!r}?" if near else ""
+        hint = names.hint(topic.link)
         return f"link {topic.link!r}, which the model does not have{hint}"
     sensor = next((s for s in link.sensors if s.name.value == topic.sensor), None)
     if sensor is None and topic.sensor == "camera_info" and _has_thermal_camera(link):
         return None
     if sensor is None:
-        return f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic)}"
+        return (
+            f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic, names)}"
+        )
     published = TOPICS.get(sensor.type.value)
     if published is None or sensor.topic.stated or topic.suffix in published:
         return None
@@ -90,12 +94,11 @@ def _has_thermal_camera(link: Link) -> bool:
     return any(sensor.type.value in THERMAL for sensor in link.sensors)
 
 
-def _whereabouts(robot: Robot, topic: SensorTopic) -> str:
+def _whereabouts(robot: Robot, topic: SensorTopic, names: Suggestions) -> str:
     elsewhere = [s.link for s in robot.sensors if s.name.value == topic.sensor]
     if elsewhere:
         return f"which is on link {elsewhere[0]!r}"
-    near = nearest(topic.sensor, frozenset(s.name.value for s in robot.sensors))
-    return f"which does not exist; did you mean {near!r}?" if near else "which does not exist"
+    return f"which does not exist{names.hint(topic.sensor)}"
 
 
 def _launch(topic: str, mark: str = "") -> str:

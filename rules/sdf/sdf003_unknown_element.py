@@ -10,8 +10,9 @@ Source: SDFormat specification, the version that the file states.
 
 from collections.abc import Iterator
 
-from checker.model.schema import all_tags, nearest
+from checker.model.schema import all_tags
 from checker.model.sdf.document import SdfDocument
+from checker.model.suggestions import Suggestions
 from checker.rule import Findings, Severity, finding, replace_text, rule
 from checker.source.xml import Element
 
@@ -22,14 +23,15 @@ GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
 @rule("SDF003", "unknown-element", Severity.WARNING)
 def check(sdf: SdfDocument) -> Findings:
     """Report elements that no place of this SDF version knows."""
-    types = dict(_known_parents(sdf))
-    for element, kind in sdf.typed_elements:
-        parent = element.parent
-        if kind is not None or parent is None or element.tag in all_tags(sdf.version):
-            continue
-        near = nearest(element.tag, types[parent.path]) or nearest(
-            element.tag, all_tags(sdf.version)
-        )
+    unknown = [
+        element
+        for element, kind in sdf.typed_elements
+        if kind is None and element.tag not in all_tags(sdf.version)
+    ]
+    anywhere = Suggestions(all_tags(sdf.version))
+    for element, siblings in _with_known_siblings(sdf, unknown):
+        near = siblings.near(element.tag) or anywhere.near(element.tag)
+        parent = element.parent or sdf.root
         grave = near is not None or parent.tag in GRAVE_PARENTS
         hint = f"; did you mean <{near}>?" if near else ""
         yield finding(
@@ -41,10 +43,18 @@ def check(sdf: SdfDocument) -> Findings:
         )
 
 
-def _known_parents(sdf: SdfDocument) -> Iterator[tuple[str, list[str]]]:
-    for element, kind in sdf.typed_elements:
-        if kind is not None:
-            yield element.path, list(kind.children)
+def _with_known_siblings(
+    sdf: SdfDocument, unknown: list[Element]
+) -> Iterator[tuple[Element, Suggestions]]:
+    """Pair each unknown element with the tags that may stand in its place."""
+    parents = {element.parent for element in unknown}
+    known: dict[Element | None, Suggestions] = {
+        element: Suggestions(kind.children)
+        for element, kind in sdf.typed_elements
+        if kind is not None and element in parents
+    }
+    for element in unknown:
+        yield element, known.get(element.parent, Suggestions(()))
 
 
 def _is_empty_tag(element: Element) -> bool:
