@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from checker.collection import collection_put_off
 from checker.discovery import all_rules
 from checker.engine import crashed, run_rules
 from checker.errors import UnreadableInput
@@ -58,6 +58,8 @@ def check_paths(paths: Sequence[Path], wishes: Mapping[str, Any], jobs: int = 1)
     """
     tasks = [task for path in paths for task in _tasks(path, wishes, jobs)]
     if jobs > 1 and len(tasks) > 1:
+        from concurrent.futures import ProcessPoolExecutor
+
         with ProcessPoolExecutor(jobs) as pool:
             return _report(list(pool.map(_check_or_say_why_not, tasks)))
     return _report([_check_or_say_why_not(task) for task in tasks])
@@ -137,7 +139,8 @@ def _check_isolated(
 ) -> PackageReport:
     """Check one package; what goes wrong with it is reported, and the others are checked."""
     try:
-        return _check_one(package, shown, settings, opening)
+        with collection_put_off():
+            return _check_one(package, shown, settings, opening)
     except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
         broken = (crashed("check", error),)
         return PackageReport(package.name, shown, "unknown", (), broken)

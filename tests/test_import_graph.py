@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 LAYERS = (
-    {"errors", "finding", "page", "parts", "resources", "versions"},
+    {"collection", "errors", "finding", "page", "parts", "resources", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
     {"checklist", "discovery", "paperwork", "profiles", "spawning"},

@@ -1,0 +1,22 @@
+"""Garbage collection, put off while a package is checked."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+@contextmanager
+def collection_put_off() -> Iterator[None]:
+    """Put collection off: what a check makes lives to its end.
+
+    Looking through it in between took over half of the time of a model with 250 000 elements.
+    """
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
