@@ -145,5 +145,5 @@ def test_what_is_dormant_starts_nothing_and_follows_no_include(expand):
         '<group if="0"><include file="$(find p)/launch/a.launch"/>'
         '<node pkg="b" type="x" name="n"/><param name="a" value="1"/></group>'
     )
-    assert not (graph.nodes or graph.params or graph.includes or graph.dormant_bridges)
-    assert not (graph.unresolved_includes or graph.faults)
+    assert graph.nodes == graph.params == graph.includes == graph.dormant_bridges == ()
+    assert graph.unresolved_includes == graph.faults == ()
