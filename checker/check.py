@@ -96,8 +96,10 @@ class _Task:
         """Return the package's path as the user would write it."""
         if package.only:
             return str(self.path.parent)
-        whole = self.path.is_dir() and self.path.resolve() == package.root
-        return str(self.path if whole else self.path / package.name)
+        given = self.path.resolve()
+        if package.root.is_relative_to(given):
+            return str(self.path / package.root.relative_to(given))
+        return str(self.path / package.name)
 
 
 def _tasks(path: Path, wishes: Mapping[str, Any], jobs: int) -> list[_Task]:
@@ -168,6 +170,7 @@ def _check_one(package: Package, shown: str, settings: Settings, opening: float)
         {"open": opening, "rules": perf_counter() - started},
         settings.profile,
         settings.fail_on,
+        settings.description,
     )
 
 

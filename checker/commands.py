@@ -99,6 +99,8 @@ def _example(example: object) -> str:
                 shown.append(f"model.sdf:\n{_indented(text.strip())}")
             case "@name", _:
                 shown.append(f"folder {text}/")
+            case "@links", _:
+                shown += [f"{link} is a link to {target}" for link, target in text.items()]
             case _, None:
                 shown.append(f"{path} is missing")
             case _:
@@ -114,7 +116,7 @@ def list_rules(form: str) -> int:
     """List all rules, by group."""
     if form == "json":
         listed = [_as_dict(rule) for rule in all_rules()]
-        show(json.dumps(listed, indent=2, ensure_ascii=False) + "\n")
+        show(json.dumps(listed, indent=2) + "\n")
         return EXIT_CLEAN
     for rule in all_rules():
         title = parse_page(rule.page).title

@@ -42,10 +42,8 @@ def run_rules(rules: Iterable[Rule], parts: Parts, profile: Profile, settings: S
     not_checked: list[NotChecked] = []
     seconds: dict[str, float] = {}
     for rule in rules:
-        if not profile.includes(rule):
-            continue
-        if not settings.selects(rule):
-            if not settings.select:
+        if not wanted(rule, profile, settings):
+            if profile.includes(rule) and not settings.select:
                 not_checked.append(NotChecked(rule.id, "switched off", Cause.SWITCHED_OFF))
             continue
         started = perf_counter()
@@ -61,6 +59,11 @@ def run_rules(rules: Iterable[Rule], parts: Parts, profile: Profile, settings: S
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
     return Outcome(_distinct(_sorted(findings)), tuple(not_checked), seconds)
+
+
+def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:
+    """Say whether a rule is to run; the user's selection counts more than the profile's."""
+    return settings.selects(rule) and (bool(settings.select) or profile.includes(rule))
 
 
 def _run_isolated(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import posixpath
 from collections import ChainMap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from types import MappingProxyType
 
 from checker.model.launch.command import LaunchCommand
 from checker.model.launch.expand import expand_launch
@@ -15,55 +16,71 @@ from checker.model.launch.include import MissingLaunchFile
 from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.package.references import PROVIDED
 from checker.parts import NotAtHand
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
 from checker.spawner.reader import EXECUTABLES_ARGUMENTS
-from checker.spawning import SpawnedXml
+from checker.spawning import StartedXml
 
 USUAL_FILES = ("launch/description.launch", "launch/vehicle_topics.launch")
-"""What a spawner starts; read with sample arguments when the spawner itself cannot be read."""
+"""What a spawner ought to start; read with sample arguments when it does not."""
+
+_USUAL_ARGUMENTS: Mapping[str, str] = MappingProxyType(
+    dict(zip(("name", "world_name"), map(str, EXECUTABLES_ARGUMENTS), strict=True))
+)
+
+SAMPLE_ARGUMENTS = dict(zip(("name", "world_name"), map(str, EXECUTABLES_ARGUMENTS), strict=True))
+"""What a launcher gives to every launch file."""
 
 
-def launch_graph(package: Package, started: SpawnedXml | NotAtHand) -> LaunchGraph | NotAtHand:
-    """Expand every launch file that a package's spawner starts."""
+def launch_graph(package: Package, started: StartedXml | NotAtHand) -> LaunchGraph | NotAtHand:
+    """Expand every launch file that a package's spawner starts, and those that it forgets."""
     if package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
         return NotAtHand("the package needs no launch files", applicable=False)
     files = _LaunchFiles(package)
-    if isinstance(started, NotAtHand):
-        return _usual_graph(package, files)
     graphs = []
-    for element in started.commands:
-        command = LaunchCommand.parse(element.text.value)
-        if command is not None and command.file:
-            graphs.append(_started(command, element.text.span, files))
+    commands: list[tuple[LaunchCommand, Span]] = []
+    if isinstance(started, StartedXml):
+        read = ((LaunchCommand.parse(e.text.value), e.text.span) for e in started.commands)
+        commands = [(command, span) for command, span in read if command and command.file]
+        graphs = [_started(command, span, files) for command, span in commands]
+    named = {command.file for command, _ in commands}
+    usual = [path for path in USUAL_FILES if posixpath.basename(path) not in named]
+    graphs += _expanded(package, usual, files)
+    if isinstance(started, NotAtHand):
+        return (
+            _joined(graphs, started.reason) if graphs else NotAtHand("no launch file can be read")
+        )
     return _joined(graphs)
 
 
-def _usual_graph(package: Package, files: _LaunchFiles) -> LaunchGraph | NotAtHand:
-    name, world = (str(each) for each in EXECUTABLES_ARGUMENTS)
-    arguments = {"name": name, "world_name": world}
-    graphs = []
-    for path in USUAL_FILES:
-        part = package.part(path)
-        document = package.xml(part.path) if isinstance(part, Found) else None
-        if isinstance(document, XmlDocument):
-            graphs.append(expand_launch(document, arguments, files))
-    return _joined(graphs) if graphs else NotAtHand("no launch file can be read")
+def _expanded(package: Package, paths: Sequence[str], files: _LaunchFiles) -> list[LaunchGraph]:
+    """Expand launch files with the arguments that a launcher gives."""
+    parts = [package.part(path) for path in paths]
+    documents = [package.xml(part.path) for part in parts if isinstance(part, Found)]
+    return [
+        expand_launch(document, SAMPLE_ARGUMENTS, files)
+        for document in documents
+        if isinstance(document, XmlDocument)
+    ]
 
 
 def _started(command: LaunchCommand, span: Span, files: _LaunchFiles) -> LaunchGraph:
     """Expand the file that a command names; one that is not at hand is an unresolved include."""
     document = files.find(command.package, command.file)
     if isinstance(document, XmlDocument):
-        return expand_launch(document, command.arguments, files)
+        # A command that forgets an argument (SPW013) must not hide what the file bridges.
+        return expand_launch(document, {**SAMPLE_ARGUMENTS, **command.arguments}, files)
     missing = UnresolvedInclude(
         command.package, command.file, command.arguments, "/", str(document), span
     )
     return LaunchGraph(unresolved_includes=(missing,))
 
 
-def _joined(graphs: Sequence[LaunchGraph]) -> LaunchGraph:
+def _joined(graphs: Sequence[LaunchGraph], *reasons: str) -> LaunchGraph:
+    missing = chain.from_iterable(graph.unresolved_includes for graph in graphs)
+    unread = (_reason(include) for include in missing if include.package not in PROVIDED)
     return LaunchGraph(
         nodes=tuple(chain.from_iterable(graph.nodes for graph in graphs)),
         bridges=tuple(chain.from_iterable(graph.bridges for graph in graphs)),
@@ -77,7 +94,12 @@ def _joined(graphs: Sequence[LaunchGraph]) -> LaunchGraph:
         arguments=ChainMap({}, *(dict(graph.arguments) for graph in graphs)),
         undecided=tuple(chain.from_iterable(graph.undecided for graph in graphs)),
         faults=tuple(chain.from_iterable(graph.faults for graph in graphs)),
+        unread=tuple(dict.fromkeys((*reasons, *unread))),
     )
+
+
+def _reason(include: UnresolvedInclude) -> str:
+    return f"{include.file} is not read: {include.reason}"
 
 
 @dataclass(frozen=True)
@@ -88,8 +110,9 @@ class _LaunchFiles:
 
     def __call__(self, package: str, path: str, from_file: str) -> XmlDocument | str:
         """Return an included file; see `ReadLaunch`."""
+        del from_file  # all paths start at the package's folder
         if not package:
-            return self._read(posixpath.join(posixpath.dirname(from_file), path))
+            return self._read(path)
         prefix = self._folder(package)
         if prefix is None:
             return f"package {package} is not at hand"
@@ -101,8 +124,9 @@ class _LaunchFiles:
         if prefix is None:
             return f"package {package} is not at hand"
         holder = self.package if not prefix else self.package.workspace.package(package)
-        paths = [each.path for each in holder.index.with_suffix(file)] if holder else []
-        path = next((p for p in paths if posixpath.basename(p) == file), f"launch/{file}")
+        files = holder.index.files if holder else ()
+        named = (each.path for each in files if posixpath.basename(each.path) == file)
+        path = next(named, f"launch/{file}")
         return self._read(posixpath.join(prefix, path))
 
     def _folder(self, name: str) -> str | None:

@@ -28,6 +28,8 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
             raise InvalidSettings(settings.source, no_such_rule(id, by_id))
     for id in settings.options:
         options_of(by_id[id], settings)
+    if rules and not any(map(settings.selects, rules)):
+        raise InvalidSettings(settings.source, "select and ignore leave no rule to run")
 
 
 def no_such_rule(name: str, known: Iterable[str]) -> str:

@@ -12,7 +12,9 @@ from checker.model.paperwork import (
     read_package_xml,
 )
 from checker.package.package import Package
+from checker.package.reading import NotReadable
 from checker.source.cmake import CMakeFile, read_cmake
+from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
@@ -22,6 +24,15 @@ class Paperwork:
     """What a package's own paperwork says; nothing here is inherited."""
 
     package: Package
+
+    def unread(self, path: str) -> str:
+        """Return why a paper that is there cannot be read; empty when it can, or is missing."""
+        if self.package.index.find(path) is None:
+            return ""
+        document = self.package.xml(path)
+        if isinstance(document, NotReadable):
+            return f"{path} {document.reason}"
+        return f"{path} is not well-formed" if isinstance(document, XmlFault) else ""
 
     @cached_property
     def manifest(self) -> PackageManifest | None:

@@ -54,6 +54,18 @@ class Settings:
         """Return settings in which those that are not None replace these."""
         return replace(self, **{key: value for key, value in changes.items() if value is not None})
 
+    @property
+    def description(self) -> str:
+        """What a settings file changes, in words; empty for the defaults and the command line."""
+        if self.source is None:
+            return ""
+        changes = [f"profile {self.profile}"]
+        changes += [f"only {', '.join(self.select)}"] if self.select else []
+        changes += [f"without {', '.join(self.ignore)}"] if self.ignore else []
+        changes += [f"severity of {', '.join(self.severity)}"] if self.severity else []
+        changes += [f"options of {', '.join(self.options)}"] if self.options else []
+        return f"{self.source.name} ({'; '.join(changes)})"
+
 
 def _names(patterns: Sequence[str], rule: Rule) -> bool:
     return any(pattern in (rule.id, rule.group, rule.name) for pattern in patterns)

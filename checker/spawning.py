@@ -6,6 +6,7 @@ import posixpath
 import re
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 from checker.package.inheritance import SPAWNER
 from checker.package.package import Package
@@ -52,7 +53,7 @@ class WorkspaceFiles:
 
 
 @dataclass(frozen=True, eq=False)
-class SpawnedXml:
+class EmittedXml:
     """What a function of the spawner emits, as XML.
 
     Attributes:
@@ -62,16 +63,6 @@ class SpawnedXml:
 
     text: EmittedText
     document: XmlDocument
-
-    @cached_property
-    def plugins(self) -> list[Element]:
-        """The plugins that `spawner` adds to the robot."""
-        return self.document.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
-
-    @cached_property
-    def commands(self) -> list[Element]:
-        """The `<command>` elements that `rosExecutables` emits."""
-        return self.document.find_all("executable/command")
 
     def parameters_of(self, span: Span) -> frozenset[str]:
         """Return the function's parameters and the globals that made a stretch of the text."""
@@ -84,7 +75,43 @@ class SpawnedXml:
         return [Span(span.source, span.start + w.start(), span.start + w.end()) for w in words]
 
 
-def spawned_xml(function: str, emitted: EmittedText | Unread) -> SpawnedXml | NotAtHand:
+@dataclass(frozen=True, eq=False)
+class SpawnedXml(EmittedXml):
+    """What `spawner` emits: the robot and the plugins that it gets."""
+
+    @cached_property
+    def spawns(self) -> list[Element]:
+        """The outermost `<spawn>` elements."""
+        return self.document.root.all("spawn")
+
+    @cached_property
+    def gazebo_factories(self) -> list[Element]:
+        """The plugins that older spawners wrap the robot in instead of `<spawn>`."""
+        plugins = self.document.root.descendants("plugin")
+        return [each for each in plugins if "gazebo-factory" in (each.get("filename") or "")]
+
+    @cached_property
+    def plugins(self) -> list[Element]:
+        """The plugins that `spawner` adds to the robot."""
+        return self.document.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
+
+
+@dataclass(frozen=True, eq=False)
+class StartedXml(EmittedXml):
+    """What `rosExecutables` emits: the commands that start the robot's ROS nodes."""
+
+    @cached_property
+    def commands(self) -> list[Element]:
+        """The `<command>` elements."""
+        return self.document.find_all("executable/command")
+
+
+Emitted = TypeVar("Emitted", bound=EmittedXml)
+
+
+def emitted_xml(
+    kind: type[Emitted], function: str, emitted: EmittedText | Unread
+) -> Emitted | NotAtHand:
     """Parse what a function of the spawner emits; what cannot be read is not at hand."""
     if isinstance(emitted, Unread):
         place = emitted.span.place()
@@ -94,4 +121,4 @@ def spawned_xml(function: str, emitted: EmittedText | Unread) -> SpawnedXml | No
     document = parse_fragments(emitted)
     if isinstance(document, XmlFault):
         return NotAtHand(f"what {function} emits is not well-formed: {document.message}")
-    return SpawnedXml(emitted, document)
+    return kind(emitted, document)

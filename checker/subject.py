@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from checker.including import ModelIncludes
 from checker.launching import launch_graph
 from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot
@@ -15,7 +15,7 @@ from checker.model.sdf.links import read_plugin
 from checker.model.sdf.reader import read_sdf
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.reader import read_urdf
-from checker.package.inheritance import SPAWNER, Found, Missing
+from checker.package.inheritance import SPAWNER, Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.reading import NotReadable
@@ -24,7 +24,7 @@ from checker.parts import NotAtHand
 from checker.source.positions import XmlFault
 from checker.source.xml import XmlDocument
 from checker.spawner.reader import Spawner, read_spawner
-from checker.spawning import SpawnedXml, WorkspaceFiles, spawned_xml
+from checker.spawning import SpawnedXml, StartedXml, WorkspaceFiles, emitted_xml
 
 _WITHOUT_ROBOT = {
     PackageKind.PLUGIN: "the package only carries a plugin",
@@ -51,6 +51,11 @@ class Subject:
         if isinstance(had, NotAtHand):
             return had
         return had if isinstance(had, tuple) else (had,)
+
+    @cached_property
+    def paperwork(self) -> Paperwork:
+        """What the package's own papers say."""
+        return Paperwork(self.package)
 
     @cached_property
     def model(self) -> XmlDocument | NotAtHand:
@@ -94,31 +99,19 @@ class Subject:
 
     @cached_property
     def robots(self) -> tuple[Robot, ...] | NotAtHand:
-        """The robots of the model file, with the plugins that the spawner adds to the first."""
+        """The robot of the package, with the plugins that the spawner adds; all of a lone file."""
         if isinstance(self.model, NotAtHand):
             return self.model
         if self.model.root.tag == "robot":
             return (read_urdf(self.model),)
-        robots = read_sdf(self.model, self._included)
+        robots = read_sdf(self.model, ModelIncludes(self.package))
+        if self.package.kind is not PackageKind.SINGLE_FILE:
+            robots = robots[:1]
         if not robots:
             nothing_to_see = self.model.root.child("world") is not None
             reason = f"{self.model.source.file} holds no model"
             return NotAtHand(reason, applicable=not nothing_to_see)
         return (self._with_spawned_plugins(robots[0]), *robots[1:])
-
-    def _included(self, uri: str) -> XmlDocument | str:
-        """Return the model file behind an include's URI: a package at hand, or a folder of it."""
-        name, _, rest = uri.removeprefix("model://").partition("/")
-        if uri.startswith("model://"):
-            holder = self.package.workspace.package(name)
-            path = holder.model_path if holder is not None and not rest else None
-            if not isinstance(path, Found):
-                return f"{uri} is not at hand"
-            found = f"../{name}/{path.path}" if name != self.package.name else path.path
-        else:
-            found = posixpath.join(uri, "model.sdf")
-        document = self.document(found)
-        return document.reason if isinstance(document, NotAtHand) else document
 
     def _with_spawned_plugins(self, robot: Robot) -> Robot:
         if isinstance(self.spawned, NotAtHand):
@@ -143,14 +136,14 @@ class Subject:
         """What the function `spawner` emits."""
         if isinstance(self.spawner, NotAtHand):
             return self.spawner
-        return spawned_xml("spawner", self.spawner.spawn)
+        return emitted_xml(SpawnedXml, "spawner", self.spawner.spawn)
 
     @cached_property
-    def started(self) -> SpawnedXml | NotAtHand:
+    def started(self) -> StartedXml | NotAtHand:
         """What the function `rosExecutables` emits."""
         if isinstance(self.spawner, NotAtHand):
             return self.spawner
-        return spawned_xml("rosExecutables", self.spawner.executables)
+        return emitted_xml(StartedXml, "rosExecutables", self.spawner.executables)
 
     @cached_property
     def launch(self) -> LaunchGraph | NotAtHand:
@@ -186,11 +179,12 @@ _Provider = Callable[[Subject], object]
 
 _PROVIDERS: dict[type, _Provider] = {
     Package: lambda subject: subject.package,
-    Paperwork: lambda subject: Paperwork(subject.package),
+    Paperwork: lambda subject: subject.paperwork,
     SdfDocument: lambda subject: subject.sdf,
     Robot: lambda subject: subject.robots,
     Spawner: lambda subject: subject.spawner,
     SpawnedXml: lambda subject: subject.spawned,
+    StartedXml: lambda subject: subject.started,
     LaunchGraph: lambda subject: subject.launch,
     Specification: lambda subject: subject.specification,
 }

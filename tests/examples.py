@@ -1,9 +1,10 @@
 """The examples of rules, made into packages.
 
 An example is an XML fragment for model.sdf, or a mapping from paths to texts that change a minimal
-package: `None` removes a file, `@fragment` goes into model.sdf, `@name` names the package, and
-`@reported` lists what must be reported where no marker can stand. The marker `^ SEN005` stands on
-the line that must be reported.
+package: `None` removes a file, bytes are written as they are, `../other/…` lies in a sibling,
+`@fragment` goes into model.sdf, `@name` names the package, `@links` maps paths to the targets of
+symbolic links, and `@reported` lists what must be reported where no marker can stand. The marker
+`^ SEN005` stands on the line that must be reported.
 """
 
 from __future__ import annotations
@@ -105,7 +106,8 @@ def write_example(example: str | Mapping[str, Any], workspace: Path) -> Path:
     """Write the package of an example below a folder and return its own folder."""
     changes = {"@fragment": example} if isinstance(example, str) else dict(example)
     package = workspace / changes.pop("@name", NAME)
-    files: dict[str, str | None] = {**MINIMAL, "model.sdf": model_with("")}
+    links: Mapping[str, str] = changes.pop("@links", {})
+    files: dict[str, str | bytes | None] = {**MINIMAL, "model.sdf": model_with("")}
     for path, text in changes.items():
         if path == "@fragment":
             files["model.sdf"] = model_with(text)
@@ -115,7 +117,9 @@ def write_example(example: str | Mapping[str, Any], workspace: Path) -> Path:
         if content is not None:
             target = package / path
             target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_bytes(content.encode())
+            target.write_bytes(content if isinstance(content, bytes) else content.encode())
+    for path, text in links.items():
+        (package / path).symlink_to(text)
     return package
 
 
@@ -124,7 +128,7 @@ def expected_places(example: str | Mapping[str, Any], rule: str, package: Path) 
     places = set(example.get("@reported", ())) if isinstance(example, Mapping) else set()
     for file in package.rglob("*"):
         if file.is_file():
-            for number, line in enumerate(file.read_text("utf-8").splitlines(), 1):
+            for number, line in enumerate(file.read_text("utf-8", "replace").splitlines(), 1):
                 if f"^ {rule}" in line:
                     places.add(f"{file.relative_to(package).as_posix()}:{number}")
     return places

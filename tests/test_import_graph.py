@@ -17,7 +17,7 @@ LAYERS = (
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
     {"checklist", "discovery", "paperwork", "profiles", "spawning"},
-    {"launching", "settings"},
+    {"including", "launching", "settings"},
     {"options", "subject"},
     {"engine", "facts"},
     {"check"},

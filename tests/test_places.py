@@ -22,7 +22,11 @@ ABOUT_SOMETHING_MISSING = {
     "PKG001": "the folder's name is nowhere in a file",
     "PKG003": "a missing file has no place",
     "PKG008": "what is not installed belongs into the install() that is marked",
+    "PKG005": "the description may spell the number in letters",
+    "PKG019": "what does not start the robot has no place where it ought to",
     "SDF001": "the mark is where the parser stops; the message says what it met",
+    "SPW004": "leftover text is described in words",
+    "SPW010": "the height is worked out from the marked pose",
     "SPW005": "the marked pose is what does not use the coordinate",
 }
 """Rules whose message names what is not at the marked place, and why."""
@@ -61,10 +65,15 @@ def marked(source: SourceText, place: Place) -> str:
     return "\n".join(lines)
 
 
+def is_in_a_text(place: Place) -> bool:
+    """Say whether a place marks words: not a folder, nor a file as a whole."""
+    return bool(place.file) and place != Place(place.file)
+
+
 def in_files(findings: tuple[Reported, ...]) -> Iterator[tuple[Package, ReportedFinding, Place]]:
     for package, finding in findings:
         for place in finding.places:
-            if place.file:
+            if is_in_a_text(place):
                 yield package, finding, place
 
 
@@ -97,7 +106,7 @@ def test_a_place_without_a_file_is_the_whole_package(findings: tuple[Reported, .
 def test_the_marked_words_are_what_the_message_names(findings: tuple[Reported, ...]) -> None:
     for package, finding in findings:
         place = finding.places[0]  # repeats may have other values
-        if place.file and finding.rule not in ABOUT_SOMETHING_MISSING:
+        if is_in_a_text(place) and finding.rule not in ABOUT_SOMETHING_MISSING:
             text = marked(text_of(package, place), place)
             assert names(finding.message, text), (finding.rule, str(place), finding.message, text)
 
@@ -111,7 +120,8 @@ def names(message: str, text: str) -> bool:
     """Say whether a message names the marked text.
 
     Either holds the other's words: the message has the marked value, the tag or the name of the
-    marked element, a number of the marked words; or the text has a value that the message quotes.
+    marked element (of a class its last word), a number of the marked words; or the text has a
+    value that the message quotes.
     """
     plain = " ".join(text.replace("`", "").split())
     if plain and re.search(rf"(?<!\w){re.escape(plain)}(?!\w)", message):
@@ -119,7 +129,8 @@ def names(message: str, text: str) -> bool:
     tag = re.match(r"<([\w:.-]+)", text)
     if tag:
         quoted = re.findall(r"=\s*[\"']([^\"']+)[\"']", text)
-        return tag[1] in message or any(value in message for value in quoted)
+        words = [tag[1], *quoted, *(value.rsplit("::", 1)[-1] for value in quoted)]
+        return any(word in message for word in words)
     values = re.findall(r"'([^']+)'|(\d+(?:\.\d+)?)", message)
     return any(value and value in plain for pair in values for value in pair)
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from checker.model.shapes import Geometry, Material
 from checker.model.transform import Transform
+from checker.model.values import parse_number
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
@@ -105,6 +107,26 @@ class Plugin(Part):
         """Return the texts of all elements of these names, at any depth."""
         return [e.text for e in self.element.descendants() if e.tag in tags and e.text.stated]
 
+    def at(self, path: str) -> Iterator[Located[str]]:
+        """Yield what stands at a path below: `a/b` in nested elements, `a/@x` in an attribute."""
+        *steps, last = path.split("/")
+        holders = [self.element]
+        for step in steps:
+            holders = [child for holder in holders for child in holder.all(step)]
+        for holder in holders:
+            if last.startswith("@"):
+                attribute = holder.attribute(last[1:])
+                yield from (attribute,) if attribute is not None else ()
+            else:
+                yield from (child.text for child in holder.all(last) if child.text.stated)
+
+    def number(self, path: str) -> Located[float] | None:
+        """Return the first number at a path; None when there is none that reads as one."""
+        for text in self.at(path):
+            value = parse_number(text.value)
+            return Located(value, text.span) if value is not None else None
+        return None
+
 
 @dataclass(frozen=True, eq=False)
 class Sensor(Part):
@@ -140,6 +162,8 @@ class Link(Part):
     Attributes:
         scoped_name: With the names of nested models in front: `arm::wrist`.
         inertial: None when the file states none.
+        gravity: Whether gravity acts on it.
+        kinematic: Whether it only follows its joints, and no force moves it.
         default_mass: Kilograms of a link without inertial: 1 in SDF, 0 in URDF.
     """
 
@@ -150,6 +174,8 @@ class Link(Part):
     visuals: tuple[Visual, ...]
     sensors: tuple[Sensor, ...]
     lights: tuple[Light, ...]
+    gravity: Located[bool]
+    kinematic: Located[bool]
     default_mass: float = 1.0
 
     @property
@@ -169,6 +195,10 @@ class Axis:
         upper: Metres or radians; inf without limit.
         effort: Newtons or newton metres; inf without limit.
         velocity: Metres or radians a second; inf without limit.
+        damping: N·s/m or N·m·s/rad.
+        friction: N or N·m.
+        stiffness: Of a spring in the joint, N/m or N·m/rad.
+        initial_position: Metres or radians; 0 where the file states none.
     """
 
     xyz: tuple[Located[float], ...]
@@ -179,6 +209,8 @@ class Axis:
     velocity: Located[float]
     damping: Located[float]
     friction: Located[float]
+    stiffness: Located[float]
+    initial_position: Located[float]
     span: Span
 
 
@@ -200,6 +232,13 @@ class Joint(Part):
     pose: Pose
     axes: tuple[Axis, ...]
     sensors: tuple[Sensor, ...] = ()
+
+    @property
+    def mimics(self) -> list[Located[str]]:
+        """Names of joints that this one copies: below `<joint>` in URDF, below `<axis>` in SDF."""
+        holders = (self.element, *self.element.all("axis"), *self.element.all("axis2"))
+        mimics = (mimic for holder in holders for mimic in holder.all("mimic"))
+        return [named for mimic in mimics if (named := mimic.attribute("joint")) is not None]
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from checker.model.components import Joint, Link, Plugin
+from checker.resources import table
 
 DRIVE_CLASSES = {
     "DiffDrive": "differential or skid-steer drive",
@@ -17,6 +18,18 @@ DRIVE_CLASSES = {
 }
 """Plugin classes that move a robot, and what a report calls that."""
 
+_READS_ONLY = frozenset({"JointStatePublisher"})
+"""Plugin classes that name joints and do not move them."""
+
+_LEGS = "AnymalControlPlugin"
+_JOINT_CONTROLLERS = (
+    "ApplyJointForce",
+    "ConfigurableJointPositionController",
+    "JointPositionController",
+)
+_FEWEST_LEG_JOINTS = 6
+"""Two legs of three joints; arms and sensor masts have fewer."""
+
 _WHEEL_JOINT_TAGS = ("left_joint", "right_joint")
 
 
@@ -24,6 +37,45 @@ def drive_name(plugins: Iterable[Plugin]) -> str:
     """Return what moves the robot, `none found` without a drive plugin."""
     found = {DRIVE_CLASSES[p.class_name] for p in plugins if p.class_name in DRIVE_CLASSES}
     return " and ".join(sorted(found)) or "none found"
+
+
+def driven_joints(plugins: Iterable[Plugin], joints: Iterable[Joint]) -> dict[str, Plugin]:
+    """Return the scoped names of the joints that plugins move, with the first plugin that does.
+
+    A class that is not in `plugin_references.json` moves whatever joint it names.
+    """
+    known = table("plugin_references")["plugins"]
+    names = {joint.scoped_name for joint in joints}
+    driven: dict[str, Plugin] = {}
+    for plugin in plugins:
+        scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
+        paths = known.get(plugin.class_name)
+        if plugin.class_name in _READS_ONLY:
+            continue
+        for word in _words(plugin) if paths is None else _joints_at(plugin, paths):
+            if scope + word in names:
+                driven.setdefault(scope + word, plugin)
+    return driven
+
+
+def _words(plugin: Plugin) -> Iterator[str]:
+    for element in plugin.element.descendants():
+        yield element.text.value
+        yield from element.attributes.values()
+
+
+def _joints_at(plugin: Plugin, paths: Mapping[str, str]) -> Iterator[str]:
+    for path, kind in paths.items():
+        if kind == "joint":
+            yield from (named.value for named in plugin.at(path))
+
+
+def is_legged(plugins: Iterable[Plugin]) -> bool:
+    """Say whether a robot walks: by a plugin for legs, or by joint controllers and nothing else."""
+    classes = [plugin.class_name for plugin in plugins]
+    if any(name in DRIVE_CLASSES for name in classes):
+        return _LEGS in classes
+    return sum(name in _JOINT_CONTROLLERS for name in classes) >= _FEWEST_LEG_JOINTS
 
 
 def find_wheels(

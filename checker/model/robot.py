@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from checker.model.boxes import Box, box_around
 from checker.model.components import (
     Axis,
     Collision,
@@ -21,14 +22,17 @@ from checker.model.components import (
     Sensor,
     Visual,
 )
+from checker.model.drive import driven_joints, find_wheels
 from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
+from checker.model.sdf.version import sdf_version
 from checker.model.transform import Transform, Vector
+from checker.model.tree import LinkTree, link_tree
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
-_LINKS_ONLY = ("1.4", "1.5", "1.6")
-"""SDF versions in which joints tie links and nothing else."""
+_FRAMES_TOO = (1, 7)
+"""SDF version from which on joints tie frames of any kind; before, links alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,17 +89,27 @@ class Robot(Part):
     @cached_property
     def wheels(self) -> tuple[Link, ...]:
         """Links that a drive plugin turns, and links that are called wheels."""
-        from checker.model.drive import find_wheels
-
         return tuple(find_wheels(self.links, self.joints, self.plugins))
+
+    @cached_property
+    def tree(self) -> LinkTree:
+        """Which links hang on which."""
+        return link_tree(self)
+
+    @cached_property
+    def driven_joints(self) -> dict[str, Plugin]:
+        """Scoped names of the joints that a plugin moves, with the first plugin that does."""
+        return driven_joints(self.plugins, self.joints)
 
     @cached_property
     def attachable_names(self) -> frozenset[str]:
         """Scoped names that a joint may tie: links, and in SDF 1.7 and later any frame."""
         names = {link.scoped_name for link in self.links}
         names |= {frame.scoped_name for frame in self.frames}
-        if self.format == "sdf" and self.version not in _LINKS_ONLY:
+        if self.format == "sdf" and sdf_version(self.document) >= _FRAMES_TOO:
             names |= {model.scoped_name for model in self.models}
+            names |= {f"{model.scoped_name}::{MODEL_FRAME}" for model in self.models}
+            names.add(MODEL_FRAME)
             names |= {joint.scoped_name for joint in self.joints}
         return frozenset(names)
 
@@ -105,9 +119,15 @@ class Robot(Part):
         return (*self.plugins, *(plugin for sensor in self.sensors for plugin in sensor.plugins))
 
     @property
-    def folder(self) -> str:
-        """Folder of the model file, from the package's folder: where relative URIs start."""
-        return posixpath.dirname(self.document.source.file)
+    def missing_parts(self) -> str:
+        """Why parts of the robot are not known, as the end of a sentence; empty when all are."""
+        uris = [uri.value or "a model without <uri>" for uri in self.unresolved_includes]
+        return f"{uris[0]} is included and not at hand" if uris else ""
+
+    @staticmethod
+    def folder_of(uri: Located[str]) -> str:
+        """Return the folder of the file that states a URI: where relative URIs start."""
+        return posixpath.dirname(uri.span.source.file)
 
     @cached_property
     def file_uris(self) -> tuple[Located[str], ...]:
@@ -164,6 +184,22 @@ class Robot(Part):
         else:
             base = self.pose_of(owner.scoped_name)
         return None if base is None else base @ pose.transform
+
+    def box_of(self, link: Link, *, visuals_too: bool = True) -> Box | None:
+        """Return the box around a link's collisions and visuals, in the robot's frame.
+
+        None for a link without shapes, and where one is a mesh or its place is unknown.
+        """
+        placed = []
+        shapes: tuple[Collision | Visual, ...] = link.collisions
+        if visuals_too:
+            shapes = (*shapes, *link.visuals)
+        for shape in shapes:
+            pose = self.pose_of_part(link, shape.pose)
+            if pose is None:
+                return None
+            placed.append((shape.geometry, pose))
+        return box_around(placed)
 
     def axis_in_model(self, joint: Joint, axis: Axis) -> Vector | None:
         """Return the direction of a joint's axis in the robot's frame, of length 1.

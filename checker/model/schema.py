@@ -5,7 +5,8 @@ The tables are described in `checker/data/README.md`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache, cached_property
@@ -14,6 +15,8 @@ from typing import Any
 from checker.resources import table
 from checker.source.xml import Element
 
+NO_DEFAULT = "__default__"
+"""What the tables hold where the file has to say something."""
 VERSIONS = ("1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12")
 
 
@@ -26,12 +29,14 @@ class ElementType:
         description: The table's entry.
         version: SDF version.
         enclosing: Entries around this one, outermost first.
+        occurs: `0` optional, `1` once, `*` any number, `+` at least once, `-1` out of use.
     """
 
     name: str
     description: dict[str, Any]
     version: str
     enclosing: tuple[dict[str, Any], ...] = ()
+    occurs: str = "1"
 
     @property
     def free(self) -> bool:
@@ -42,6 +47,25 @@ class ElementType:
     def attributes(self) -> dict[str, list[str]]:
         """Attribute name → type, default, required (`1`) or not."""
         return dict(self.description.get("attrs", {}))
+
+    @property
+    def value_type(self) -> str:
+        """Type of the text inside (`double`, `pose`, …); empty when there is to be none."""
+        return str(self.description.get("type", ""))
+
+    @property
+    def default(self) -> str | None:
+        """What counts when the element is not there; None when the table gives nothing."""
+        default = self.description.get("default")
+        return None if default in (None, NO_DEFAULT) else str(default)
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Smallest and largest number that may stand inside."""
+        least, most = self.description.get("min"), self.description.get("max")
+        # Of a plane's size the table bounds both numbers by one and the same.
+        low = float(least.split()[0]) if least is not None else -math.inf
+        return low, float(most.split()[0]) if most is not None else math.inf
 
     @cached_property
     def children(self) -> dict[str, ElementType]:
@@ -59,18 +83,24 @@ class ElementType:
                 # The enclosing element again, with what stood around it the first time.
                 description = types[kid["self"]]
                 enclosing = around[: next(i for i, d in enumerate(around) if d is description)]
-            yield ElementType(description["name"], description, self.version, enclosing)
+            occurs = kid.get("req", "0")
+            yield ElementType(description["name"], description, self.version, enclosing, occurs)
+
+
+def known_version(version: str) -> str:
+    """Return the version to judge by: that of 1.6 for a version that is not known."""
+    return version if version in VERSIONS else "1.6"
 
 
 def _types(version: str) -> dict[str, Any]:
-    types: dict[str, Any] = table(f"sdf_spec_{version}")["types"]
+    types: dict[str, Any] = table(f"sdf_spec_{known_version(version)}")["types"]
     return types
 
 
 @cache
 def sdf_root(version: str) -> ElementType:
     """Return the type of `<sdf>` in a version; that of 1.6 for a version that is not known."""
-    known = version if version in VERSIONS else "1.6"
+    known = known_version(version)
     root = table(f"sdf_spec_{known}")["root"]
     return ElementType("sdf", _types(known)[root], known)
 
@@ -88,13 +118,32 @@ def all_tags(version: str) -> frozenset[str]:
     return frozenset(tags)
 
 
+@cache
+def parents_of(version: str) -> Mapping[str, tuple[str, ...]]:
+    """Return, for each tag, the tags that it may stand directly below, sorted."""
+    types = _types(version)
+    parents: dict[str, set[str]] = {}
+    stack: list[Any] = [*types.values()]
+    while stack:
+        entry = stack.pop()
+        for kid in entry.get("kids", ()):
+            kind = kid.get("ref") or kid.get("self")
+            parents.setdefault(types[kind]["name"] if kind else kid["name"], set()).add(
+                entry["name"]
+            )
+            if not kind:
+                stack.append(kid)
+    return {tag: tuple(sorted(names)) for tag, names in parents.items()}
+
+
 def walk(root: Element, version: str) -> Iterator[tuple[Element, ElementType | None]]:
     """Yield each element with its type, in document order; None for one that has no place there.
 
     What stands below an unknown or a free element is passed over, and so are elements with a
     namespace prefix, which SDFormat leaves to others.
     """
-    stack: list[tuple[Element, ElementType | None]] = [(root, sdf_root(version))]
+    outermost = sdf_root(version) if root.tag == "sdf" else None
+    stack: list[tuple[Element, ElementType | None]] = [(root, outermost)]
     while stack:
         element, kind = stack.pop()
         yield element, kind

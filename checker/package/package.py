@@ -25,6 +25,7 @@ from checker.package.inheritance import (
     inherited_parts,
 )
 from checker.package.kind import PackageKind, kind_of
+from checker.package.mentions import mentioned_names
 from checker.package.model_file import own_model
 from checker.package.reading import NotReadable, read_bytes, read_text
 from checker.package.references import Reference, dependencies, spawner_references
@@ -84,6 +85,10 @@ class Package:
     def folder_place(self) -> Place:
         """Return the place of the package as a whole, for findings about what is missing."""
         return Place("")
+
+    def place(self, path: str) -> Place:
+        """Return the place of a file or folder as a whole."""
+        return Place(path)
 
     def resolve(self, path: str) -> FileEntry | None:
         """Return the file or folder at a path, or None when there is none in the workspace."""
@@ -177,6 +182,11 @@ class Package:
         manifest = self.xml("package.xml")
         if isinstance(manifest, XmlDocument):
             yield from dependencies(manifest)
+
+    @cached_property
+    def mentioned_names(self) -> frozenset[str]:
+        """Names of meshes, pictures and models that any file mentions, in lower case."""
+        return mentioned_names(self)
 
     @cached_property
     def base(self) -> Reference | None:

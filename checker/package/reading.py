@@ -7,7 +7,7 @@ import stat
 from dataclasses import dataclass
 from pathlib import Path
 
-from checker.source.decode import NotText, decode
+from checker.source.decode import NotText, decode, encoding_of
 from checker.source.text import SourceText
 
 TEXT_LIMIT = 20_000_000
@@ -60,6 +60,6 @@ def read_text(location: Path, path: str, limit: int = TEXT_LIMIT) -> SourceText 
     if isinstance(data, NotReadable):
         return data
     try:
-        return SourceText(path, decode(data))
+        return SourceText(path, decode(data), encoding=encoding_of(data))
     except NotText as error:
         return NotReadable(path, str(error))

@@ -16,6 +16,8 @@ from checker.package.ruby_comments import blank_comments
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
+PROVIDED = frozenset({"subt_ros"})
+"""Packages of the challenge itself; what their launch files bridge is known and right."""
 DEPENDENCY_TAGS = frozenset({"exec_depend", "run_depend", "depend"})
 
 

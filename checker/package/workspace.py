@@ -44,6 +44,26 @@ class Workspace:
         """Return the one `Package` of a folder, links resolved."""
         return self._packages.setdefault(folder, Package(folder, self))
 
+    @cached_property
+    def packages(self) -> dict[str, Package]:
+        """Every package at hand by its folder's name; the first one when a name comes twice."""
+        found: dict[str, Package] = {}
+        for directory in self.directories:
+            for folder in _subfolders(directory):
+                if looks_like_package(folder):
+                    found.setdefault(folder.name, self.at(folder))
+        return found
+
+    @cached_property
+    def thumbnails_by_size(self) -> dict[int, list[tuple[Package, str]]]:
+        """Every thumbnail of every package at hand, by its size in bytes."""
+        by_size: dict[int, list[tuple[Package, str]]] = {}
+        for package in self.packages.values():
+            for file in package.index.files:
+                if file.path.startswith("thumbnails/") and file.size:
+                    by_size.setdefault(file.size, []).append((package, file.path))
+        return by_size
+
     def holds(self, real: Path) -> bool:
         """Say whether a real path lies within a package of the workspace."""
         for directory in self.directories:

@@ -44,10 +44,14 @@ def finding_text(
     yield palette.dim(f"    {finding.help}")
 
 
+def path_of(place: Place, package: PackageReport) -> str:
+    """Return the path of a place's file, from where the user stands."""
+    return posixpath.normpath(posixpath.join(package.path, place.file or "."))
+
+
 def _where(place: Place, package: PackageReport) -> str:
     """Give a place as editors and terminals understand it; a folder has no line."""
-    path = posixpath.normpath(posixpath.join(package.path, place.file or "."))
-    return plain(path) + (f":{place.line}:{place.column}" if place.file else "/")
+    return plain(path_of(place, package)) + (f":{place.line}:{place.column}" if place.file else "/")
 
 
 def _other_places(places: Sequence[Place], package: PackageReport) -> Iterator[str]:
@@ -56,7 +60,7 @@ def _other_places(places: Sequence[Place], package: PackageReport) -> Iterator[s
     for other in notes[:MORE_PLACES]:
         yield f"    {_where(other, package)}: {plain(shortened(other.note, MESSAGE_LIMIT))}"
     if repeats:
-        named = [plain(f"{place.file}:{place.line}") for place in repeats[:MORE_PLACES]]
+        named = [_where(place, package) for place in repeats[:MORE_PLACES]]
         more = len(repeats) - len(named)
         yield f"    also {', '.join(named)}" + (f" and {count(more, 'more place')}" if more else "")
 

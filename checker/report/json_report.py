@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import json
-import re
 from dataclasses import asdict
 from typing import Any
 
 from checker.finding import Edit, Place
 from checker.report.report import SCHEMA_VERSION, PackageReport, Report, ReportedFinding
 
-_UNPRINTABLE = re.compile(r"[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
-
 
 def to_json(report: Report) -> str:
-    """Return the report as JSON text; what would steer a terminal or is no character is escaped."""
-    text = json.dumps(to_dict(report), indent=2, ensure_ascii=False) + "\n"
-    return _UNPRINTABLE.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+    """Return the report as JSON text in plain ASCII: no terminal and no pipe can spoil it."""
+    return json.dumps(to_dict(report), indent=2) + "\n"
 
 
 def to_dict(report: Report) -> dict[str, Any]:
@@ -35,6 +31,7 @@ def _package(package: PackageReport) -> dict[str, Any]:
         "path": package.path,
         "kind": package.kind,
         "profile": package.profile,
+        "settings": package.settings,
         "verdict": str(package.verdict),
         "inherited": [asdict(part) for part in package.inherited],
         "findings": [_finding(each) for each in package.findings],

@@ -92,6 +92,7 @@ class PackageReport:
         kind: `robot`, `configuration`, `plugin`, ….
         profile: Name of the profile that judged it.
         fail_on: Findings at or above this severity make the run fail.
+        settings: What a settings file changed, in words; empty when there is none.
         facts: Mass, links, joints, … by name.
         timings: Seconds by stage.
     """
@@ -106,6 +107,7 @@ class PackageReport:
     timings: Mapping[str, float] = field(default_factory=dict)
     profile: str = "subt"
     fail_on: Severity = Severity.ERROR
+    settings: str = ""
 
     @property
     def verdict(self) -> VerdictKind:

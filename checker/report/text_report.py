@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from checker.finding import Place, Severity
-from checker.report.finding_text import MESSAGE_LIMIT, finding_text
+from checker.report.finding_text import MESSAGE_LIMIT, finding_text, path_of
 from checker.report.palette import Palette
 from checker.report.report import (
     Cause,
@@ -24,9 +24,14 @@ UNITS = {"kg": "kg", "m": "m", "deg": "°", "s": "s"}
 
 def to_text(report: Report, palette: Palette) -> str:
     """Return the whole report."""
-    checked = {package.name for package in report.packages}
+    said_by_owner = {
+        _identity(package, each): package.name
+        for package in report.packages
+        for each in package.findings
+        if not _is_foreign(each.places[0])
+    }
     explained: set[str] = set()
-    blocks = [_package(package, checked, explained, palette) for package in report.packages]
+    blocks = [_package(package, said_by_owner, explained, palette) for package in report.packages]
     if len(report.packages) > 1:
         blocks.append(_summary(report.packages, palette))
     if skipped := [_skipped(each) for each in report.not_opened if not each.failed]:
@@ -34,16 +39,30 @@ def to_text(report: Report, palette: Palette) -> str:
     return "\n".join(blocks)
 
 
+_Identity = tuple[str, int, str, str]
+
+
+def _identity(package: PackageReport, finding: ReportedFinding) -> _Identity:
+    place = finding.places[0]
+    return path_of(place, package), place.line, finding.rule, finding.message
+
+
 def _package(
-    package: PackageReport, checked: set[str], explained: set[str], palette: Palette
+    package: PackageReport,
+    said_by_owner: Mapping[_Identity, str],
+    explained: set[str],
+    palette: Palette,
 ) -> str:
-    own, elsewhere = _split_by_owner(package, checked)
+    own, elsewhere = _split_by_owner(package, said_by_owner)
     kind = package.kind.replace("_", " ")
     lines = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
     for finding in own:
         lines += [*finding_text(finding, package, palette, finding.rule in explained), ""]
         explained.add(finding.rule)
     lines += [f"{count(n, 'finding')} in {name}: see there" for name, n in elsewhere.items()]
+    lines += [f"settings: {plain(shortened(package.settings, MESSAGE_LIMIT))}"] * bool(
+        package.settings
+    )
     lines += _inherited(package)
     lines += _not_checked(package.not_checked)
     lines += _facts(package.facts)
@@ -52,14 +71,14 @@ def _package(
 
 
 def _split_by_owner(
-    package: PackageReport, checked: set[str]
+    package: PackageReport, said_by_owner: Mapping[_Identity, str]
 ) -> tuple[list[ReportedFinding], Mapping[str, int]]:
-    """Set apart the findings in another package's files that this run reports there."""
+    """Set apart the findings in another package's files that its own report holds too."""
     own: list[ReportedFinding] = []
     elsewhere: dict[str, int] = {}
     for finding in package.findings:
-        owner = finding.places[0].file.split("/")[1] if _is_foreign(finding.places[0]) else ""
-        if owner in checked:
+        owner = said_by_owner.get(_identity(package, finding))
+        if owner is not None and _is_foreign(finding.places[0]):
             elsewhere[owner] = elsewhere.get(owner, 0) + 1
         else:
             own.append(finding)
@@ -80,12 +99,16 @@ def _inherited(package: PackageReport) -> Iterator[str]:
 
 
 def _not_checked(not_checked: Sequence[NotChecked]) -> Iterator[str]:
-    by_reason: dict[str, list[str]] = {}
+    by_reason: dict[tuple[str, bool], list[str]] = {}
     for each in not_checked:
-        if each.cause is not Cause.NOT_APPLICABLE:
-            by_reason.setdefault(each.reason, []).append(each.rule)
-    for reason, rules in by_reason.items():
-        yield f"not checked: {', '.join(rules)}: {plain(shortened(reason, MESSAGE_LIMIT))}"
+        applies = each.cause is not Cause.NOT_APPLICABLE
+        by_reason.setdefault((each.reason, applies), []).append(each.rule)
+    for (reason, applies), rules in by_reason.items():
+        said = plain(shortened(reason, MESSAGE_LIMIT))
+        if applies:
+            yield f"not checked: {', '.join(rules)}: {said}"
+        else:
+            yield f"not applicable: {count(len(rules), 'rule')}: {said}"
 
 
 def _facts(facts: Mapping[str, object]) -> Iterator[str]:
@@ -111,7 +134,7 @@ def _verdict(package: PackageReport, palette: Palette) -> str:
             said = [f"{count(errors, 'error')} to fix", looks]
             sentence = "Not ready: " + ", ".join(filter(None, said))
         case VerdictKind.INCOMPLETE:
-            blind = len(package.blind_spots)
+            blind = len({each.rule for each in package.blind_spots})
             different = list(dict.fromkeys(n.reason for n in package.blind_spots))
             reasons = plain(shortened(listed(different[:3]), MESSAGE_LIMIT))
             said = [f"{count(blind, 'rule')} could not look: {reasons}", looks]

@@ -25,6 +25,15 @@ class NotText(ValueError):
     """The bytes are no text in the encoding that they announce."""
 
 
+def encoding_of(data: bytes) -> str:
+    """Return the encoding that a text file announces; UTF-8 when it announces none."""
+    for mark, name in _BOMS:
+        if data.startswith(mark):
+            return name
+    declared = _DECLARED.match(data[:200])
+    return declared.group(1).decode("ascii").lower() if declared else "utf-8"
+
+
 def decode(data: bytes) -> str:
     """Decode a text file: by byte order mark, by XML declaration, else as UTF-8.
 
@@ -33,14 +42,9 @@ def decode(data: bytes) -> str:
     Raises:
         NotText: The bytes do not fit the encoding, hold NUL characters, or name an unknown one.
     """
-    encoding = "utf-8"
-    for mark, name in _BOMS:
-        if data.startswith(mark):
-            data, encoding = data[len(mark) :], name
-            break
-    else:
-        if declared := _DECLARED.match(data[:200]):
-            encoding = declared.group(1).decode("ascii")
+    encoding = encoding_of(data)
+    mark = next((mark for mark, _ in _BOMS if data.startswith(mark)), b"")
+    data = data[len(mark) :]
     if not _KNOWN.fullmatch(encoding):
         raise NotText(f"declares the unknown encoding {encoding!r}")
     try:

@@ -21,6 +21,7 @@ class SourceText:
     Attributes:
         file: Path relative to the package folder (see `Place.file`).
         text: The text, line endings as in the file.
+        encoding: Of the file on disk.
         wrapper: Tag of an element around the text that nobody wrote; empty for none.
     """
 
@@ -28,6 +29,7 @@ class SourceText:
 
     file: str
     text: str = field(repr=False)
+    encoding: str = field(default="utf-8", kw_only=True, repr=False)
 
     @cached_property
     def _line_starts(self) -> list[int]:

@@ -230,6 +230,18 @@ class Element:
             parts.append(node.tail or "")
         return "".join(parts)
 
+    @property
+    def stray_texts(self) -> Iterator[Span]:
+        """Text beside the elements inside: leftovers, where the format knows no mixed content."""
+        children = self.children
+        starts = [self.position.start_end, *(child.position.end for child in children)]
+        ends = [*(child.position.start for child in children), self.position.end_start]
+        for start, end in zip(starts, ends, strict=True):
+            text = blank_markup(self.source.text[start:end])
+            if children and (inner := text.strip(_BLANKS)):
+                first = start + text.index(inner)
+                yield Span(self.source, first, first + len(inner), self.path)
+
     @cached_property
     def text(self) -> Located[str]:
         """Text without the blanks around it; its place is the start tag when there is none."""

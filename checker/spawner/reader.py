@@ -59,6 +59,20 @@ class Spawner:
     syntax_faults: tuple[SyntaxFault, ...]
     _program: _Program = field(repr=False)
 
+    @property
+    def trees(self) -> tuple[RubyNode, ...]:
+        """The syntax trees of the Ruby files among the sources."""
+        return tuple(self._program.trees.values())
+
+    def lacks(self, function: str) -> bool:
+        """Whether the file was read to its end and defines no such function.
+
+        Args:
+            function: `spawner` or `rosExecutables`.
+        """
+        result = self.spawn if function == "spawner" else self.executables
+        return isinstance(result, Unread) and result.reason == _NO_FUNCTION.format(function)
+
     def evaluate(
         self, function: str, arguments: Sequence[Argument], *, ground_truth: bool = False
     ) -> EmittedText | Unread:
@@ -70,6 +84,9 @@ class Spawner:
             ground_truth: Value of `$enableGroundTruth`.
         """
         return self._program.call(function, arguments, ground_truth=ground_truth)
+
+
+_NO_FUNCTION = "defines no function {}"
 
 
 def read_spawner(files: SpawnerFiles, path: str, entry: SourceText) -> Spawner:
@@ -151,10 +168,12 @@ class _Program:
         run.run_file(self.path, self.entry.whole())
         function = run.functions.get(name)
         if function is None:
-            return Unread(self.entry.whole(), f"defines no function {name}")
+            return Unread(self.entry.whole(), _NO_FUNCTION.format(name))
         span = function.span
         run.scope = Scope(self.path, self.trees[self.path])
-        result = entry_call(run, function, [_ruby(given) for given in arguments], span)
+        # With a parameter too few, the rest of what it emits is still worth a look.
+        given = [_ruby(argument) for argument in arguments[: function.most]]
+        result = entry_call(run, function, given, span)
         if not isinstance(result.data, RubyString):
             return Unread(span, f"returns {class_name(result.data)} instead of a text")
         return EmittedText.of(run.traced(result, span), span)

@@ -49,6 +49,12 @@ class Function:
         """Number of positional parameters without default."""
         return sum(parameter.kind == "required" for parameter in self.parameters)
 
+    @property
+    def most(self) -> int | None:
+        """Largest number of positional arguments; None when there is no limit."""
+        kinds = [parameter.kind for parameter in self.parameters]
+        return None if "rest" in kinds else sum(kind in _POSITIONAL for kind in kinds)
+
 
 @dataclass(eq=False, slots=True)
 class Scope:
@@ -112,6 +118,8 @@ def parameters_of(node: RubyNode | None) -> tuple[Parameter, ...]:
         found.append(Parameter(text, kind, default, part.span))
     return tuple(found)
 
+
+_POSITIONAL = ("required", "optional", "destructured")
 
 _KINDS = {
     "identifier": "required",

@@ -14,38 +14,19 @@ from collections.abc import Sequence
 
 from checker.model.robot import Robot
 from checker.model.specification.sensor_kinds import SensorKind
+from checker.model.specification.sensor_types import SUBSTITUTES, TYPES
 from checker.model.specification.sensors import ListedSensor
 from checker.model.specification.sheet import Specification
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule
-
-_LIDARS = frozenset({"gpu_lidar", "gpu_ray", "lidar", "ray"})
-_DEPTH = frozenset({"rgbd_camera", "rgbd", "depth_camera", "depth"})
-_CAMERAS = frozenset({"camera", "wideanglecamera", "wide_angle_camera"})
-
-TYPES = {
-    SensorKind.LIDAR: _LIDARS,
-    SensorKind.PLANAR_LIDAR: _LIDARS,
-    SensorKind.POINT_LIDAR: _LIDARS,
-    SensorKind.CAMERA: _CAMERAS,
-    SensorKind.DEPTH_CAMERA: _DEPTH,
-    SensorKind.RGBD_CAMERA: _DEPTH,
-    SensorKind.THERMAL_CAMERA: frozenset({"thermal", "thermal_camera"}),
-    SensorKind.IMU: frozenset({"imu"}),
-    SensorKind.MAGNETOMETER: frozenset({"magnetometer"}),
-    SensorKind.AIR_PRESSURE: frozenset({"air_pressure"}),
-    SensorKind.ALTIMETER: frozenset({"altimeter"}),
-    SensorKind.GPS: frozenset({"gps", "navsat"}),
-}
-"""Sensor types of SDF that stand for a kind; kinds that plugins may stand for are left out."""
-
-SUBSTITUTES = {SensorKind.CAMERA: _DEPTH, SensorKind.DEPTH_CAMERA: _CAMERAS}
-"""Types that a sheet's words may mean as well: a camera that also measures depth."""
+from checker.rule import Findings, Severity, finding, rule, unchecked
 
 
 @rule("DOC003", "listed-sensor-missing", Severity.ERROR)
 def check(package: Package, robot: Robot, specification: Specification) -> Findings:
     """Compare the listed kinds, and their numbers where the sheet is clear, with the model."""
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
     number = _configuration_number(package.name)
     listed = [
         each

@@ -10,7 +10,7 @@ Source: Robot Model Checklist: reviewers add up the links and compare with "Cost
 
 from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Findings, Severity, finding, rule, unchecked
 
 
 @rule("INE008", "mass-differs-from-specification", Severity.ERROR)
@@ -26,6 +26,9 @@ def check(
 
     A mass that the sheet calls approximate is given `approximate_factor` times the tolerance.
     """
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
     stated = specification.total_mass
     if stated is None or stated.value <= 0 or not robot.links:
         return

@@ -8,12 +8,13 @@ Fix: add the file; the guide's example package shows what each one holds.
 Source: Model Migration Guide, final directory structure; Robot Model Checklist.
 """
 
+import posixpath
 from collections.abc import Iterator
 
 from checker.package.inheritance import Found, Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.package.references import ReferenceKind
+from checker.package.references import Reference, ReferenceKind
 from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 
 MANIFESTS = {"package.xml": "the ROS manifest", "CMakeLists.txt": "the build file"}
@@ -70,8 +71,19 @@ def _said(
 def _topics(package: Package) -> Iterator[Finding | Unchecked]:
     """A robot whose spawner starts bridges from other files needs no vehicle_topics.launch."""
     started = [each for each in package.references if each.kind is ReferenceKind.ROSLAUNCH]
-    if all(each.file == "description.launch" for each in started):
+    if not any(_may_bridge(package, each) for each in started):
         yield from _missing(package, {TOPICS: "which bridges topics to ROS"}, Severity.ERROR)
+
+
+def _may_bridge(package: Package, started: Reference) -> bool:
+    """Say whether a launch file that is started is there and may bridge; unknown counts."""
+    if started.file == "description.launch":
+        return False
+    own = started.package_name == package.name
+    holder = package if own else package.workspace.package(started.package_name)
+    if holder is None:
+        return True
+    return any(posixpath.basename(each.path) == started.file for each in holder.index.files)
 
 
 GOOD = [{"specifications.md": "# Rover\n"}]

@@ -8,14 +8,11 @@ sensor in the model.
 Source: Model Migration Guide, "Remove/replace unsupported plugins".
 """
 
-import re
 from typing import Any
 
+from checker.model.plugin_library import classic_plugin, library_stem
 from checker.model.robot import Robot
-from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule, unchecked
-
-_CLASSIC = re.compile(r"(?:gazebo_ros|hector_gazebo)_.*")
 
 
 @rule("PLG001", "classic-plugin", Severity.ERROR)
@@ -24,22 +21,14 @@ def check(robot: Robot) -> Findings:
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     for plugin in robot.all_plugins:
-        library = plugin.filename.value.rsplit("/", 1)[-1].removeprefix("lib").removesuffix(".so")
-        known = _replacement(library)
-        if known is None and not _CLASSIC.fullmatch(library):
+        known = classic_plugin(plugin.filename.value)
+        if known is None:
             continue
         yield finding(
             plugin.filename,
-            f"{plugin.filename.value} is a plugin of Gazebo 9: {_advice(known or {})}",
-            key=library,
+            f"{plugin.filename.value} is a plugin of Gazebo 9: {_advice(known)}",
+            key=library_stem(plugin.filename.value),
         )
-
-
-def _replacement(library: str) -> dict[str, Any] | None:
-    for entry in table("gazebo_classic_plugins")["plugins"]:
-        if re.fullmatch(entry["match"], library):
-            return dict(entry)
-    return None
 
 
 def _advice(entry: dict[str, Any]) -> str:

@@ -7,15 +7,11 @@ Fix: name the part as its `name` attribute in the model spells it.
 Source: parameter descriptions of Gazebo's systems (`plugin_references.json`).
 """
 
-from collections.abc import Iterator
-
 from checker.model.components import Plugin
 from checker.model.robot import Robot
 from checker.model.suggestions import Suggestions
 from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule, unchecked
-from checker.source.text import Located
-from checker.source.xml import Element
 
 
 @rule("PLG004", "plugin-names-unknown-part", Severity.ERROR)
@@ -31,7 +27,7 @@ def check(robot: Robot) -> Findings:
     for plugin in robot.all_plugins:
         parameters = table("plugin_references")["plugins"].get(plugin.class_name, {})
         for path, kind in parameters.items():
-            for named in _named(plugin.element, path.split("/")):
+            for named in plugin.at(path):
                 if _exists(robot, plugin, named.value, parts[kind]):
                     continue
                 hint = suggestions[kind].hint(named.value)
@@ -40,21 +36,6 @@ def check(robot: Robot) -> Findings:
                     f"{plugin.class_name} names {kind} {named.value!r}, "
                     f"which {robot.name.value!r} does not have{hint}",
                 )
-
-
-def _named(element: Element, path: list[str]) -> Iterator[Located[str]]:
-    """Yield what stands at a path below a plugin; an empty element names nothing."""
-    step, *rest = path
-    if step.startswith("@"):
-        attribute = element.attribute(step[1:])
-        if attribute is not None:
-            yield attribute
-        return
-    for child in element.all(step):
-        if rest:
-            yield from _named(child, rest)
-        elif child.text.stated:
-            yield child.text
 
 
 def _exists(robot: Robot, plugin: Plugin, name: str, names: frozenset[str]) -> bool:

@@ -31,7 +31,7 @@ def check(
         scheme = _SCHEME.match(uri.value)
         if (scheme is None and not uri.value.startswith("/")) or uri.value.startswith(allowed):
             continue
-        near = _in_package(package, robot, uri)
+        near = _in_package(package, robot.folder_of(uri), uri)
         hint = f"; write {near}" if near else ""
         yield finding(
             uri,
@@ -41,11 +41,11 @@ def check(
         )
 
 
-def _in_package(package: Package, robot: Robot, uri: Located[str]) -> str | None:
+def _in_package(package: Package, folder: str, uri: Located[str]) -> str | None:
     """Return the relative path of the file that is meant, when the package has it."""
     path = _SCHEME.sub("", uri.value, count=1).lstrip("/")
     while path:
-        if package.exists(posixpath.join(robot.folder, path)):
+        if package.exists(posixpath.join(folder, path)):
             return path
         path = path.partition("/")[2]
     return None

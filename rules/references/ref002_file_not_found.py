@@ -25,7 +25,7 @@ def check(package: Package, robot: Robot) -> Findings:
         if (named := _SCHEME.match(uri.value)) and not _at_hand(package, named.group(1)):
             yield unchecked(f"{uri.value} lies in {named.group(1)}, which is not at hand")
             continue
-        path = _path(package, robot.folder, uri.value)
+        path = _path(package, robot.folder_of(uri), uri.value)
         if path is None or package.exists(path):
             continue
         if (other := _sibling(path)) and not _at_hand(package, other):

@@ -17,7 +17,7 @@ from checker.model.launch.bridge import Bridge, SensorTopic
 from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot
 from checker.model.suggestions import Suggestions
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _SCAN = frozenset({"scan", "scan/points"})
 _IMAGE = frozenset({"image", "camera_info"})
@@ -46,6 +46,11 @@ THERMAL = ("thermal", "thermal_camera")
 @rule("ROS002", "bridge-of-nothing", Severity.ERROR)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report bridges of sensor topics that no sensor of the robot publishes."""
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
+    for reason in launch.unread:
+        yield unchecked(reason)
     names = Suggestions([*robot.links_by_name, *(each.name.value for each in robot.sensors)])
     for bridge in launch.bridges:
         if fault := _fault(robot, bridge, names):

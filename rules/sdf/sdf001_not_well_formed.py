@@ -35,9 +35,17 @@ def check(package: Package) -> Findings:
         elif isinstance(document, XmlFault):
             yield from _refused(path, document)
         else:
+            yield from _unread_encoding(path, document.source)
             for fault in document.tolerated:
                 severity = Severity.WARNING if path.endswith(FORGIVING) else None
                 yield finding(fault.span, _message(path, fault), severity=severity)
+
+
+def _unread_encoding(path: str, source: SourceText) -> Iterator[Finding]:
+    if path.endswith(FORGIVING) and source.encoding.startswith(("utf-16", "utf-32")):
+        yield finding(
+            source.whole(), f"{path} is {source.encoding.upper()} text, Gazebo reads UTF-8 only"
+        )
 
 
 def _refused(path: str, fault: XmlFault) -> Iterator[Finding]:

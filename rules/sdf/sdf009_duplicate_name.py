@@ -1,8 +1,9 @@
 """A name that two siblings share, or that is reserved.
 
 Plugins, bridges and joints find a part by its name; of two parts with one name only the first is
-found, and newer parsers refuse the file. Names of the form `__x__`, the name `world`, and names
-with `::` mean something else to the parser. Plugins may share a name.
+found, and newer parsers refuse the file. From SDF 1.7 on no two siblings may share a name, before
+that a visual and a collision could. Names of the form `__x__`, the name `world`, and names with
+`::` mean something else to the parser. Plugins may share a name.
 
 Fix: give each sibling a name of its own.
 Source: SDFormat specification 1.7, "unique sibling names" and "reserved names".
@@ -12,59 +13,73 @@ import re
 from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.reader import sdf_version
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.model.sdf.version import sdf_version
+from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
 from checker.source.xml import Element
 
-_RESERVED = re.compile(r"__.*__")
+_RESERVED = re.compile(r"world|__.*__")
 _FRAMES = frozenset({"link", "joint", "frame", "model"})
-"""Elements that are frames too, and so share one set of names."""
+"""Elements that are frames too, and so share one set of names in every version."""
+_PARTS = _FRAMES | {"world", "visual", "collision", "sensor", "light", "physics"}
+"""Elements that may not have a reserved name."""
+
+NAME_OF_PHYSICS = "default_physics"
+"""The only name that the schema gives by default."""
+
+Version = tuple[int, int]
 
 
 @rule("SDF009", "duplicate-name", Severity.ERROR)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report siblings of one name, and reserved names."""
-    strict = sdf_version(sdf.document) >= (1, 7)
+    version = sdf_version(sdf.document)
+    # Names of parts that nested models once had, flattened: SDFormat took them until 1.8.
+    divided = Severity.ERROR if context.release or version >= (1, 8) else Severity.WARNING
     for element in sdf.elements():
-        yield from _twins(element, strict)
-        if element.tag in _FRAMES:
-            yield from _reserved(element)
+        yield from _twins(element, version)
+        name = element.attribute("name")
+        if name is None or element.tag == "plugin":
+            continue
+        if element.tag in _PARTS and _RESERVED.fullmatch(name.value):
+            yield finding(name, f"<{element.tag}> has the reserved name {name.value!r}")
+        elif "::" in name.value and (version >= (1, 8) or element.tag in _FRAMES):
+            message = f"name {name.value!r} holds '::', which separates the names of nested models"
+            yield finding(name, message, severity=divided)
 
 
-def _twins(parent: Element, strict: bool) -> Iterator[Finding]:
-    named: dict[tuple[str, str], Element] = {}
-    frames: dict[str, Element] = {}
+def _twins(parent: Element, version: Version) -> Iterator[Finding]:
+    alike: dict[tuple[str, str], Element] = {}
+    sharing: dict[str, Element] = {}
     for child in parent.children:
-        name = child.attribute("name")
+        name = _name(child)
         if name is None or child.tag == "plugin" or ":" in child.tag:
             continue
-        first = named.setdefault((child.tag, name.value), child)
-        other = frames.setdefault(name.value, child) if child.tag in _FRAMES else child
-        if first is not child:
+        first = alike.setdefault((child.tag, name.value), child)
+        shares = version >= (1, 7) or child.tag in _FRAMES
+        other = sharing.setdefault(name.value, child) if shares else child
+        if first is not child or other is not child:
+            twin = first if first is not child else other
+            whose = f"another <{twin.tag}>" if twin.tag == child.tag else f"a <{twin.tag}>"
+            forbidden = twin.tag == child.tag or version >= (1, 7)
             yield finding(
                 name,
-                f"<{child.tag}> {name.value!r} has the name of another <{child.tag}>",
-                related=[(first.attribute("name") or first, "the first of that name")],
-            )
-        elif other is not child:
-            yield finding(
-                name,
-                f"<{child.tag}> {name.value!r} has the name of a <{other.tag}>",
-                severity=None if strict else Severity.WARNING,
-                related=[(other.attribute("name") or other, "the first of that name")],
+                f"<{child.tag}> {name.value!r} has the name of {whose}",
+                severity=None if forbidden else Severity.WARNING,
+                related=[(_name(twin) or twin, "the first of that name")],
             )
 
 
-def _reserved(element: Element) -> Iterator[Finding]:
-    name = element.attribute("name")
-    if name is None:
-        return
-    if _RESERVED.fullmatch(name.value) or name.value == "world":
-        yield finding(name, f"<{element.tag}> has the reserved name {name.value!r}")
-    elif "::" in name.value:
-        yield finding(
-            name, f"name {name.value!r} holds '::', which separates the names of nested models"
-        )
+def _name(element: Element) -> Located[str] | None:
+    """Return the name; an include may give one to what it includes."""
+    if element.tag == "include":
+        name = element.child("name")
+        return name.text if name is not None and name.text.stated else None
+    written = element.attribute("name")
+    above = element.parent.tag if element.parent is not None else ""
+    if written is None and (above, element.tag) == ("world", "physics"):
+        return Located(NAME_OF_PHYSICS, element.span, stated=False)
+    return written
 
 
 GOOD = [
@@ -87,4 +102,14 @@ BAD = [
 """,  # noqa: E501
     '<link name="__model__"/>  <!-- ^ SDF009 -->',
     '<link name="arm::wrist"/>  <!-- ^ SDF009 -->',
+    """
+<sdf version="1.7">
+  <model name="rover">
+    <link name="arm">
+      <collision name="body"><geometry><box><size>1 1 1</size></box></geometry></collision>
+      <sensor name="body" type="contact"/>  <!-- ^ SDF009 -->
+    </link>
+  </model>
+</sdf>
+""",
 ]

@@ -27,7 +27,7 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     wanted = names[FIRST : FIRST + len(COORDINATES)]
     if len(wanted) < len(COORDINATES):
         return
-    for spawn in spawned.document.root.all("spawn"):
+    for spawn in spawned.spawns:
         pose = spawn.child("pose")
         if pose is None:
             yield finding(spawn, "<spawn> has no <pose>, the robot starts at the origin")

@@ -130,3 +130,12 @@ def test_includes_that_double_at_each_level_end() -> None:
 def test_models_nested_too_deep_are_a_fault() -> None:
     robot = sdf('<model name="m">' * 60 + "</model>" * 60, "1.8")
     assert messages(robot) == ["models are nested deeper than 40 levels"]
+
+
+def test_the_frame_of_a_nested_model_has_a_name_outside_of_it() -> None:
+    content = f"""<model name="arm"><pose>{B_TEXT}</pose><link name="wrist"/></model>
+      <frame name="mount"><pose relative_to="arm::__model__">{C_TEXT}</pose></frame>"""
+    robot = sdf(content, "1.8")
+    assert not robot.faults
+    assert_pose(robot.pose_of("mount"), B @ C)
+    assert {"__model__", "arm::__model__"} <= robot.attachable_names

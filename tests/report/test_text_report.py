@@ -75,9 +75,10 @@ def test_why_and_how_are_said_once_for_a_rule_in_a_run() -> None:
 def test_repeats_are_named_up_to_three_and_counted() -> None:
     places = tuple(replace(PLACE, line=line) for line in range(1, 26))
     (also,) = (line for line in lines(replace(FAULT, places=places)) if "also" in line)
-    assert also == "    also model.sdf:2, model.sdf:3, model.sdf:4 and 21 more places"
+    shown = [f"models/rover/model.sdf:{line}:19" for line in (2, 3, 4)]
+    assert also == f"    also {', '.join(shown)} and 21 more places"
     four = [line for line in lines(replace(FAULT, places=places[:4])) if "also" in line]
-    assert four == ["    also model.sdf:2, model.sdf:3, model.sdf:4"]
+    assert four == [f"    also {', '.join(shown)}"]
 
 
 def test_a_related_place_says_what_it_has_to_do_with_it() -> None:
@@ -149,9 +150,12 @@ def test_findings_in_a_sibling_that_is_checked_too_are_shown_there() -> None:
     package = replace(PACKAGE, findings=(foreign,))
     alone = text(package)
     assert "models/base/model.sdf:141:19 error" in alone
-    both = text(replace(PACKAGE, name="base"), package)
+    unsaid = text(replace(PACKAGE, name="base", path="models/base"), package)
+    assert "models/base/model.sdf:141:19 error" in unsaid
+    own = replace(PACKAGE, name="base", path="models/base", findings=(FAULT,))
+    both = text(own, package)
     assert "1 finding in base: see there" in both
-    assert "models/base/model.sdf:141:19" not in both
+    assert both.count("models/base/model.sdf:141:19") == 1
     assert "rover: Not ready: 1 error to fix" in both
 
 

@@ -107,3 +107,10 @@ def test_fragments_answer_in_their_own_text() -> None:
     assert corners(a.span.place()) == (1, 22, 1, 26)
     assert corners(b.text.span.place()) == (2, 4, 2, 5)
     assert b.text.span.place().snippet == "<b>5</b>"
+
+
+def test_stray_texts_stand_beside_elements() -> None:
+    root = document('<a> "\n<!-- x --> one <b>text</b><c/> two\n</a>').root
+    assert [span.text for span in root.stray_texts] == ['"\n<!-- x --> one', "two"]
+    assert [span.line for span in root.stray_texts] == [1, 2]
+    assert not list(root.children[0].stray_texts)

@@ -148,11 +148,16 @@ def test_a_missing_function_is_named(workspace):
     assert spawner.executables.reason == "defines no function rosExecutables"
 
 
-def test_wrong_number_of_parameters(workspace):
-    spawner = workspace("def spawner(a, b)\n  ''\nend").spawner()
-    assert spawner.spawn.reason == (
-        "raises ArgumentError: wrong number of arguments (given 9, expected 2)"
+def test_too_many_parameters(workspace):
+    spawner = workspace("def rosExecutables(a, b, c)\n  ''\nend").spawner()
+    assert spawner.executables.reason == (
+        "raises ArgumentError: wrong number of arguments (given 2, expected 3)"
     )
+
+
+def test_a_parameter_too_few_does_not_hide_what_is_emitted(workspace):
+    spawner = workspace("def rosExecutables(a)\n  a\nend").spawner()
+    assert spawner.executables.text == "robot_name"
 
 
 def test_valid_ruby_that_the_grammar_marks_as_error_is_unread_but_no_fault(workspace):
@@ -196,3 +201,9 @@ def test_damaged_ruby_never_raises(emit, habit, damages):
         tokens[start : start + dropped] = [token]
     result = emit("".join(tokens))
     assert isinstance(result, (Unread, EmittedText))
+
+
+def test_a_function_is_lacking_only_where_the_whole_file_was_read(workspace):
+    assert workspace("def spawner(*a)\n  ''\nend").spawner().lacks("rosExecutables")
+    unread = workspace("load ENV['x']\ndef spawner(*a)\n  ''\nend").spawner()
+    assert not unread.lacks("rosExecutables")

@@ -169,6 +169,7 @@ class LaunchGraph:
         arguments: Args that the entry file declares, with their values.
         undecided: Conditions whose value is not known here; what they guard is left out.
         faults: What is wrong.
+        unread: Why parts of what the robot starts are not known.
     """
 
     nodes: tuple[Node, ...] = ()
@@ -181,3 +182,4 @@ class LaunchGraph:
     arguments: Mapping[str, Located[str]] = field(default_factory=dict)
     undecided: tuple[Located[str], ...] = ()
     faults: tuple[LaunchFault, ...] = ()
+    unread: tuple[str, ...] = ()

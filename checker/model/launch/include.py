@@ -35,8 +35,8 @@ class ReadLaunch(Protocol):
         returned as the same document, so that it is parsed once.
 
         Args:
-            package: Package that holds the file; empty when `path` counts from the same folder
-                as `from_file`.
+            package: Package that holds the file; empty when `path` starts where `from_file` does,
+                at the package's folder.
             path: Path of the file, without `.` and `//`; it may start with `..`.
             from_file: The including file (`SourceText.file`).
         """

@@ -65,6 +65,8 @@ def _read_axis(element: Element, scope: Scope) -> Axis:
         _maximum(values.number(limit, "velocity", -1.0)),
         values.number(dynamics, "damping", 0.0),
         values.number(dynamics, "friction", 0.0),
+        values.number(dynamics, "spring_stiffness", 0.0),
+        values.number(element, "initial_position", 0.0),
         element.span,
     )
 

@@ -34,6 +34,8 @@ def read_link(element: Element, scope: Scope) -> Link:
         tuple(_read_visual(child, scope) for child in element.all("visual")),
         tuple(read_sensor(child, scoped_name, scope) for child in element.all("sensor")),
         tuple(_read_light(child, scoped_name, scope) for child in element.all("light")),
+        scope.values.boolean(element, "gravity", True),
+        scope.values.boolean(element, "kinematic", False),
     )
 
 

@@ -13,6 +13,7 @@ from checker.model.sdf.joints import read_frame, read_joint
 from checker.model.sdf.links import read_link, read_plugin
 from checker.model.sdf.scope import Scope
 from checker.model.sdf.unknown_frames import unknown_frames
+from checker.model.sdf.version import sdf_version
 from checker.model.transform import Transform
 from checker.model.values import ValueReader
 from checker.source.text import Located
@@ -22,21 +23,16 @@ MAX_NESTING = 40
 MAX_INCLUDES = 100
 """Of one robot in all: files that include one another twice would double at each level."""
 
-IncludeReader = Callable[[str], "XmlDocument | str"]
-"""Gives the model file behind the URI of an `<include>`, or says why it cannot be read."""
+IncludeReader = Callable[[Located[str]], "XmlDocument | str"]
+"""Gives the model file behind the URI of an `<include>`, or says why it cannot be read.
+
+The URI's place tells the file that includes, where relative URIs start.
+"""
 
 
-def not_at_hand(uri: str) -> XmlDocument | str:
+def not_at_hand(uri: Located[str]) -> XmlDocument | str:
     """Read no include at all."""
-    return f"{uri} is not at hand"
-
-
-def sdf_version(document: XmlDocument) -> tuple[int, int]:
-    """Return the version that `<sdf>` states, as (1, 6); (1, 6) when it cannot be read."""
-    major, _, minor = (document.root.get("version") or "").strip().partition(".")
-    if major.isdecimal() and minor.isdecimal():
-        return int(major), int(minor)
-    return 1, 6
+    return f"{uri.value} is not at hand"
 
 
 def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tuple[Robot, ...]:
@@ -114,7 +110,7 @@ class _Collected:
 
     def _read_include(self, include: Element, scope: Scope, depth: int) -> None:
         uri = scope.values.text(include, "uri")
-        document = self.include(uri.value) if uri.stated else "an <include> without <uri>"
+        document = self.include(uri) if uri.stated else "an <include> without <uri>"
         if isinstance(document, str):
             self.unresolved.append(uri)
             return

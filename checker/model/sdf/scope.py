@@ -38,6 +38,7 @@ class Scope:
         """Return the unique name of a frame as written inside this model."""
         if name in (MODEL_FRAME, ""):
             return self.model_frame
+        name = name.removesuffix(f"::{MODEL_FRAME}")
         return name if name == "world" else self.prefix + name
 
     def pose(self, parent: Element) -> Pose:

@@ -25,6 +25,7 @@ _MASS = re.compile(
     rf"(?<![\w.])({NUMBER})\s{{0,5}}(kgs?|kilo(?:gram)?s?|grams?|lbs?|pounds?)\b", re.IGNORECASE
 )
 _SUBJECT = re.compile(r"\b(?:weigh(?:s|ts)?|weight|mass)\b", re.IGNORECASE)
+_CLAUSE = re.compile(r"[,;:]|\band\b", re.IGNORECASE)
 _NOT_THE_ROBOT = re.compile(
     r"\b(?:payload|batter\w*|sensors?|backpack|under|below|less|up|over|more|carr\w*|lift\w*|max\w*"
     r"|min\w*|module|per|each|without|base|additional|arm|wheels?|drone|center|balance)\b",
@@ -46,7 +47,7 @@ def masses(passages: Iterable[Passage]) -> Iterator[Quantity]:
 def _mass(sentence: Sentence, found: re.Match[str], before: str, named: frozenset[int]) -> Quantity:
     number, unit = found.groups()
     factor = _UNITS[unit[0].lower()]
-    about_robot = _SUBJECT.search(before) and not _NOT_THE_ROBOT.search(before)
+    about_robot = _SUBJECT.search(before) and not _NOT_THE_ROBOT.search(_clause(before))
     return Quantity(
         QuantityKind.TOTAL_MASS if about_robot else QuantityKind.MASS,
         number_of(number) * factor,
@@ -56,6 +57,13 @@ def _mass(sentence: Sentence, found: re.Match[str], before: str, named: frozense
         named,
         sentence.part(*found.span()),
     )
+
+
+def _clause(before: str) -> str:
+    """Return the words that belong to the last `weighs`: from the comma or `and` before it on."""
+    verb = [found.start() for found in _SUBJECT.finditer(before)][-1]
+    breaks = [found.end() for found in _CLAUSE.finditer(before, 0, verb)]
+    return before[breaks[-1] if breaks else 0 :]
 
 
 def total_mass(stated: Sequence[Quantity]) -> Quantity | None:

@@ -112,6 +112,11 @@ def _read_item(
         yield ListedSensor(kind, count, bool(modeled), configurations, words, item.span)
 
 
+def stated_count(words: str) -> int | None:
+    """Return how many sensors words such as `two RGBD cameras` say there are; None if unclear."""
+    return _count(words, ())
+
+
 def _count(words: str, below: Iterable[Passage]) -> int | None:
     """Return how many an item says there are: in front, as `(x3)`, or item by item below it."""
     if leading := _LEADING.match(words):

@@ -36,6 +36,8 @@ def read_link(element: Element, values: ValueReader) -> Link:
         tuple(_read_visual(child, values) for child in element.all("visual")),
         (),
         (),
+        Located(True, element.span, stated=False),
+        Located(False, element.span, stated=False),
         default_mass=0.0,
     )
 

@@ -24,9 +24,9 @@ def read_urdf(document: XmlDocument) -> Robot:
     values, graph = ValueReader(), FrameGraph()
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), root.span, "the model"))
     joints = tuple(_read_joint(element, values) for element in root.all("joint"))
-    sensors = _sensors(root, values, graph)
+    sensors, gravity = _sensors(root, values, graph), _gravity(root, values)
     links = tuple(
-        _with_sensors(read_link(element, values), sensors) for element in root.all("link")
+        _extended(read_link(element, values), sensors, gravity) for element in root.all("link")
     )
     _place(graph, links, joints)
     for name in graph.nodes:
@@ -91,6 +91,8 @@ def _read_axis(joint: Element, values: ValueReader) -> Iterator[Axis]:
         number(limit, "velocity", math.inf),
         number(dynamics, "damping", 0.0),
         number(dynamics, "friction", 0.0),
+        Located(0.0, axis.span, stated=False),
+        Located(0.0, axis.span, stated=False),
         axis.span,
     )
 
@@ -123,8 +125,27 @@ def _sensors(root: Element, values: ValueReader, graph: FrameGraph) -> dict[str,
     return sensors
 
 
-def _with_sensors(link: Link, sensors: dict[str, list[Sensor]]) -> Link:
-    return replace(link, sensors=tuple(sensors.get(link.name.value, ())))
+def _gravity(root: Element, values: ValueReader) -> dict[str, Located[bool]]:
+    """Return whether gravity acts, for links of which a `<gazebo reference=…>` tag says so."""
+    said = {}
+    for tag in root.all("gazebo"):
+        off = values.boolean(tag, "turnGravityOff", False)
+        on = values.boolean(tag, "gravity", True)
+        if off.stated or on.stated:
+            stated = off if off.stated else on
+            acts = on.value and not off.value
+            said[tag.get("reference") or ""] = Located(acts, stated.span)
+    return said
+
+
+def _extended(
+    link: Link, sensors: dict[str, list[Sensor]], gravity: dict[str, Located[bool]]
+) -> Link:
+    """Add to a link what `<gazebo>` tags say about it."""
+    name = link.name.value
+    return replace(
+        link, sensors=tuple(sensors.get(name, ())), gravity=gravity.get(name, link.gravity)
+    )
 
 
 def _plugins(root: Element) -> Iterator[Plugin]:

@@ -1,0 +1,62 @@
+"""Boxes around simple shapes, along the axes of one frame."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from checker.model.shapes import Geometry
+from checker.model.support import support
+from checker.model.transform import Transform, Vector
+
+_AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box along the axes of a frame.
+
+    Attributes:
+        low: The corner of the least x, y, z, metres.
+        high: The corner of the greatest.
+    """
+
+    low: Vector
+    high: Vector
+
+    @property
+    def centre(self) -> Vector:
+        """The middle, metres."""
+        x, y, z = ((a + b) / 2 for a, b in zip(self.low, self.high, strict=True))
+        return (x, y, z)
+
+    @property
+    def diagonal(self) -> float:
+        """Length from corner to corner, metres."""
+        return math.dist(self.low, self.high)
+
+    def gap(self, other: Box) -> float:
+        """Return the distance to another box, metres; 0 where they touch."""
+        along_x, along_y, along_z = (
+            max(self.low[i] - other.high[i], other.low[i] - self.high[i], 0.0) for i in range(3)
+        )
+        return math.hypot(along_x, along_y, along_z)
+
+
+def box_around(shapes: Iterable[tuple[Geometry, Transform]]) -> Box | None:
+    """Return the box around shapes, each with its pose in the frame of the box.
+
+    None without shapes, and where one has no known extent (a mesh).
+    """
+    low, high = [math.inf] * 3, [-math.inf] * 3
+    for geometry, pose in shapes:
+        for i, (x, y, z) in enumerate(_AXES):
+            above = support(geometry, pose, (x, y, z))
+            below = support(geometry, pose, (-x, -y, -z))
+            if above is None or below is None:
+                return None
+            low[i], high[i] = min(low[i], -below), max(high[i], above)
+    if not all(math.isfinite(corner) for corner in (*low, *high)):
+        return None
+    return Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))

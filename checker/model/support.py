@@ -1,0 +1,62 @@
+"""How far a simple shape reaches in a direction: its support function."""
+
+from __future__ import annotations
+
+import math
+
+from checker.model.shapes import Geometry
+from checker.model.transform import Transform, Vector
+
+
+def support(geometry: Geometry, pose: Transform, direction: Vector) -> float | None:
+    """Return the largest `direction · p` of all points p of a shape, in metres.
+
+    None for meshes and for shapes without end.
+
+    Args:
+        geometry: The shape.
+        pose: Of the shape, in the frame of `direction`.
+        direction: Of length 1.
+    """
+    local = _turned_back(pose, direction)
+    own = _own_support(geometry, local)
+    if own is None:
+        return None
+    return own + sum(a * b for a, b in zip(direction, pose.translation, strict=True))
+
+
+def _own_support(geometry: Geometry, local: Vector) -> float | None:
+    """Return the support of a shape about its own centre, in its own frame."""
+    x, y, z = local
+    sideways = math.hypot(x, y)
+    reach: float | None = None
+    match geometry.shape:
+        case "box":
+            halves = (size / 2 for size in _lengths(geometry, "size"))
+            reach = sum(abs(part) * half for part, half in zip(local, halves, strict=True))
+        case "sphere":
+            reach = _length(geometry, "radius")
+        case "cylinder":
+            height = _length(geometry, "length") / 2
+            reach = abs(z) * height + sideways * _length(geometry, "radius")
+        case "capsule":
+            reach = abs(z) * _length(geometry, "length") / 2 + _length(geometry, "radius")
+        case "cone":
+            height = _length(geometry, "length") / 2
+            reach = max(z * height, -z * height + sideways * _length(geometry, "radius"))
+        case "ellipsoid":
+            radii = _lengths(geometry, "radii")
+            reach = math.hypot(*(part * radius for part, radius in zip(local, radii, strict=True)))
+    return reach
+
+
+def _turned_back(pose: Transform, direction: Vector) -> Vector:
+    return Transform(pose.inverse.rotation).rotate(direction)
+
+
+def _lengths(geometry: Geometry, name: str) -> tuple[float, ...]:
+    return tuple(length.value for length in geometry.sizes[name])
+
+
+def _length(geometry: Geometry, name: str) -> float:
+    return geometry.sizes[name][0].value

@@ -1,0 +1,179 @@
+"""Which links hang on which: the joints of a robot as a graph of its links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from checker.model.components import Joint, Link
+from checker.model.frames import MODEL_FRAME
+from checker.source.text import Located
+
+if TYPE_CHECKING:
+    from checker.model.robot import Robot
+
+WORLD = "world"
+
+
+@dataclass(frozen=True, eq=False)
+class Tie:
+    """A joint both ends of which are known.
+
+    Attributes:
+        parent: Scoped name of a link, or `world`.
+        child: Scoped name of a link.
+    """
+
+    joint: Joint
+    parent: str
+    child: str
+
+
+@dataclass(frozen=True, eq=False)
+class BrokenTie:
+    """A joint one end of which, or both, is no link.
+
+    Attributes:
+        missing: The end that is unknown; the child if both are.
+        known: Scoped name of the link at the other end, or `world`; None if it is unknown too.
+    """
+
+    joint: Joint
+    missing: Located[str]
+    known: str | None
+
+
+@dataclass(frozen=True, eq=False)
+class LinkTree:
+    """The links of a robot and what ties them; in a sound robot, one tree.
+
+    Nothing here recurses, and all of it takes time linear in links and joints.
+
+    Attributes:
+        links: By scoped name, in the order of the file.
+        ties: In the order of the joints.
+        broken: Joints of which an end is unknown.
+    """
+
+    links: dict[str, Link]
+    ties: tuple[Tie, ...]
+    broken: tuple[BrokenTie, ...]
+
+    @cached_property
+    def above(self) -> dict[str, list[Tie]]:
+        """The ties by which each link hangs on another, by the link; of a tree, one at most."""
+        above: dict[str, list[Tie]] = {}
+        for tie in self.ties:
+            if tie.parent != tie.child:
+                above.setdefault(tie.child, []).append(tie)
+        return above
+
+    @cached_property
+    def groups(self) -> list[list[str]]:
+        """Links that are tied together, directly or over others, in the order of the file.
+
+        What is tied to the world is tied together.
+        """
+        leader = {name: name for name in (*self.links, WORLD)}
+
+        def lead(name: str) -> str:
+            while leader[name] != name:
+                leader[name] = name = leader[leader[name]]
+            return name
+
+        for tie in self.ties:
+            leader[lead(tie.child)] = lead(tie.parent)
+        groups: dict[str, list[str]] = {}
+        for name in self.links:
+            groups.setdefault(lead(name), []).append(name)
+        return list(groups.values())
+
+    def loops(self) -> Iterator[list[Tie]]:
+        """Yield the circles in which links hang on one another, each by its first tie above."""
+        done: set[str] = set()
+        for start in self.links:
+            path: dict[str, Tie] = {}
+            at = start
+            while at not in done and at not in path and at in self.above:
+                path[at] = self.above[at][0]
+                at = path[at].parent
+            if at in path:
+                names = list(path)
+                yield [path[name] for name in names[names.index(at) :]]
+            done.update(path)
+
+
+def link_tree(robot: Robot) -> LinkTree:
+    """Tie the links of a robot by its joints."""
+    carriers = _Carriers(robot)
+    ties: list[Tie] = []
+    broken: list[BrokenTie] = []
+    for joint in robot.joints:
+        parent = WORLD if joint.parent.value == WORLD else carriers.link_of(joint, joint.parent)
+        child = carriers.link_of(joint, joint.child)
+        if parent is not None and child is not None:
+            ties.append(Tie(joint, parent, child))
+        elif child is None:
+            broken.append(BrokenTie(joint, joint.child, parent))
+        else:
+            broken.append(BrokenTie(joint, joint.parent, child))
+    links = {link.scoped_name: robot.links_by_name[link.scoped_name] for link in robot.links}
+    return LinkTree(links, tuple(ties), tuple(broken))
+
+
+class _Carriers:
+    """Finds the link that carries a frame: links, frames, joints and models all are frames."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.known = robot.attachable_names
+        self.links = robot.links_by_name
+        self.attached: dict[str, str] = {MODEL_FRAME: canonical_link(robot) or ""}
+        for frame in robot.frames:
+            scope = frame.scoped_name.removesuffix(frame.name.value)
+            to = frame.attached_to
+            inside = scope + to if to not in ("", MODEL_FRAME) else ""
+            self.attached[frame.scoped_name] = inside or scope.removesuffix("::") or MODEL_FRAME
+        for joint in robot.joints:
+            self.attached.setdefault(joint.scoped_name, joint.scope + joint.child.value)
+        first = _first_links(robot)
+        for model in robot.models:
+            inside = f"{model.scoped_name}::"
+            stated = model.element.get("canonical_link")
+            carrier = inside + stated if stated else first.get(inside, "")
+            self.attached.setdefault(model.scoped_name, carrier)
+            self.attached[f"{model.scoped_name}::{MODEL_FRAME}"] = carrier
+        self.found: dict[str, str | None] = {}
+
+    def link_of(self, joint: Joint, end: Located[str]) -> str | None:
+        """Return the scoped name of the link that carries an end of a joint; None without."""
+        name = joint.scope + end.value
+        if name not in self.known:
+            return None
+        path: dict[str, None] = {}
+        at = name
+        while at not in self.links and at not in self.found and at not in path:
+            path[at] = None
+            at = self.attached.get(at, "")
+        carrier = at if at in self.links else self.found.get(at)
+        self.found.update(dict.fromkeys(path, carrier))
+        return carrier
+
+
+def canonical_link(robot: Robot) -> str | None:
+    """Return the link that stands for the model: the one it names, else its first."""
+    return robot.element.get("canonical_link") or _first_links(robot).get("")
+
+
+def _first_links(robot: Robot) -> dict[str, str]:
+    """Return the first link of each model by its prefix; those of models inside come later."""
+    first: dict[str, str] = {}
+    for link in sorted(robot.links, key=lambda link: link.scoped_name.count("::")):
+        prefix = link.scoped_name.removesuffix(link.name.value)
+        while prefix not in first:
+            first[prefix] = link.scoped_name
+            if not prefix:
+                break
+            prefix = "".join(prefix.removesuffix("::").rpartition("::")[:2])
+    return first

@@ -1,0 +1,66 @@
+"""Which file names the files of a package mention, whatever their format.
+
+The search is by text alone, so a name in a comment counts: what is not among the names is surely
+named nowhere.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import islice
+from typing import TYPE_CHECKING
+from urllib.parse import unquote
+
+from checker.package.reading import NotReadable
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+FILE_LIMIT = 50_000_000
+"""Bytes; a larger file is not searched."""
+
+MENTIONS_LIMIT = 100_000
+"""Of one file; the rest is not looked at."""
+
+_NAME_LIMIT = 255
+_NAMING_NOTHING = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".gif", ".stl", ".so")
+_ENDING = re.compile(
+    rb"\.(?:dae|stl|obj|mtl|glb|gltf|bin|fbx|sdf|material"
+    rb"|png|jpe?g|tga|tiff?|bmp|gif|dds|hdr)(?![\w.-])",
+    re.IGNORECASE,
+)
+_DELIMITER = re.compile(rb"[\x00-\x1f/\\\"'<>=()\[\]{},;:|&?#*]")
+
+
+def mentioned_names(package: Package) -> frozenset[str]:
+    """Return the names of meshes, pictures and models that stand in any file, in lower case.
+
+    A name with spaces is among them both as a whole and as its last word. Files larger than
+    `FILE_LIMIT` are left out; see `unsearched`.
+    """
+    names: set[str] = set()
+    for file in package.index.files:
+        if not file.path.lower().endswith(_NAMING_NOTHING):
+            data = package.read_bytes(file.path, FILE_LIMIT)
+            if not isinstance(data, NotReadable):
+                names.update(_names(data))
+    return frozenset(names)
+
+
+def unsearched(package: Package) -> tuple[str, ...]:
+    """Return the files that are too large to be searched."""
+    return tuple(
+        file.path
+        for file in package.index.files
+        if file.size > FILE_LIMIT and not file.path.lower().endswith(_NAMING_NOTHING)
+    )
+
+
+def _names(data: bytes) -> Iterator[str]:
+    for ending in islice(_ENDING.finditer(data), MENTIONS_LIMIT):
+        before = data[max(0, ending.start() - _NAME_LIMIT) : ending.start()]
+        written = _DELIMITER.split(before)[-1] + ending.group()
+        name = unquote(written.decode("utf-8", "replace")).strip().casefold()
+        yield name
+        yield name.rpartition(" ")[2]

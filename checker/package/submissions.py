@@ -1,0 +1,59 @@
+"""Names of submissions in running text: whose package a sentence is about."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+NAME = re.compile(r"(?<![\w/-])[a-z0-9]+(?:_[a-z0-9]+){0,8}?_sensor_config_\d{1,4}(?!\w)", re.I)
+"""A package name of the challenge's form, such as `acme_rover_sensor_config_1`."""
+
+NAME_IN_PATH = re.compile(
+    r"(?<![a-z0-9])[a-z0-9]+(?:_[a-z0-9]+){0,8}?_sensor_config_\d{1,4}(?!\w)", re.I
+)
+"""The same, also as a part of a URI or path."""
+
+TEMPLATE = re.compile(r"\bThe (\w{1,100}_\w{1,100}) package\b", re.I)
+"""The description that `catkin_create_pkg` writes."""
+
+_MEANT = re.compile(
+    r"\b(?:as|based|copy|copied|derived|extends|from|identical|in|inherits|like|of|on|see|than"
+    r"|same|to|uses|version|with)\W+(?:\w+\W+){0,2}\Z",
+    re.I,
+)
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_NOT_LINE_END = re.compile(r"[^\r\n]")
+_LOOK_BACK = 60
+_NUMBER = re.compile(r"_sensor_config_\d+\Z", re.I)
+
+
+def robot_of(name: str) -> str:
+    """Return a package's name without the number of its configuration."""
+    return _NUMBER.sub("", name)
+
+
+def is_same_robot(name: str, other: str) -> bool:
+    """Say whether two packages are configurations of one robot, organizations left out or not."""
+    short, long = sorted((robot_of(name).casefold(), robot_of(other).casefold()), key=len)
+    return f"_{long}".endswith(f"_{short}")
+
+
+def blank_xml_comments(text: str) -> str:
+    """Replace XML comments by blanks, every other character where it was."""
+    if "-->" not in text:
+        return text
+    last = text.rindex("-->") + 3
+    blanked = _COMMENT.sub(lambda each: _NOT_LINE_END.sub(" ", each.group()), text[:last])
+    return blanked + text[last:]
+
+
+def left_from_copying(text: str, own: str) -> Iterator[re.Match[str]]:
+    """Yield the names of other robots' packages that no word in front explains.
+
+    `derived from x1_sensor_config_4` says where a robot comes from; `The x1_sensor_config_4
+    package` is left from a copy.
+    """
+    for match in NAME.finditer(text):
+        before = text[max(0, match.start() - _LOOK_BACK) : match.start()]
+        if not is_same_robot(match.group(), own) and _MEANT.search(before) is None:
+            yield match

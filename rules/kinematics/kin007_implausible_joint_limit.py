@@ -1,0 +1,92 @@
+"""A limit of effort or velocity that no motor has, or none where a motor drives the joint.
+
+With 1e9 N·m a wheel never stalls, whatever the slope, and one collision throws the robot away.
+Without a limit nobody can tell whether the motor is strong enough for what the robot does. Thrust
+of rotors has limits of its own in their plugin.
+
+Fix: write the motor's stall torque (N·m) and no-load speed (rad/s) at the joint, behind the gear.
+Source: SDFormat specification, axis/limit: "-1" and no value mean unlimited.
+"""
+
+import math
+from collections.abc import Iterator
+
+from checker.model.components import Axis, Joint
+from checker.model.robot import Robot
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+
+_ROTORS = ("MulticopterMotorModel", "MulticopterVelocityControl", "Thruster")
+
+
+@rule("KIN007", "implausible-joint-limit", Severity.WARNING)
+def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float = 1e3) -> Findings:
+    """Report finite limits above `highest_effort` (N, N·m) and `highest_velocity` (m/s, rad/s).
+
+    Missing limits of driven joints are information.
+    """
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    highest = {"effort": highest_effort, "velocity": highest_velocity}
+    for joint in robot.joints:
+        driver = robot.driven_joints.get(joint.scoped_name)
+        for axis in joint.axes:
+            yield from _too_high(joint, axis, highest)
+            if driver is not None and driver.class_name not in _ROTORS:
+                yield from _missing(joint, axis)
+
+
+def _too_high(joint: Joint, axis: Axis, highest: dict[str, float]) -> Iterator[Finding]:
+    for kind, limit in (("effort", axis.effort), ("velocity", axis.velocity)):
+        if highest[kind] < limit.value < math.inf:
+            yield finding(
+                limit,
+                f"joint {joint.name.value!r} has the {kind} limit {limit.value:g} "
+                f"{_unit(joint)[kind]}, expected at most {highest[kind]:g}",
+            )
+
+
+def _missing(joint: Joint, axis: Axis) -> Iterator[Finding]:
+    limits = {"effort": axis.effort, "velocity": axis.velocity}
+    missing = [kind for kind, limit in limits.items() if math.isinf(limit.value)]
+    if missing:
+        said = " and ".join(missing)
+        yield finding(
+            limits[missing[0]],
+            f"driven joint {joint.name.value!r} has no limit of {said}",
+            severity=Severity.INFO,
+            key=said,
+        )
+
+
+def _unit(joint: Joint) -> dict[str, str]:
+    if joint.type.value == "prismatic":
+        return {"effort": "N", "velocity": "m/s"}
+    return {"effort": "N·m", "velocity": "rad/s"}
+
+
+def _driven(limit: str, plugin: str = "JointController") -> str:
+    return f"""
+<link name="arm"/>
+<joint name="elbow" type="revolute">
+  <parent>base_link</parent>
+  <child>arm</child>
+  <axis>
+    <xyz>0 0 1</xyz>
+    {limit}
+  </axis>
+</joint>
+<plugin filename="libp.so" name="ignition::gazebo::systems::{plugin}">
+  <joint_name>elbow</joint_name>
+</plugin>
+"""
+
+
+GOOD = [
+    _driven("<limit><effort>20</effort><velocity>3</velocity></limit>"),
+    _driven("", "JointStatePublisher"),
+]
+BAD = [
+    _driven("<limit><effort>1e9</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
+    _driven("<limit><effort>20</effort><velocity>50000</velocity></limit>  <!-- ^ KIN007 -->"),
+    _driven("<limit><effort>-1</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
+]

@@ -1,0 +1,53 @@
+"""A joint of a type that the target does not simulate, or that there is not.
+
+Gazebo with DART makes a fixed joint of a gearbox, a revolute2 and, up to Fortress, a continuous
+joint: a wheel on it does not turn. Gazebo Classic drops planar and floating joints of URDF.
+No accepted package at hand shows it.
+
+Fix: use `revolute` without limits for `continuous`, two joints with a light link between them for
+`revolute2` and `gearbox`.
+Source: `joint_types.json`: SDFormat's types, and what the physics plugin of each release makes.
+"""
+
+from checker.model.robot import Robot
+from checker.model.suggestions import Suggestions
+from checker.resources import table
+from checker.rule import Context, Findings, Severity, finding, rule
+
+_BECOMES = {
+    "fixed": "which {} turns into a fixed joint",
+    "dropped": "which {} leaves out",
+}
+
+
+@rule("KIN008", "joint-type-not-simulated", Severity.ERROR)
+def check(robot: Robot, context: Context) -> Findings:
+    """Report joint types that are unknown or not simulated by the target release."""
+    known = table("joint_types")["types"][robot.format]
+    lost = table("joint_types")["not_simulated"].get(context.release, {}).get(robot.format, {})
+    suggestions = Suggestions(known)
+    for joint in robot.joints:
+        # SDFormat reads the type in any case; a missing one is for SDF005.
+        type = joint.type.value.lower()
+        said = f"joint {joint.name.value!r} has the type {joint.type.value!r}"
+        if joint.type.stated and type not in known:
+            hint = suggestions.hint(type) or f"; expected one of {', '.join(known)}"
+            yield finding(joint.type, f"{said}, which does not exist{hint}")
+        elif type in lost:
+            release = f"Gazebo {context.release.capitalize()}"
+            yield finding(joint.type, f"{said}, {_BECOMES[lost[type]].format(release)}", key=type)
+
+
+def _joint(type: str) -> str:
+    return f"""
+<link name="wheel"/>
+<joint name="axle" type="{type}"><parent>base_link</parent><child>wheel</child></joint>
+"""
+
+
+def _marked(type: str) -> str:
+    return _joint(type).replace("</joint>", "</joint>  <!-- ^ KIN008 -->")
+
+
+GOOD = [_joint("revolute"), _joint("fixed"), _joint("ball"), _joint("Prismatic")]
+BAD = [_marked("continuous"), _marked("revolute2"), _marked("hinge"), _marked("")]

@@ -1,0 +1,64 @@
+"""A robot without `base_link`, or whose canonical link does not exist.
+
+Tools for SubT, and most of ROS, take `base_link` for the robot's own frame: transforms, bridges of
+sensors and the wheels' odometry begin there.
+
+Fix: call the link that carries the others `base_link`; let `canonical_link` name a link.
+Source: SubT model submission, static transforms from `base_link`; REP 105; SDFormat 1.7,
+model/@canonical_link.
+"""
+
+from checker.model.robot import Robot
+from checker.model.suggestions import Suggestions
+from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+
+
+@rule("KIN011", "no-base-link", Severity.WARNING)
+def check(robot: Robot, context: Context, *, base: str = "base_link") -> Findings:
+    """Report a robot without link `base`, and a canonical link that does not exist."""
+    yield from _canonical(robot)
+    # Of a file for no simulator, nobody knows that it is a robot.
+    if not context.release or not robot.links or base in robot.links_by_name:
+        return
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
+    top = next((link for link in robot.links if link.scoped_name not in robot.tree.above), None)
+    said = f"; the others hang on {top.scoped_name!r}" if top is not None else ""
+    yield finding(robot.name, f"{robot.name.value!r} has no link {base!r}{said}")
+
+
+def _canonical(robot: Robot) -> Findings:
+    """Report canonical links, of the robot and of the models in it, that do not exist."""
+    names = Suggestions(robot.links_by_name)
+    nested = ((f"{model.scoped_name}::", model.element) for model in robot.models)
+    for scope, element in (("", robot.element), *nested):
+        canonical = element.attribute("canonical_link")
+        if canonical is None or canonical.value == "":
+            continue
+        name = scope + canonical.value
+        if name not in robot.links_by_name and not (robot.missing_parts and "::" in name):
+            said = f"canonical link {canonical.value!r} does not exist{names.hint(name)}"
+            yield finding(canonical, said, severity=Severity.ERROR)
+
+
+def _model(link: str, attribute: str = "", mark: str = "") -> str:
+    return f"""
+<sdf version="1.7">
+<model name="acme_rover_sensor_config_1"{attribute}>{mark}
+<link name="{link}"/>
+</model>
+</sdf>
+"""
+
+
+_MARK = "  <!-- ^ KIN011 -->"
+GOOD = [
+    _model("base_link"),
+    _model("base_link", ' canonical_link="base_link"'),
+    _model("base_link", ' canonical_link=""'),
+]
+BAD = [
+    _model("chassis", mark=_MARK),
+    _model("base_link", ' canonical_link="chassis"', _MARK),
+]

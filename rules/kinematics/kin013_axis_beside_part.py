@@ -1,0 +1,98 @@
+"""A hinge whose axis passes far beside the part that it turns, or a part far from its parent.
+
+The part flies around its axis on an invisible arm, or hangs in the air: mostly a pose is wrong by
+a decimal point or a unit, or refers to another frame than was thought.
+No accepted package at hand shows it.
+
+Fix: correct the pose of the joint or of the child link, in metres.
+Source: geometry; SDF poses a joint in its child link, URDF in its parent.
+"""
+
+import math
+from collections.abc import Iterator
+
+from checker.model.robot import Robot
+from checker.model.transform import Vector
+from checker.model.tree import WORLD, Tie
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+_HINGES = ("revolute", "continuous")
+
+
+@rule("KIN013", "axis-beside-part", Severity.WARNING)
+def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
+    """Report parts far from their axis or parent.
+
+    An axis may be `sizes` diagonals of the part's collisions away from their outside, a parent
+    `gap` diagonals of both parts together. Meshes are of unknown extent: parts that collide as
+    meshes, and for the parent parts that show as meshes, are passed over.
+    """
+    boxes = {name: robot.box_of(link) for name, link in robot.tree.links.items()}
+    for tie in robot.tree.ties:
+        if tie.parent in (WORLD, tie.child):
+            continue
+        child, parent = boxes[tie.child], boxes[tie.parent]
+        if (
+            child is not None
+            and parent is not None
+            and child.gap(parent) > gap * (child.diagonal + parent.diagonal)
+        ):
+            yield finding(
+                tie.joint,
+                f"joint {tie.joint.name.value!r} ties {tie.child!r} to {tie.parent!r} over "
+                f"{child.gap(parent):.3g} m of air",
+            )
+        elif tie.joint.type.value in _HINGES:
+            yield from _beside(robot, tie, sizes)
+
+
+def _beside(robot: Robot, tie: Tie, sizes: float) -> Iterator[Finding]:
+    part = robot.box_of(robot.tree.links[tie.child], visuals_too=False)
+    pose = robot.pose_of_joint(tie.joint)
+    axis = robot.axis_in_model(tie.joint, tie.joint.axes[0]) if tie.joint.axes else None
+    if part is None or pose is None or axis is None:
+        return
+    beside = _distance(part.centre, pose.translation, axis) - part.diagonal / 2
+    if beside > sizes * part.diagonal > 0.0:
+        yield finding(
+            tie.joint,
+            f"the axis of joint {tie.joint.name.value!r} passes {beside:.3g} m beside "
+            f"{tie.child!r}, which measures {part.diagonal:.3g} m",
+        )
+
+
+def _distance(point: Vector, origin: Vector, direction: Vector) -> float:
+    """Return the distance of a point from a line, metres; `direction` has the length 1."""
+    to_point = [a - b for a, b in zip(point, origin, strict=True)]
+    along = sum(a * b for a, b in zip(to_point, direction, strict=True))
+    return math.hypot(*(a - along * b for a, b in zip(to_point, direction, strict=True)))
+
+
+def _wheel(joint_pose: str, wheel_pose: str = "0 0.3 0 0 0 0", mark: str = "") -> str:
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">
+<link name="base_link">
+  <collision name="c"><geometry><box><size>0.6 0.4 0.2</size></box></geometry></collision>
+</link>
+<link name="wheel">
+  <pose>{wheel_pose}</pose>
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+</link>
+<joint name="axle" type="revolute">{mark}
+  <pose>{joint_pose}</pose>
+  <parent>base_link</parent>
+  <child>wheel</child>
+  <axis><xyz>0 1 0</xyz></axis>
+</joint>
+</model>
+</sdf>
+"""
+
+
+_MARK = "  <!-- ^ KIN013 -->"
+GOOD = [_wheel("0 0 0 0 0 0"), _wheel("0.2 0.3 0 0 0 0"), _wheel("0 5 0 0 0 0")]
+BAD = [
+    _wheel("1 0 0 0 0 0", mark=_MARK),
+    _wheel("0 0 0 0 0 0", "0 30 0 0 0 0", mark=_MARK),
+]

@@ -1,0 +1,81 @@
+"""A joint that mimics an unknown joint, itself, or one that mimics it in turn.
+
+Nothing tells the joint where to go: parsers refuse the model, or the finger of a gripper stands
+still.
+No accepted package at hand shows it.
+
+Fix: name the joint that leads, as it spells itself.
+Source: URDF, joint/mimic; SDFormat 1.11, axis/mimic.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.components import Joint
+from checker.model.robot import Robot
+from checker.model.suggestions import Suggestions
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
+
+
+@rule("KIN014", "mimic-of-nothing", Severity.ERROR)
+def check(robot: Robot) -> Findings:
+    """Report mimic joints that follow nothing or themselves."""
+    suggestions = Suggestions(robot.joints_by_name)
+    leaders: dict[str, tuple[Joint, Located[str]]] = {}
+    for joint in robot.joints:
+        for leader in joint.mimics:
+            if joint.scope + leader.value not in robot.joints_by_name:
+                hint = suggestions.hint(leader.value)
+                said = f"mimics {leader.value!r}, which does not exist{hint}"
+                yield finding(leader, f"joint {joint.name.value!r} {said}")
+            else:
+                leaders.setdefault(joint.scoped_name, (joint, leader))
+    yield from _circles(leaders)
+
+
+def _circles(leaders: dict[str, tuple[Joint, Located[str]]]) -> Iterator[Finding]:
+    """Yield a finding for each circle of joints that mimic one another."""
+    done: set[str] = set()
+    for start in leaders:
+        path: dict[str, None] = {}
+        at = start
+        while at in leaders and at not in done and at not in path:
+            path[at] = None
+            joint, leader = leaders[at]
+            at = joint.scope + leader.value
+        done.update(path)
+        if at in path:
+            joint, leader = leaders[at]
+            itself = "itself" if joint.scope + leader.value == at else "a joint that mimics it"
+            yield finding(leader, f"joint {joint.name.value!r} mimics {itself}")
+
+
+def _fingers(left: str, right: str = "") -> str:
+    joints = "".join(
+        f"""
+<link name="{side}"/>
+<joint name="{side}_joint" type="prismatic">
+  <parent>base_link</parent>
+  <child>{side}</child>
+  <axis>
+    <xyz>1 0 0</xyz>
+    {mimic}
+  </axis>
+</joint>"""
+        for side, mimic in (("left", left), ("right", right))
+    )
+    head = '<sdf version="1.11">\n<model name="acme_rover_sensor_config_1">\n'
+    return f'{head}<link name="base_link"/>{joints}\n</model>\n</sdf>\n'
+
+
+def _mimic(joint: str) -> str:
+    return f'<mimic joint="{joint}" axis="axis"><multiplier>1</multiplier></mimic>'
+
+
+_MARK = "  <!-- ^ KIN014 -->"
+GOOD = [_fingers(""), _fingers(_mimic("right_joint"))]
+BAD = [
+    _fingers(_mimic("right_finger") + _MARK),
+    _fingers(_mimic("left_joint") + _MARK),
+    _fingers(_mimic("right_joint") + _MARK, _mimic("left_joint")),
+]

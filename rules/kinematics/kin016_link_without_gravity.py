@@ -1,0 +1,37 @@
+"""A link of a robot that gravity or forces do not act on.
+
+A link without gravity drives up every slope and never tips over; a kinematic link pushes through
+everything. Both are left over from debugging, or hide that a model is unstable.
+No accepted package at hand shows it.
+
+Fix: remove `<gravity>` and `<kinematic>` from the link.
+Source: SDFormat specification, link/gravity and link/kinematic; URDF, `<turnGravityOff>`.
+"""
+
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("KIN016", "link-without-gravity", Severity.WARNING)
+def check(robot: Robot) -> Findings:
+    """Report links without gravity, and kinematic links."""
+    for link in robot.links:
+        if not link.gravity.value:
+            message = f"<gravity> of link {link.name.value!r} is {link.gravity.span.text}"
+            yield finding(link.gravity, message, key="gravity")
+        if link.kinematic.value:
+            message = (
+                f"<kinematic> of link {link.name.value!r} is {link.kinematic.span.text}: "
+                "no force moves it"
+            )
+            yield finding(link.kinematic, message, key="kinematic")
+
+
+GOOD = [
+    '<link name="mast"><gravity>1</gravity><kinematic>0</kinematic></link>',
+    '<link name="mast"><gravity>true</gravity></link>',
+]
+BAD = [
+    '<link name="mast"><gravity>0</gravity></link>  <!-- ^ KIN016 -->',
+    '<link name="mast"><kinematic>true</kinematic></link>  <!-- ^ KIN016 -->',
+]

@@ -1,0 +1,131 @@
+"""The description in model.config tells of other sensors than the model has.
+
+Fuel and the catalogue show this sentence. Where it says two depth cameras and the model has four,
+one of them is wrong. Numbers are compared where the words spell all of them out; a kind of sensor
+that the model lacks altogether is reported as well.
+
+Fix: correct the description, or the model.
+Source: model reviews: the list of sensors in model.config against model.sdf.
+"""
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from checker.model.robot import Robot
+from checker.model.specification.sensor_kinds import SensorKind, kinds_in
+from checker.model.specification.sensor_types import SUBSTITUTES, TYPES
+from checker.model.specification.sensors import stated_count
+from checker.paperwork import Paperwork
+from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.source.text import Located, Span
+
+_CLAUSE = re.compile(
+    r"(?:(?!\s(?:and|with|has|having|plus)\s|[,;:.()]\s|\s-\s)[^()]){1,400}", re.DOTALL | re.I
+)
+_POINT = re.compile(r"\b(?:ceiling|cliff|distance|floor|point|range) sensors?\b", re.IGNORECASE)
+_LIST_MARK = re.compile(r"[\s,;:.-]*(?:(?:and|with|has|having|plus)\s+)?", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class _Told:
+    """A kind of sensor that a clause names, and how many of it; None when it does not say."""
+
+    kind: SensorKind
+    count: int | None
+    span: Span
+
+
+@rule("PKG005", "description-disagrees", Severity.WARNING)
+def check(robot: Robot, paperwork: Paperwork) -> Findings:
+    """Compare kinds and numbers of sensors."""
+    config = paperwork.config
+    if config is None or not config.description.stated:
+        return
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
+    present = Counter(sensor.type.value for sensor in robot.sensors)
+    families: dict[frozenset[str], list[_Told]] = defaultdict(list)
+    for told in _told(config.description):
+        families[TYPES[told.kind]].append(told)
+    for types, items in families.items():
+        others = SUBSTITUTES.get(items[0].kind, frozenset())
+        mentioned = any(TYPES[told.kind] == others for told in families.get(others, ()))
+        amounts = _amounts(present, types, frozenset() if mentioned else others)
+        total = _total(items)
+        name = items[0].kind.value.replace("_", " ")
+        if max(amounts) == 0:
+            yield finding(
+                items[0], f"description tells of {name}, the model has no such sensor", key=name
+            )
+        elif total is not None and total not in amounts:
+            yield finding(
+                items[0],
+                f"description tells of {total} × {name}, the model has {amounts[0]}",
+                key=name,
+            )
+
+
+def _told(description: Located[str]) -> Iterator[_Told]:
+    """Yield what the clauses of a description name; the first kind of a clause counts."""
+    text = description.span.text
+    for clause in _CLAUSE.finditer(text):
+        mark = _LIST_MARK.match(clause.group())
+        start = clause.start() + (mark.end() if mark else 0)
+        words = " ".join(text[start : clause.end()].split())
+        kinds = [kind for kind in kinds_in(words, words) if kind in TYPES]
+        if _POINT.search(words):
+            kinds = [SensorKind.POINT_LIDAR]
+        if kinds:
+            span = Span(
+                description.span.source,
+                description.span.start + start,
+                description.span.start + clause.end(),
+            )
+            yield _Told(kinds[0], stated_count(words), span)
+
+
+def _amounts(
+    present: Counter[str], types: frozenset[str], others: frozenset[str]
+) -> tuple[int, int, int]:
+    """Return how many there are: of the types, of what the words may mean as well, of both."""
+    own = sum(present[kind] for kind in types)
+    substitutes = sum(present[kind] for kind in others)
+    return own, substitutes, own + substitutes
+
+
+def _total(items: Sequence[_Told]) -> int | None:
+    counts = [item.count for item in items]
+    return sum(count for count in counts if count) if all(counts) else None
+
+
+def _config(description: str) -> str:
+    return f"""<model>
+  <description>{description}</description>  <!-- ^ PKG005 -->
+</model>
+"""
+
+
+_SENSORS = """
+<sensor name="front" type="camera"/><sensor name="rear" type="rgbd_camera"/>
+<sensor name="imu" type="imu"/>
+"""
+
+_TWO_CAMERAS = "A rover with two cameras and an IMU"
+
+GOOD = [
+    {
+        "@fragment": _SENSORS,
+        "model.config": f"<model><description>{_TWO_CAMERAS}</description></model>",
+    },
+    {
+        "@fragment": _SENSORS,
+        "model.config": "<model><description>A camera, an RGBD camera, IMU.</description></model>",
+    },
+]
+BAD = [
+    {"@fragment": _SENSORS, "model.config": _config("A rover with six cameras and an IMU")},
+    {"@fragment": _SENSORS, "model.config": _config("Sensors: 3D lidar, two cameras")},
+]

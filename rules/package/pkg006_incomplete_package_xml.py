@@ -1,0 +1,115 @@
+"""A package.xml without what its format requires.
+
+catkin refuses to build a workspace that holds such a package, and with it every other robot. The
+license and the maintainer's address are what lets others use the model, and ask about it. Accepted
+packages show at most a maintainer without a name.
+
+Fix: add name, version (`1.0.0`), description, maintainer with email, license, and
+`<buildtool_depend>catkin</buildtool_depend>`.
+Source: REP 127, 140 and 149, "Required tags"; catkin_pkg refuses what they do not allow.
+"""
+
+import re
+from collections.abc import Iterator
+
+from checker.model.paperwork import PackageManifest
+from checker.package.package import Package
+from checker.package.submissions import TEMPLATE, is_same_robot
+from checker.paperwork import Paperwork
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.source.text import Located
+
+_VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
+_EMAIL = re.compile(r"[^@\s]+@[^@\s]+")
+
+
+@rule("PKG006", "incomplete-package-xml", Severity.ERROR)
+def check(package: Package, paperwork: Paperwork) -> Findings:
+    """Look at what package.xml must state."""
+    if reason := paperwork.unread("package.xml"):
+        yield unchecked(reason)
+    manifest = paperwork.manifest
+    if manifest is None:
+        return
+    yield from _required(manifest)
+    yield from _people(manifest)
+    named = TEMPLATE.search(manifest.description.value)
+    if named and not is_same_robot(named.group(1), package.name):
+        yield finding(
+            manifest.description,
+            f"description is about {named.group(1)}, the package is {package.name}",
+            severity=Severity.WARNING,
+        )
+    if not manifest.build_type.value and not manifest.depends_on("catkin"):
+        yield finding(
+            manifest,
+            "package.xml does not declare <buildtool_depend>catkin</buildtool_depend>",
+            severity=Severity.WARNING,
+        )
+
+
+def _required(manifest: PackageManifest) -> Iterator[Finding]:
+    texts = {
+        "name": manifest.name,
+        "version": manifest.version,
+        "description": manifest.description,
+    }
+    for tag, text in texts.items():
+        if not text.value:
+            yield _missing(tag, text)
+    version = manifest.version
+    if version.value and _VERSION.fullmatch(version.value) is None:
+        yield finding(version, f"version is {version.value!r}, expected three numbers: '1.0.0'")
+    if manifest.format.value is None:
+        yield finding(manifest.format, "format of package.xml is none of 1, 2 and 3")
+    if not manifest.licenses:
+        yield _missing("license", Located("", manifest.span, stated=False))
+    yield from (_missing("license", text) for text in manifest.licenses if not text.value)
+
+
+def _people(manifest: PackageManifest) -> Iterator[Finding]:
+    if not manifest.maintainers:
+        yield _missing("maintainer", Located("", manifest.span, stated=False))
+    for person in manifest.maintainers:
+        if not person.name.value:
+            yield finding(person, "<maintainer> has no name", severity=Severity.WARNING)
+        if not person.email.value:
+            name = person.name.value or "maintainer"
+            yield finding(person, f"{name} has no email: <maintainer email=…>")
+        elif _EMAIL.fullmatch(person.email.value) is None:
+            yield finding(person.email, f"{person.email.value!r} is no email address")
+
+
+def _missing(tag: str, text: Located[str]) -> Finding:
+    is_root = text.span.element.count("/") == 0
+    return finding(text, f"<{tag}> is {'missing' if is_root else 'empty'}", key=tag)
+
+
+def _manifest(description: str, maintainer: str, license: str) -> str:
+    return f"""<package format="2">
+  <name>acme_rover_sensor_config_1</name>
+  <version>1.0.0</version>
+  <description>{description}
+  <maintainer{maintainer}
+  <license>{license}
+  <buildtool_depend>catkin</buildtool_depend>
+</package>
+"""
+
+
+_DESCRIPTION = "The acme_rover_sensor_config_1 package</description>"
+_MAINTAINER = ' email="a@example.org">A</maintainer>'
+_LICENSE = "Apache-2.0</license>"
+_MARK = "  <!-- ^ PKG006 -->"
+
+GOOD = [{"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, _LICENSE)}]
+BAD = [
+    {"package.xml": _manifest(_DESCRIPTION, f">A</maintainer>{_MARK}", _LICENSE)},
+    {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"</license>{_MARK}")},
+    {
+        "package.xml": _manifest(
+            f"The x1_sensor_config_6 package</description>{_MARK}", _MAINTAINER, _LICENSE
+        )
+    },
+    {"package.xml": f"<package><name>rover</name></package>{_MARK}"},
+]

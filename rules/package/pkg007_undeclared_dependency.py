@@ -1,0 +1,120 @@
+"""A package that is used and not declared as a dependency.
+
+What package.xml does not name is not installed with the robot: the launch files of another
+submission, or the bridge to ROS, are then missing where the robot runs. Comments do not count.
+
+Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used.
+Source: REP 149, exec_depend; reviewers asked for the dependency on configuration 1.
+"""
+
+from collections.abc import Iterator
+
+from checker.finding import Fix
+from checker.model.paperwork import PackageManifest
+from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
+from checker.package.kind import PackageKind
+from checker.package.model_file import own_model
+from checker.package.package import Package
+from checker.package.uses import Use, uses_of
+from checker.paperwork import Paperwork
+from checker.rule import (
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
+from checker.source.text import Span
+from checker.source.xml import XmlDocument
+
+
+@rule("PKG007", "undeclared-dependency", Severity.WARNING)
+def check(package: Package, paperwork: Paperwork) -> Findings:
+    """Compare what is used with package.xml; packages of the distribution as information."""
+    if reason := paperwork.unread("package.xml"):
+        yield unchecked(reason)
+    manifest = paperwork.manifest
+    if manifest is None:
+        return
+    others: dict[str, Use] = {}
+    for use in uses_of(package):
+        name = use.package_name
+        if name in (package.name, manifest.name.value):
+            continue
+        if SUBMISSION_NAME.search(name) or package.workspace.package(name) is not None:
+            if not _needed_at_run_time(manifest, name):
+                message = f"{use.how}: {name} is not among the dependencies in package.xml"
+                yield finding(use.place, message, key=name, fix=_declared(package, manifest, name))
+        elif not manifest.depends_on(name):
+            others.setdefault(name, use)
+    yield from _distribution(package, others)
+    yield from _lender(package, manifest)
+
+
+def _needed_at_run_time(manifest: PackageManifest, name: str) -> bool:
+    return any(each.at_run_time and each.package.value == name for each in manifest.dependencies)
+
+
+def _distribution(package: Package, uses: dict[str, Use]) -> Iterator[Finding]:
+    if uses:
+        names = ", ".join(sorted(uses))
+        yield finding(
+            package.folder_place(),
+            f"{names}: used, and not among the dependencies in package.xml",
+            severity=Severity.INFO,
+            related=[(use.place, f"{name} is used") for name, use in sorted(uses.items())],
+        )
+
+
+def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
+    """Report a configuration without model and spawner that does not say whose model it takes."""
+    is_submission = SUBMISSION_NAME.search(package.name) and package.kind is PackageKind.ROBOT
+    if not is_submission or own_model(package) is not None or package.exists(SPAWNER):
+        return
+    if not any(SUBMISSION_NAME.search(each.package.value) for each in manifest.dependencies):
+        yield finding(manifest, "package has no model, and depends on no package that has one")
+
+
+def _declared(package: Package, manifest: PackageManifest, name: str) -> Fix | None:
+    """Return the fix that adds a dependency at the end of package.xml."""
+    document = package.xml("package.xml")
+    if not isinstance(document, XmlDocument):
+        return None
+    tag = "run_depend" if manifest.format.value == 1 else "exec_depend"
+    end = document.root.position.end_start
+    return replace_text(Span(document.source, end, end), f"  <{tag}>{name}</{tag}>\n")
+
+
+def _manifest(depends: str) -> str:
+    return f"""<package format="2">
+  <name>acme_rover_sensor_config_1</name>
+  {depends}
+</package>
+"""
+
+
+def _launch(name: str, end: str = "") -> str:
+    return f'<launch><include file="$(find {name})/launch/a.launch"/></launch>{end}\n'
+
+
+GOOD = [
+    {
+        "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
+        "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),
+    },
+    {"launch/vehicle_topics.launch": "<launch><!-- $(find x1_sensor_config_6) --></launch>"},
+]
+BAD = [
+    {
+        "launch/vehicle_topics.launch": _launch("x1_sensor_config_6", "  <!-- ^ PKG007 -->"),
+        "package.xml": _manifest("<build_depend>x1_sensor_config_6</build_depend>"),
+    },
+    {"launch/vehicle_topics.launch": _launch("subt_ros"), "@reported": [".:1"]},
+    {
+        "model.sdf": None,
+        "launch/spawner.rb": None,
+        "package.xml": '<package format="2"><name>a</name></package>  <!-- ^ PKG007 -->',
+    },
+]

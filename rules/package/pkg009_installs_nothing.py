@@ -1,0 +1,69 @@
+"""CMakeLists.txt installs a file or folder that is not there.
+
+`catkin_make install` stops at it, and nothing of the package, nor of those behind it, is installed.
+No accepted package at hand shows it.
+
+Fix: take the entry out of `install()`, or add what it names.
+Source: CMake documentation, `install`: a file that does not exist is an error.
+"""
+
+import posixpath
+import re
+from collections.abc import Iterator
+
+from checker.package.package import Package
+from checker.paperwork import Paperwork
+from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.source.cmake import CMakeFile, Install
+from checker.source.text import Located
+
+_OPTIONAL = re.compile(r"\bOPTIONAL\b")
+_MADE_ELSEWHERE = re.compile(r"[$<*]|^/|^[A-Za-z]:")
+
+
+@rule("PKG009", "installs-nothing", Severity.ERROR)
+def check(package: Package, paperwork: Paperwork) -> Findings:
+    """Look up everything that is installed from the package's folder."""
+    build = paperwork.build
+    if build is None:
+        return
+    for install, item in _items(build):
+        path = posixpath.normpath(item.value.rstrip("/") or ".")
+        if package.exists(path):
+            continue
+        alike = [other for other in package.index.similar(path) if other != path]
+        what = "folder" if install.kind == "DIRECTORY" else "file"
+        yield finding(
+            item,
+            f"{what} {item.value} is installed and does not exist"
+            + (f"; there is {alike[0]}" if alike else ""),
+            fix=replace_text(item, "") if item.span.text.strip('"') == item.value else None,
+        )
+
+
+def _items(build: CMakeFile) -> Iterator[tuple[Install, Located[str]]]:
+    """Yield what surely comes from the source folder and must be there."""
+    for install in build.installs:
+        if install.kind == "TARGETS" or install.conditional:
+            continue
+        if _OPTIONAL.search(install.span.text) is None:
+            for item in install.items:
+                if item.value and _MADE_ELSEWHERE.search(item.value) is None:
+                    yield install, item
+
+
+_INSTALL = """project(acme_rover_sensor_config_1)
+install(DIRECTORY launch/ urdf
+  ./worlds
+  ${CMAKE_CURRENT_SOURCE_DIR}/thumbnails
+  DESTINATION share)
+"""
+
+GOOD = [
+    {"CMakeLists.txt": f"{_INSTALL}install(FILES notes.md DESTINATION share OPTIONAL)\n"},
+    {"CMakeLists.txt": f"{_INSTALL}install(FILES ${{CMAKE_BINARY_DIR}}/made.txt DESTINATION x)\n"},
+]
+BAD = [
+    {"CMakeLists.txt": _INSTALL.replace("urdf", "urdf meshes  # ^ PKG009")},
+    {"CMakeLists.txt": f"{_INSTALL}install(FILES Model.sdf DESTINATION share)  # ^ PKG009\n"},
+]

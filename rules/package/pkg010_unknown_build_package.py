@@ -1,0 +1,71 @@
+"""CMake asks for a package that the target does not have.
+
+`find_package(… REQUIRED)` of a library that is not installed, or only in another version, ends the
+build of the whole workspace. What package.xml declares as a dependency, and what the package or its
+workspace brings along, is taken to be there. No accepted package at hand shows it.
+
+Fix: take it out when nothing uses it; ask for the version that the release has; or declare the
+dependency in package.xml, so that it is installed.
+Source: libraries of Ignition Dome and Gazebo Harmonic by their release notes; REP 149.
+"""
+
+import re
+from collections.abc import Iterator
+
+from checker.package.package import Package
+from checker.paperwork import Paperwork
+from checker.resources import table
+from checker.rule import Context, Findings, Severity, finding, rule
+from checker.source.cmake import CMakeFile
+from checker.source.text import Located
+
+_VERSION = re.compile(r"\d+\Z")
+_REQUIRED = {"REQUIRED", "COMPONENTS"}
+
+
+@rule("PKG010", "unknown-build-package", Severity.WARNING)
+def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
+    """Look up required packages in what the release has."""
+    known = table("build_packages")["releases"].get(context.release)
+    if paperwork.build is None or known is None:
+        return
+    available = {*table("build_packages")["any_release"], *known["packages"]}
+    lower = {name.casefold() for name in available}
+    for needed in _needed(paperwork.build):
+        if needed.value.casefold() in lower or _brought(package, paperwork, needed.value):
+            continue
+        stem = _VERSION.sub("", needed.value)
+        other = next((name for name in available if _VERSION.sub("", name) == stem != name), None)
+        hint = f"; it has {other}" if other else ""
+        yield finding(needed, f"{known['title']} has no package {needed.value}{hint}")
+
+
+def _needed(build: CMakeFile) -> Iterator[Located[str]]:
+    for call in build.find_packages:
+        values = [word.value for word in call.arguments]
+        if not call.conditional and "$" not in values[0] and _REQUIRED.intersection(values):
+            yield call.arguments[0]
+
+
+def _brought(package: Package, paperwork: Paperwork, name: str) -> bool:
+    manifest = paperwork.manifest
+    if manifest is not None and manifest.depends_on(name):
+        return True
+    module = f"find{name}.cmake".casefold()
+    files = package.index.with_suffix(".cmake")
+    return any(file.path.rpartition("/")[2].casefold() == module for file in files) or (
+        package.workspace.package(name) is not None
+    )
+
+
+_PROJECT = "project(acme_rover_sensor_config_1)\n"
+
+GOOD = [
+    {"CMakeLists.txt": f"{_PROJECT}find_package(catkin REQUIRED COMPONENTS roscpp)\n"},
+    {"CMakeLists.txt": f"{_PROJECT}find_package(ignition-gazebo4 REQUIRED)\n"},
+    {"CMakeLists.txt": f"{_PROJECT}find_package(rover_magic QUIET)\n"},
+]
+BAD = [
+    {"CMakeLists.txt": f"{_PROJECT}find_package(rover_magic REQUIRED)  # ^ PKG010\n"},
+    {"CMakeLists.txt": f"{_PROJECT}find_package(ignition-gazebo3 REQUIRED)  # ^ PKG010\n"},
+]

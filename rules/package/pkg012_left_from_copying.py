@@ -1,0 +1,129 @@
+"""The name of another submission, left from copying.
+
+A robot that begins as a copy keeps the other's name in titles, descriptions and commands; then
+people read about another robot, or start it. Names in `find`, `require`, Fuel URIs and dependencies
+are meant, and so are those that a word such as "derived from" explains. No accepted package at hand
+shows it.
+
+Fix: write this package's name.
+Source: model reviews: names of other robots and teams in model.config, titles and commands.
+"""
+
+import re
+from collections.abc import Iterator
+
+from checker.package.inheritance import SUBMISSION_NAME
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.package.references import ReferenceKind
+from checker.package.submissions import (
+    blank_xml_comments,
+    is_same_robot,
+    left_from_copying,
+    robot_of,
+)
+from checker.paperwork import Paperwork
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.text import Located, SourceText, Span
+
+SHEET = "specifications.md"
+TEAMS = ("barcs", "cerberus", "coordinated", "costar", "csiro", "ctu", "dynamo", "emesent")
+MORE_TEAMS = ("explorer", "flyabot", "marble", "nctu", "robotika", "sophisticated", "ssci")
+
+_TITLE = re.compile(r"^#{1,3}[ \t]*(\S[^\n]*?sensor[ _]config(?:uration)?[ _]\d+)", re.M | re.I)
+_TEAM = re.compile(r"\b(?:of|by)\s+(?:the\s+)?(?:team\s+)?([A-Z]\w+)(?:'s)?\s+team\b", re.I)
+
+
+@rule("PKG012", "left-from-copying", Severity.WARNING)
+def check(
+    package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS + MORE_TEAMS
+) -> Findings:
+    """Look for names of others in package.xml, model.config, the sheet and the spawner."""
+    if SUBMISSION_NAME.search(package.name) is None:
+        return
+    if paperwork.manifest is not None:
+        yield from _named(package, paperwork.manifest.description, Severity.ERROR)
+    if paperwork.config is not None:
+        for text in (paperwork.config.name, paperwork.config.description):
+            yield from _named(package, text, Severity.WARNING)
+        yield from _other_team(package, paperwork.config.description, teams)
+    yield from _commands(package, paperwork)
+    sheet = package.read(SHEET)
+    if isinstance(sheet, SourceText):
+        yield from _title(package, sheet)
+        yield from _named(package, Located("", Span(sheet, 0, len(sheet.text))), Severity.WARNING)
+
+
+def _named(package: Package, text: Located[str], severity: Severity) -> Iterator[Finding]:
+    """Report names of other robots in the text of a span, comments left out."""
+    if not text.stated:
+        return
+    written = blank_xml_comments(text.span.text)
+    for match in left_from_copying(written, package.name):
+        where = Span(
+            text.span.source, text.span.start + match.start(), text.span.start + match.end()
+        )
+        message = f"{match.group()} is named, the package is {package.name}"
+        yield finding(where, message, severity=severity, key=match.group())
+
+
+def _other_team(package: Package, text: Located[str], teams: tuple[str, ...]) -> Iterator[Finding]:
+    for match in _TEAM.finditer(text.value):
+        team = match.group(1)
+        if team.casefold() in teams and team.casefold() not in package.name.split("_"):
+            yield finding(text, f"description names the team {team}, the package is {package.name}")
+
+
+def _commands(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
+    """Report commands that start another robot, unless that is declared or lends the model."""
+    manifest = paperwork.manifest
+    for reference in package.references:
+        name = reference.package_name
+        if reference.kind is not ReferenceKind.ROSLAUNCH or package.kind is not PackageKind.ROBOT:
+            continue
+        if SUBMISSION_NAME.search(name) is None or is_same_robot(name, package.name):
+            continue
+        if manifest is None or not manifest.depends_on(name):
+            message = f"starts {reference.file} of {name}, the package is {package.name}"
+            yield finding(reference.place, message, severity=Severity.ERROR, key=f"starts {name}")
+
+
+def _title(package: Package, sheet: SourceText) -> Iterator[Finding]:
+    """Report a title that shares no word with the robot's name."""
+    title = _TITLE.search(sheet.text)
+    if title is None:
+        return
+    words = set(re.split(r"[\W_]+", title.group(1).casefold()))
+    if words.isdisjoint(robot_of(package.name).casefold().split("_")):
+        where = Span(sheet, *title.span(1))
+        message = f"title is {title.group(1)!r}, the package is {package.name}"
+        yield finding(where, message, severity=Severity.ERROR)
+
+
+def _described(text: str) -> dict[str, str]:
+    return {
+        "package.xml": f"""<package format="2">
+  <name>acme_rover_sensor_config_1</name>
+  <description>{text}
+</package>
+""",
+    }
+
+
+GOOD = [
+    _described(
+        "The acme_rover_sensor_config_1 package, derived from x1_sensor_config_4</description>"
+    ),
+    {"specifications.md": "# Acme Rover Sensor Config 1\nAs fast as x1_sensor_config_4.\n"},
+]
+BAD = [
+    _described("The x1_sensor_config_4 package</description>  <!-- ^ PKG012 -->"),
+    {"specifications.md": "# MARBLE HD2 Sensor Config 1 <!-- ^ PKG012 -->\n"},
+    {"specifications.md": "# Rover\nX1_SENSOR_CONFIG_4 has a lidar. <!-- ^ PKG012 -->\n"},
+    {
+        "model.config": """<model>
+  <description>A rover of the Marble team</description>  <!-- ^ PKG012 -->
+</model>
+"""
+    },
+]

@@ -1,0 +1,56 @@
+"""A thumbnail that is missing or cannot be read.
+
+The five pictures show the robot in the catalogue from which teams choose: `1.png` at an angle, then
+from the top, the side, the front and the rear.
+
+Fix: add the pictures as PNG files, called `1.png` to `5.png`, in `thumbnails/`.
+Source: Model Preparation Guide, section "Thumbnails".
+"""
+
+import posixpath
+
+from checker.package.package import Package
+from checker.package.reading import NotReadable
+from checker.rule import Findings, Severity, finding, rule
+from checker.source.png import png_fault
+
+FOLDER = "thumbnails"
+VIEWS = {"1.png": "iso", "2.png": "top", "3.png": "side", "4.png": "front", "5.png": "rear"}
+
+
+@rule("PKG013", "thumbnail-missing", Severity.WARNING)
+def check(package: Package, *, limit_megabytes: float = 30) -> Findings:
+    """Look for the five pictures, and into every PNG file beside them."""
+    folder = package.index.find(FOLDER)
+    if folder is None or not folder.is_folder:
+        return
+    missing = [f"{n} ({v})" for n, v in VIEWS.items() if not package.exists(f"{FOLDER}/{n}")]
+    if missing:
+        yield finding(package.place(FOLDER), f"{FOLDER}/ lacks {', '.join(missing)}")
+    for file in package.index.with_suffix(".png"):
+        if posixpath.dirname(file.path) != FOLDER:
+            continue
+        data = package.read_bytes(file.path, int(limit_megabytes * 1e6))
+        fault = data.reason if isinstance(data, NotReadable) else png_fault(data)
+        if fault is not None:
+            yield finding(package.place(file.path), f"{file.path} {fault}")
+
+
+# One grey pixel.
+_PNG = bytes.fromhex(
+    "89504e470d0a1a0a0000000d49484452000000010000000108000000003a7e9b55"
+    "0000000a49444154789c636800000082008177cd72b60000000049454e44ae426082"
+)
+
+GOOD = [{f"thumbnails/{number}.png": _PNG for number in range(1, 6)}]
+BAD = [
+    {
+        **{f"thumbnails/{number}.png": _PNG for number in range(1, 5)},
+        "@reported": ["thumbnails:1"],
+    },
+    {
+        **{f"thumbnails/{number}.png": _PNG for number in range(1, 5)},
+        "thumbnails/5.png": _PNG[:50],
+        "@reported": ["thumbnails/5.png:1"],
+    },
+]

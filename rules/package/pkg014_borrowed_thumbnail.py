@@ -1,0 +1,56 @@
+"""A thumbnail that is the picture of another package.
+
+The catalogue then shows a robot that this package is not. It happens when a new robot begins as a
+copy of an old one. Only packages at hand are compared; configurations of one robot may share
+pictures. No accepted package at hand shows it.
+
+Fix: make pictures of this robot.
+Source: Model Preparation Guide, section "Thumbnails".
+"""
+
+from checker.package.package import Package
+from checker.package.reading import NotReadable
+from checker.package.submissions import robot_of
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("PKG014", "borrowed-thumbnail", Severity.WARNING)
+def check(package: Package, *, most_compared: int = 50) -> Findings:
+    """Report thumbnails with the same bytes as one of another robot at hand."""
+    if package.only:
+        return
+    for file in package.index.with_suffix(".png", ".jpg", ".jpeg"):
+        if not file.path.startswith("thumbnails/") or not file.size:
+            continue
+        picture = package.read_bytes(file.path)
+        alike = package.workspace.thumbnails_by_size.get(file.size, [])
+        for other, path in alike[:most_compared]:
+            if robot_of(other.name) == robot_of(package.name) or isinstance(picture, NotReadable):
+                continue
+            if other.read_bytes(path) == picture:
+                yield finding(
+                    package.place(file.path),
+                    f"{file.path} is the picture {path} of {other.name}",
+                    key=other.name,
+                )
+                break
+
+
+_OTHER = {"../x1_sensor_config_6/package.xml": "<package/>"}
+
+GOOD = [
+    {**_OTHER, "thumbnails/1.png": "a robot", "../x1_sensor_config_6/thumbnails/1.png": "another"},
+    {
+        "../acme_rover_sensor_config_2/package.xml": "<package/>",
+        "../acme_rover_sensor_config_2/thumbnails/1.png": "a robot",
+        "thumbnails/1.png": "a robot",
+    },
+]
+BAD = [
+    {
+        **_OTHER,
+        "thumbnails/3.png": "a robot",
+        "../x1_sensor_config_6/thumbnails/1.png": "a robot",
+        "@reported": ["thumbnails/3.png:1"],
+    },
+]

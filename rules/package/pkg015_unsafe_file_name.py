@@ -1,0 +1,57 @@
+"""A file name that other machines may not find.
+
+URIs, CMake lists and shell commands break at spaces; letters outside ASCII are encoded differently
+from system to system; of two names that differ only in case, Windows and macOS keep one. No
+accepted package at hand shows it. A reference that differs from its file only in case is reported
+where it stands, by REF002, PKG004 or PKG009.
+
+Fix: rename the file with ASCII letters, digits, `_`, `-` and `.`, and the references to it.
+Source: CMake and SDFormat: lists and URIs; experience with archives made on Windows and macOS.
+"""
+
+import posixpath
+from collections import defaultdict
+from collections.abc import Iterator
+
+from checker.package.index import FileEntry
+from checker.package.package import Package
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+
+@rule("PKG015", "unsafe-file-name", Severity.WARNING)
+def check(package: Package) -> Findings:
+    """Report names of files and folders with spaces, non-ASCII letters, or a twin."""
+    twins: dict[str, list[FileEntry]] = defaultdict(list)
+    for path, entry in package.index.entries.items():
+        twins[path.casefold()].append(entry)
+        yield from _letters(package, path)
+    for first, *others in twins.values():
+        for other in others:
+            if posixpath.dirname(first.path) == posixpath.dirname(other.path):
+                yield finding(
+                    package.place(other.path),
+                    f"{other.path} and {first.path} differ only in case",
+                    related=[(package.place(first.path), "the other name")],
+                )
+
+
+def _letters(package: Package, path: str) -> Iterator[Finding]:
+    name = posixpath.basename(path)
+    if any(letter.isspace() for letter in name):
+        yield finding(package.place(path), f"{name!r} has a space in its name", key="space")
+    strange = sorted({letter for letter in name if not letter.isascii()})
+    if strange:
+        letters = " ".join(strange)
+        yield finding(package.place(path), f"{name!r} has {letters} in its name", key="ASCII")
+
+
+GOOD = [{"meshes/wheel-2.1_left.dae": "<COLLADA/>"}]
+BAD = [
+    {"meshes/old body.dae": "<COLLADA/>", "@reported": ["meshes/old body.dae:1"]},
+    {"meshes/räder.dae": "<COLLADA/>", "@reported": ["meshes/räder.dae:1"]},
+    {
+        "meshes/Wheel.dae": "<COLLADA/>",
+        "meshes/wheel.dae": "<COLLADA/>",
+        "@reported": ["meshes/wheel.dae:1"],
+    },
+]

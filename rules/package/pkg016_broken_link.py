@@ -1,0 +1,43 @@
+"""A symbolic link that leads nowhere, or out of the package.
+
+What it leads to does not travel with the package: once uploaded or installed, the file is not
+there, although it is on the author's machine. No accepted package at hand shows it.
+
+Fix: put the file itself in the place of the link, or correct the link.
+Source: Model Submission Process: a package holds everything that the robot needs.
+"""
+
+from checker.package.index import LinkState
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, rule
+
+FAULTS = {
+    LinkState.DANGLING: "leads to {}, which does not exist",
+    LinkState.OUTSIDE: "leads out of the package, to {}",
+    LinkState.SIBLING: "leads into another package, to {}",
+    LinkState.LOOP: "leads in a circle, to {}",
+}
+
+
+@rule("PKG016", "broken-link", Severity.ERROR)
+def check(package: Package) -> Findings:
+    """Report links that end outside of the package."""
+    for link in package.index.links:
+        if link.target_state in FAULTS:
+            words = FAULTS[link.target_state].format(link.target)
+            yield finding(package.place(link.path), f"link {link.path} {words}")
+
+
+GOOD = [{"meshes/wheel.dae": "<COLLADA/>", "@links": {"meshes/rear_wheel.dae": "wheel.dae"}}]
+BAD = [
+    {
+        "meshes/wheel.dae": "<COLLADA/>",
+        "@links": {"meshes/rear_wheel.dae": "Wheel.dae"},
+        "@reported": ["meshes/rear_wheel.dae:1"],
+    },
+    {
+        "../x1_sensor_config_6/package.xml": "<package/>",
+        "@links": {"robot.xml": "../x1_sensor_config_6/package.xml", "urdf/all": ".."},
+        "@reported": ["robot.xml:1", "urdf/all:1"],
+    },
+]

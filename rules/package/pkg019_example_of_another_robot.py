@@ -1,0 +1,71 @@
+"""An example that does not show this robot.
+
+`launch/example.ign` and `worlds/example.sdf` are how a reader first starts the robot. An example
+that was copied starts another one, or an empty world.
+
+Fix: include `model://<this package>` in the world, or call `spawner` in example.ign.
+Source: Model Preparation Guide, "example.ign": how to test a model by itself.
+"""
+
+import re
+from collections.abc import Iterator
+
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.package.submissions import NAME_IN_PATH, blank_xml_comments
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.text import SourceText, Span
+
+FILES = ("launch/example.ign", "worlds/example.sdf")
+
+_SPAWNS = re.compile(r"\bspawner\b|<spawn\b|\bmodel\.sdf\b")
+
+
+@rule("PKG019", "example-of-another-robot", Severity.WARNING)
+def check(package: Package) -> Findings:
+    """Look for names of other packages in the examples, and for this robot in one of them."""
+    if package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
+        return
+    sources = [source for path in FILES if isinstance(source := package.read(path), SourceText)]
+    base = package.base.package_name if package.base is not None else package.name
+    own = {package.name.casefold(), base.casefold()}
+    shown = False
+    for source in sources:
+        text = blank_xml_comments(source.text)
+        names = {match.group().casefold() for match in NAME_IN_PATH.finditer(text)}
+        if others := names - own:
+            yield from _others(package, source, text, others)
+        named = any(name in text.casefold() for name in own)
+        shown = shown or named or bool(others) or _SPAWNS.search(text) is not None
+    # The world alone tells nothing: it is example.ign that puts most robots into it.
+    if not shown and package.exists(FILES[0]):
+        files = " and ".join(source.file for source in sources)
+        yield finding(sources[0].whole(), f"no {package.name} in {files}")
+
+
+def _others(package: Package, source: SourceText, text: str, others: set[str]) -> Iterator[Finding]:
+    for match in NAME_IN_PATH.finditer(text):
+        if match.group().casefold() in others:
+            yield finding(
+                Span(source, *match.span()),
+                f"example shows {match.group()}, the package is {package.name}",
+                key=match.group(),
+            )
+
+
+def _world(name: str, end: str = "") -> str:
+    return f"""<sdf version="1.6"><world name="example"><include>
+  <uri>model://{name}</uri>{end}
+</include></world></sdf>
+"""
+
+
+GOOD = [
+    {"launch/example.ign": None},
+    {"worlds/example.sdf": _world("acme_rover_sensor_config_1")},
+    {"launch/example.ign": "<ignition><%= spawner(name, uri, 'w', 0, 0, 0, 0, 0, 0) %></ignition>"},
+]
+BAD = [
+    {"worlds/example.sdf": _world("x1_sensor_config_6", "  <!-- ^ PKG019 -->")},
+    {"launch/example.ign": "<ignition/>  <!-- ^ PKG019 -->"},
+]

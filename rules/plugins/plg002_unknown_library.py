@@ -1,0 +1,86 @@
+"""A plugin whose library does not exist.
+
+Gazebo cannot load it: it prints one line and goes on without the drive, the sensor or whatever
+the plugin makes. A library is known when the target release or SubT has it, or when this package
+or one that it depends on ships it or builds it.
+
+Fix: write the library's name as the message proposes, or ship the library and declare the package
+that holds it in package.xml.
+Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins met in SubT packages
+(`subt_plugins.json`). No accepted package at hand shows the fault.
+"""
+
+import re
+
+from checker.model.plugin_library import (
+    classic_plugin,
+    library_stem,
+    plugin_libraries,
+    release_label,
+)
+from checker.model.robot import Robot
+from checker.model.suggestions import Suggestions
+from checker.package.package import Package
+from checker.package.plugin_files import lenders_of
+from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+
+_CARRIES_NO_PLUGIN = re.compile(
+    r"(?:ignition-|gz-|ros_|subt_).*|.*_msgs|catkin|genmsg|message_\w*|nodelet|python.*"
+    r"|robot_state_publisher|joint_state_publisher|ros\w*|rviz|std_srvs|tf2?(?:_ros)?|urdf|xacro"
+)
+
+
+@rule("PLG002", "unknown-plugin-library", Severity.ERROR)
+def check(robot: Robot, package: Package, context: Context) -> Findings:
+    """Report plugins whose library neither Gazebo nor any package at hand has."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    of_release = plugin_libraries(context.release)
+    if not of_release:
+        yield unchecked(f"the plugins of {context.release or 'no release'} are not known")
+        return
+    lenders = lenders_of(package)
+    known = lenders.libraries() | of_release.keys()
+    absent = [name for name in lenders.missing if not _CARRIES_NO_PLUGIN.fullmatch(name)]
+    suggestions = Suggestions(sorted(known))
+    for plugin in robot.all_plugins:
+        stem = library_stem(plugin.filename.value)
+        if not stem or stem in known or classic_plugin(stem) is not None:
+            continue
+        if absent:
+            yield unchecked(
+                f"{plugin.filename.value} may come from {', '.join(absent)}, not at hand"
+            )
+            continue
+        yield finding(
+            plugin.filename,
+            f"library {plugin.filename.value} is not in {release_label(context.release)}, and "
+            f"neither shipped nor built by {' or '.join(each.name for each in lenders.at_hand)}"
+            f"{suggestions.hint(stem)}",
+            key=stem,
+        )
+
+
+_CMAKE = """project(acme_rover_sensor_config_1)
+add_library(RoverArm SHARED src/arm.cc)
+"""
+
+GOOD = [
+    '<plugin filename="ignition-gazebo-diff-drive-system" name="drive"/>',
+    '<plugin filename="libGasEmitterDetectorPlugin.so" name="subt::GasDetector"/>',
+    {
+        "@fragment": '<plugin filename="libRoverArm.so" name="rover::Arm"/>',
+        "CMakeLists.txt": _CMAKE,
+    },
+    {
+        "@fragment": '<plugin filename="libRoverArm.so" name="rover::Arm"/>',
+        "plugins/libRoverArm.so": "",
+    },
+]
+BAD = [
+    '<plugin filename="libignition-gazebo-dif-drive-system.so" name="d"/>  <!-- ^ PLG002 -->',
+    {
+        "@fragment": '<plugin filename="libRoverLeg.so" name="r::Leg"/>  <!-- ^ PLG002 -->',
+        "CMakeLists.txt": _CMAKE,
+    },
+]

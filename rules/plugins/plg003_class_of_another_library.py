@@ -1,0 +1,80 @@
+"""A plugin class that its library does not have.
+
+Gazebo opens the library, finds no class of that name, prints one line and goes on without the
+plugin.
+
+Fix: write the class that the library has, or the library that has the class.
+Source: classes that the systems of a Gazebo release register (`gazebo_plugins.json`). No accepted
+package at hand shows the fault.
+"""
+
+from checker.model.components import Plugin
+from checker.model.plugin_library import (
+    PluginLibrary,
+    library_of_class,
+    library_stem,
+    plugin_libraries,
+)
+from checker.model.robot import Robot
+from checker.rule import (
+    Context,
+    Finding,
+    Findings,
+    Safety,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
+
+
+@rule("PLG003", "class-of-another-library", Severity.ERROR)
+def check(robot: Robot, context: Context) -> Findings:
+    """Report plugins whose `name` is no class of their `filename`."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    libraries = plugin_libraries(context.release)
+    for plugin in robot.all_plugins:
+        library = libraries.get(library_stem(plugin.filename.value))
+        if library is None or not plugin.name.stated or library.has_class(plugin.name.value):
+            continue
+        yield _mismatch(plugin, library, library_of_class(context.release, plugin.name.value))
+
+
+def _mismatch(plugin: Plugin, library: PluginLibrary, other: PluginLibrary | None) -> Finding:
+    """Blame the library when another one has the class, else the class."""
+    named = f"{plugin.filename.value} has no class {plugin.name.value!r}"
+    if other is not None:
+        return finding(
+            plugin.filename,
+            f"{named}, which belongs to {other.filename}",
+            fix=replace_text(plugin.filename, other.filename, Safety.UNSAFE),
+        )
+    only = library.classes[0] if len(library.classes) == 1 else None
+    return finding(
+        plugin.name,
+        f"{named}, expected {' or '.join(library.classes)}",
+        fix=replace_text(plugin.name, only) if only else None,
+    )
+
+
+def _plugin(library: str, name: str, mark: str = "") -> str:
+    return f'<plugin filename="{library}" name="{name}"/>{mark}'
+
+
+_DRIVE = "libignition-gazebo-diff-drive-system.so"
+_SYSTEMS = "ignition::gazebo::systems"
+_MARK = "  <!-- ^ PLG003 -->"
+
+GOOD = [
+    _plugin(_DRIVE, f"{_SYSTEMS}::DiffDrive"),
+    _plugin("ignition-gazebo-diff-drive-system", f"{_SYSTEMS}::v4::DiffDrive"),
+    _plugin("libGasEmitterDetectorPlugin.so", "subt::GasDetector"),
+    _plugin("libOfSomebody.so", "somebody::Else"),
+]
+BAD = [
+    _plugin(_DRIVE, "DiffDrive", _MARK),
+    _plugin(_DRIVE, f"{_SYSTEMS}::WheelSlip", _MARK),
+    _plugin("libGasEmitterDetectorPlugin.so", "subt::GasDetektor", _MARK),
+]

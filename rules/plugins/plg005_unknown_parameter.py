@@ -1,0 +1,98 @@
+"""A plugin parameter that its plugin never reads.
+
+What stands there has no effect, and nothing says so: `<odometry_topic>` leaves a differential drive
+at its default topic, because the drive reads `<odom_topic>`.
+
+Fix: write the parameter as the plugin reads it, or remove it.
+Source: parameters that the source of each system asks for (`gazebo_plugins.json`);
+`static_pose_publisher` for `static_publisher` in SubT packages. Parameters that templates carry
+along without harm are information.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.plugin_library import library_stem, plugin_libraries
+from checker.model.robot import Robot
+from checker.model.suggestions import Suggestions
+from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+from checker.source.xml import Element
+
+_FREE = ("include", "sdf")
+"""Below these stands SDF, not a parameter."""
+
+_HARMLESS = ("start_on_motion", "tracks_height", "motorSpeedPubTopic", "motorControlPubTopic")
+
+_MEANT = {
+    "odometry_topic": "odom_topic",
+    "static_pose_publisher": "static_publisher",
+    "static_pose_update_frequency": "static_update_frequency",
+}
+"""Names met in real packages that are too far from what they mean to be found by spelling."""
+
+
+@rule("PLG005", "unread-plugin-parameter", Severity.WARNING)
+def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLESS) -> Findings:
+    """Report elements in plugins of the release that the plugin's source never asks for."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    libraries = plugin_libraries(context.release)
+    for plugin in robot.all_plugins:
+        library = libraries.get(library_stem(plugin.filename.value))
+        if library is None or library.parameters is None:
+            continue
+        suggestions = Suggestions(sorted(library.parameters))
+        for element in _unread(plugin.element, library.parameters):
+            meant = _MEANT.get(element.tag) or suggestions.near(element.tag)
+            hint = f"; did you mean <{meant}>?" if meant in library.parameters else ""
+            yield finding(
+                element,
+                f"{plugin.class_name} does not read <{element.tag}>{hint}",
+                severity=Severity.INFO if element.tag in harmless else None,
+            )
+
+
+def _unread(plugin: Element, parameters: frozenset[str]) -> Iterator[Element]:
+    """Yield the elements of a plugin that are no parameters; what they hold is left out."""
+    waiting = list(reversed(plugin.children))
+    while waiting:
+        element = waiting.pop()
+        if element.tag in _FREE or ":" in element.tag:
+            continue
+        if element.tag in parameters:
+            waiting.extend(reversed(element.children))
+        else:
+            yield element
+
+
+def _drive(parameter: str) -> str:
+    return f"""
+<plugin filename="libignition-gazebo-diff-drive-system.so"
+        name="ignition::gazebo::systems::DiffDrive">
+  {parameter}
+</plugin>
+"""
+
+
+GOOD = [
+    _drive("<odom_topic>odometry</odom_topic>"),
+    """
+<plugin filename="libignition-gazebo-breadcrumbs-system.so"
+        name="ignition::gazebo::systems::Breadcrumbs">
+  <breadcrumb><sdf version="1.6"><model name="crumb"/></sdf></breadcrumb>
+</plugin>
+""",
+    '<plugin filename="libOfSomebody.so" name="somebody::Else"><any>1</any></plugin>',
+]
+BAD = [
+    _drive("<odometry_topic>odometry</odometry_topic>  <!-- ^ PLG005 -->"),
+    """
+<plugin filename="ignition-gazebo-tracked-vehicle-system"
+        name="ignition::gazebo::systems::TrackedVehicle">
+  <left_track>
+    <link>left</link>
+    <lnk>left_2</lnk>  <!-- ^ PLG005 -->
+  </left_track>
+  <tracks_height>0.2</tracks_height>  <!-- ^ PLG005 -->
+</plugin>
+""",
+]

@@ -1,0 +1,60 @@
+"""A JointStatePublisher that publishes every wheel.
+
+Without joint names it publishes all joints of the robot at the rate of the simulation. The wheels
+turn all the time, nobody needs their angles, and the bridge carries them to ROS.
+
+Fix: list the joints that move sensors or arms in `<joint_name>`, or remove the plugin.
+Source: SubT review findings; joint-state-publisher system of Gazebo.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.components import Joint
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+_MOVING = ("revolute", "continuous", "revolute2", "universal", "ball")
+
+
+@rule("PLG006", "every-joint-published", Severity.WARNING)
+def check(robot: Robot) -> Findings:
+    """Report publishers without joint names on a robot with wheels."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    wheels = len(list(_wheel_joints(robot)))
+    for plugin in robot.all_plugins:
+        if plugin.class_name != "JointStatePublisher" or not wheels:
+            continue
+        if plugin.element.child("joint_name") is None:
+            yield finding(
+                plugin,
+                f"JointStatePublisher names no joints and publishes all "
+                f"{len(robot.joints)}, {wheels} of them wheels",
+            )
+
+
+def _wheel_joints(robot: Robot) -> Iterator[Joint]:
+    wheels = {link.scoped_name for link in robot.wheels}
+    for joint in robot.joints:
+        if joint.type.value in _MOVING and joint.scope + joint.child.value in wheels:
+            yield joint
+
+
+def _robot(child: str, plugin: str) -> str:
+    return f"""
+<link name="{child}"/>
+<joint name="turns" type="revolute"><parent>base_link</parent><child>{child}</child></joint>
+{plugin}
+"""
+
+
+_CLASS = 'name="ignition::gazebo::systems::JointStatePublisher"'
+_FILE = 'filename="libignition-gazebo-joint-state-publisher-system.so"'
+
+GOOD = [
+    _robot("wheel", f"<plugin {_FILE} {_CLASS}><joint_name>lift</joint_name></plugin>"),
+    _robot("leg", f"<plugin {_FILE} {_CLASS}/>"),
+]
+BAD = [
+    _robot("front_wheel", f"<plugin {_FILE} {_CLASS}/>  <!-- ^ PLG006 -->"),
+]

@@ -1,0 +1,75 @@
+"""A shipped library that Gazebo on the target machine cannot load.
+
+A plugin built for another processor, or against another major version of Gazebo, is refused when it
+is loaded or crashes the server.
+
+Fix: build the library on the target system, against the libraries of the target release.
+Source: header and dynamic section of the ELF file. No accepted package at hand ships a library.
+"""
+
+import re
+import struct
+from collections.abc import Iterator
+
+from checker.finding import Place
+from checker.model.plugin_library import release_major
+from checker.package.package import Package
+from checker.package.reading import NotReadable
+from checker.rule import Context, Finding, Findings, Severity, finding, rule, unchecked
+from checker.source.elf import SharedLibrary, read_shared_library
+
+_SIMULATOR = re.compile(r"lib(?P<name>ignition-gazebo|gz-sim)(?P<major>\d{1,4})\b.*")
+
+
+@rule("PLG009", "library-of-another-machine", Severity.ERROR)
+def check(
+    package: Package, context: Context, *, machine: str = "x64", largest: int = 100_000_000
+) -> Findings:
+    """Report libraries for another machine than `machine`; `largest` is in bytes."""
+    for file in package.index.with_suffix(".so"):
+        data = package.read_bytes(file.path, largest)
+        if isinstance(data, NotReadable):
+            yield unchecked(f"{file.path} {data.reason}")
+            continue
+        library = read_shared_library(data)
+        place = Place(file.path)
+        if library is None:
+            yield finding(place, f"{file.path} is no shared library, or damaged")
+            continue
+        if library.machine != machine:
+            yield finding(place, f"{file.path} is built for {library.machine}, expected {machine}")
+        yield from _judge_version(place, library, context.release)
+
+
+def _judge_version(place: Place, library: SharedLibrary, release: str) -> Iterator[Finding]:
+    expected = release_major(release)
+    majors = {int(match["major"]) for match in map(_SIMULATOR.match, library.needed) if match}
+    if expected is not None and majors - {expected}:
+        found = " and ".join(map(str, sorted(majors - {expected})))
+        yield finding(place, f"{place.file} is built for Gazebo {found}, the target is {expected}")
+
+
+def _library(machine: int, needed: bytes) -> str:
+    """Make a shared library that is nothing but headers and one needed library."""
+    header = struct.pack(
+        "<16sHHIQQQIHHHHHH", b"\x7fELF\2\1\1", 3, machine, 1, 0, 64, 0, 0, 64, 56, 2, 64, 0, 0
+    )
+    load = struct.pack("<IIQQQQQQ", 1, 4, 0, 0, 0, 0x400, 0x400, 8)
+    dynamic = struct.pack("<IIQQQQQQ", 2, 4, 0x200, 0x200, 0x200, 0x40, 0x40, 8)
+    tags = struct.pack("<8Q", 1, 1, 5, 0x300, 10, 0x40, 0, 0)
+    parts = ((header + load + dynamic).ljust(0x200, b"\0"), tags.ljust(0x100, b"\0"))
+    return (b"".join(parts) + b"\0" + needed.ljust(0xFF, b"\0")).decode("ascii")
+
+
+_X64, _X86 = 62, 3
+_FILE = "plugins/libArm.so"
+
+GOOD = [
+    {_FILE: _library(_X64, b"libignition-gazebo4.so.4")},
+    {_FILE: _library(_X64, b"libstdc++.so.6")},
+]
+BAD = [
+    {_FILE: _library(_X86, b"libm.so.6"), "@reported": [f"{_FILE}:1"]},
+    {_FILE: _library(_X64, b"libignition-gazebo2.so.2"), "@reported": [f"{_FILE}:1"]},
+    {_FILE: "version https://git-lfs.github.com/spec/v1\n", "@reported": [f"{_FILE}:1"]},
+]

@@ -1,0 +1,57 @@
+"""A relative URI that leaves the package.
+
+Once a package is uploaded, it stands alone: its neighbours' folders are not beside it, and a path
+such as `../other_robot/meshes/wheel.dae` leads nowhere. That holds for a path through the package's
+own name as well. No accepted package at hand shows it.
+
+Fix: copy the file into the package, and write the path from model.sdf to it.
+Source: Model Migration Guide, steps 6 to 8: gather all meshes and materials in the package, and use
+relative URIs.
+"""
+
+import posixpath
+import re
+
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule
+
+_SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
+
+
+@rule("REF003", "uri-leaves-package", Severity.ERROR)
+def check(robot: Robot) -> Findings:
+    """Report relative URIs that lead out of the package that states them."""
+    for uri in robot.file_uris:
+        if _SCHEME.match(uri.value) or uri.value.startswith("/"):
+            continue
+        path = _from_package(robot.folder_of(uri), uri.value)
+        if path.startswith("../"):
+            yield finding(uri, f"{uri.value} leaves the package", key=path.split("/")[1])
+
+
+def _from_package(folder: str, uri: str) -> str:
+    """Return where a URI leads, from the folder of the package whose model states it."""
+    inside = folder.split("/", 2)[2:] if folder.startswith("../") else [folder]
+    return posixpath.normpath(posixpath.join(*inside, uri))
+
+
+GOOD = [
+    """
+<visual name="v"><geometry><mesh><uri>meshes/../meshes/wheel.dae</uri></mesh></geometry></visual>
+""",
+    """
+<visual name="v"><geometry><mesh><uri>model://rover/meshes/wheel.dae</uri></mesh></geometry></visual>
+""",
+]
+BAD = [
+    """
+<visual name="v"><geometry><mesh>
+  <uri>../x1_sensor_config_6/meshes/wheel.dae</uri>  <!-- ^ REF003 -->
+</mesh></geometry></visual>
+""",
+    """
+<collision name="c"><geometry><mesh>
+  <uri>meshes/../../acme_rover_sensor_config_1/meshes/wheel.dae</uri>  <!-- ^ REF003 -->
+</mesh></geometry></collision>
+""",
+]

@@ -1,0 +1,75 @@
+"""A Fuel URI that leads nowhere.
+
+Gazebo downloads what such a URI names. One with a space in it, or of another form, is taken for a
+path; one that names a file which its package lacks ends in an error at the download. No accepted
+package at hand shows it.
+
+Fix: write `https://fuel.ignitionrobotics.org/1.0/<owner>/models/<name>/tip/files/<path>`, with
+`%20` for each space, or better the relative path of a file in the package.
+Source: ign-fuel-tools, forms of URIs of models and of their files.
+"""
+
+import re
+from urllib.parse import unquote
+
+from checker.model.robot import Robot
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, replace_text, rule
+
+_FUEL = re.compile(r"https?://(?:\w+\.)?fuel\.(?:ignitionrobotics\.org|gazebosim\.org)\b", re.I)
+_HOST = _FUEL.pattern + r"/1\.0/[^/]+/(?:models|worlds)/(?P<name>[^/]+)"
+_MODEL = re.compile(_HOST + r"(?:/(?:tip|\d+))?/?", re.IGNORECASE)
+_FILE = re.compile(_HOST + r"/(?:tip|\d+)/files/(?P<path>.+)", re.IGNORECASE | re.DOTALL)
+_MEANT = {True: "<owner>/models/<name>/tip/files/<path>", False: "<owner>/models/<name>"}
+
+
+@rule("REF004", "broken-fuel-uri", Severity.ERROR)
+def check(package: Package, robot: Robot) -> Findings:
+    """Report Fuel URIs of another form, and files that a package at hand has not."""
+    files = robot.file_uris
+    for uri in (*files, *robot.unresolved_includes):
+        if _FUEL.match(uri.value) is None:
+            continue
+        is_file = uri in files
+        if is_file and any(letter.isspace() for letter in uri.value):
+            fixed = re.sub(r"\s", "%20", uri.value)
+            yield finding(
+                uri, f"Fuel URI {uri.value} has a space", key="space", fix=replace_text(uri, fixed)
+            )
+            continue
+        match = (_FILE if is_file else _MODEL).fullmatch(uri.value)
+        if match is None:
+            yield finding(uri, f"Fuel URI {uri.value} is not of the form {_MEANT[is_file]}")
+        elif is_file and (holder := _holder(package, unquote(match["name"]))):
+            path = unquote(match["path"])
+            if not holder.exists(path):
+                yield finding(uri, f"{uri.value}: {holder.name} has no {path}")
+
+
+def _holder(package: Package, name: str) -> Package | None:
+    """Return the package at hand that a model on Fuel is made of; Fuel's names ignore case."""
+    if name.casefold() == package.name.casefold():
+        return package
+    return package.workspace.package(name.lower())
+
+
+def _visual(path: str) -> str:
+    fuel = "https://fuel.ignitionrobotics.org/1.0/acme/models"
+    return f"""
+<visual name="v"><geometry><mesh>
+  <uri>{fuel}/{path}
+</mesh></geometry></visual>
+"""
+
+
+_OWN = "ACME_ROVER_SENSOR_CONFIG_1/tip/files/meshes/wheel.dae"
+
+GOOD = [
+    {"@fragment": _visual(f"{_OWN}</uri>"), "meshes/wheel.dae": "<COLLADA/>"},
+    _visual("Rover/2/files/meshes/wheel%20rim.dae</uri>"),
+]
+BAD = [
+    _visual("Rover/tip/files/meshes/wheel rim.dae</uri>  <!-- ^ REF004 -->"),
+    _visual("Rover/meshes/wheel.dae</uri>  <!-- ^ REF004 -->"),
+    _visual(f"{_OWN}</uri>  <!-- ^ REF004 -->"),
+]

@@ -1,0 +1,55 @@
+"""A mesh or texture that nothing uses.
+
+It is downloaded with the robot each time. Often it is what a wrong path should have led to.
+
+Fix: delete it, or correct the reference that should lead to it.
+Source: Model Submission Process: packages hold what the robot needs, and no more.
+"""
+
+from checker.package.mentions import unsearched
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf", ".fbx", ".mtl")
+TEXTURES = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".dds", ".hdr")
+
+
+@rule("REF005", "unused-file", Severity.INFO)
+def check(
+    package: Package, *, folders: tuple[str, ...] = ("meshes", "materials", "textures", "media")
+) -> Findings:
+    """Report meshes, and textures in these folders, whose names stand in no file."""
+    if too_large := unsearched(package):
+        yield unchecked(f"{too_large[0]} is too large to be searched for names")
+        return
+    for file in package.index.with_suffix(*MESHES, *TEXTURES):
+        folder, _, rest = file.path.partition("/")
+        if file.path.lower().endswith(TEXTURES) and not (rest and folder.lower() in folders):
+            continue
+        name = file.path.rpartition("/")[2].casefold()
+        if name not in package.mentioned_names:
+            yield finding(
+                package.place(file.path), f"nothing uses {file.path}", key=f"unused in {folder}"
+            )
+
+
+_VISUAL = """
+<visual name="v"><geometry><mesh><uri>meshes/wheel%20rim.dae</uri></mesh></geometry></visual>
+"""
+
+GOOD = [
+    {
+        "@fragment": _VISUAL,
+        "meshes/wheel rim.dae": "<COLLADA><init_from>../materials/a.png</init_from></COLLADA>",
+        "materials/a.png": "",
+    },
+]
+BAD = [
+    {"meshes/wheel.dae": "<COLLADA/>", "@reported": ["meshes/wheel.dae:1"]},
+    {
+        "@fragment": _VISUAL,
+        "meshes/wheel rim.dae": "<COLLADA><init_from>paint.jpg</init_from></COLLADA>",
+        "meshes/paint.png": "",
+        "@reported": ["meshes/paint.png:1"],
+    },
+]

@@ -1,0 +1,71 @@
+"""A texture that lies where nobody looks for it.
+
+Gazebo loads it all the same. Reviewers, and tools that move a model to Fuel, expect textures in
+`materials/textures`, or beside the mesh that wears them.
+
+Fix: move the file to `materials/textures`, and correct the path in model.sdf.
+Source: Model Migration Guide, step 7: gather all materials in the package.
+"""
+
+import posixpath
+
+from checker.model.robot import Robot
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, rule
+
+TEXTURES = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".dds", ".hdr")
+MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf", ".fbx")
+
+
+@rule("REF006", "misplaced-texture", Severity.INFO)
+def check(
+    package: Package,
+    robot: Robot,
+    *,
+    folder: str = "materials/textures",
+    holding_textures: tuple[str, ...] = ("materials", "media", "textures"),
+) -> Findings:
+    """Report what the model, or the name of its folder, calls a texture, in other places."""
+    used = {
+        posixpath.normpath(posixpath.join(robot.folder_of(uri), uri.value))
+        for uri in robot.file_uris
+    }
+    beside_meshes = {posixpath.dirname(mesh.path) for mesh in package.index.with_suffix(*MESHES)}
+    for file in package.index.with_suffix(*TEXTURES):
+        place = posixpath.dirname(file.path)
+        if place in beside_meshes or f"{place}/".startswith(f"{folder}/"):
+            continue
+        if file.path in used or place.partition("/")[0].lower() in holding_textures:
+            yield finding(
+                package.place(file.path),
+                f"texture {file.path} lies neither in {folder} nor beside a mesh",
+                key=place,
+            )
+
+
+def _visual(mesh: str, texture: str) -> str:
+    return f"""
+<visual name="v">
+  <geometry><mesh><uri>{mesh}</uri></mesh></geometry>
+  <material><pbr><metal>
+    <albedo_map>{texture}
+  </metal></pbr></material>
+</visual>
+"""
+
+
+GOOD = [
+    {
+        "@fragment": _visual("meshes/a.dae", "materials/textures/a.png</albedo_map>"),
+        "materials/textures/a.png": "",
+    },
+    {"meshes/a.png": "", "meshes/a.dae": "<COLLADA/>", "thumbnails/2.png": ""},
+]
+BAD = [
+    {
+        "@fragment": _visual("meshes/a.dae", "pictures/a.png</albedo_map>"),
+        "pictures/a.png": "",
+        "@reported": ["pictures/a.png:1"],
+    },
+    {"textures/a.png": "", "@reported": ["textures/a.png:1"]},
+]

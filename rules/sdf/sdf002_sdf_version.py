@@ -1,0 +1,114 @@
+"""An SDF version that the target does not ask for, or that does not exist.
+
+The version decides what each element means: which frame a pose is written in, which joint types
+and sensors there are. A parser reads a file by the version that it states, and refuses one that is
+newer than itself. When `model.config` states another version than the model file, tools that
+choose by it choose the wrong file.
+
+Fix: write `<sdf version="1.6">` (for the SubT simulator), in `model.sdf` and in `model.config`, and
+check the file against that version.
+Source: Model Migration Guide, step 5; SDFormat specification, the attribute `version`.
+"""
+
+from collections.abc import Iterator
+from posixpath import normpath
+
+from checker.model.paperwork import SdfEntry
+from checker.model.schema import VERSIONS
+from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.version import parse_version
+from checker.paperwork import Paperwork
+from checker.rule import (
+    Context,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
+from checker.source.text import Located
+
+OLDER = ("1.0", "1.2", "1.3")
+"""Versions that exist, and whose elements are not listed in the tables."""
+
+
+@rule("SDF002", "sdf-version", Severity.ERROR)
+def check(sdf: SdfDocument, paperwork: Paperwork, context: Context) -> Findings:
+    """Report versions that differ from the target's, from one another, or that do not exist."""
+    if sdf.root.tag != "sdf":
+        return  # SDF005 says so.
+    written = sdf.root.attribute("version")
+    version = Located("", sdf.root.span, stated=False) if written is None else written
+    if version.value.strip() in OLDER:
+        yield unchecked(f"the elements of SDF {version.value.strip()} are not known here")
+    yield from _of_model(version, context)
+    expected = context.sdf_version if _exact(context) else version.value.strip()
+    config = paperwork.config
+    for entry in config.sdf if config is not None and expected else ():
+        if normpath(entry.file.value) == sdf.document.source.file:
+            yield from _of_config(entry, expected)
+
+
+def _of_model(version: Located[str], context: Context) -> Iterator[Finding]:
+    asked = context.sdf_version
+    if not version.value.strip():
+        yield finding(version, f"<sdf> states no version{f', expected {asked}' if asked else ''}")
+    elif version.value.strip() not in (*VERSIONS, *OLDER):
+        yield finding(
+            version,
+            f"SDF version {version.value!r} does not exist, expected {asked or '1.4 to 1.12'}",
+        )
+    elif asked and version.value.strip() != asked:
+        yield finding(
+            version,
+            f"the model is written in SDF {version.value.strip()}, expected {asked}",
+            severity=None if _refused(version.value, context) else Severity.INFO,
+        )
+
+
+def _refused(version: str, context: Context) -> bool:
+    """Whether the target does not take this version; SubT asks for one, others read older ones."""
+    stated, newest = parse_version(version), parse_version(context.sdf_version)
+    return _exact(context) or stated is None or newest is None or stated > newest
+
+
+def _exact(context: Context) -> bool:
+    return context.profile == "subt"
+
+
+def _of_config(entry: SdfEntry, expected: str) -> Iterator[Finding]:
+    written = entry.version.value.strip()
+    if written == expected:
+        return
+    state = f"states SDF {written}" if written else "states no SDF version"
+    yield finding(
+        entry.version,
+        f"model.config {state} for {entry.file.value}, expected {expected}",
+        severity=Severity.WARNING,
+        fix=replace_text(entry.version, expected) if written else None,
+    )
+
+
+def _config(version: str) -> str:
+    return f"<model>\n<name>x</name>\n<sdf{version}\n</model>\n"
+
+
+GOOD = [
+    '<sdf version="1.6"><model name="rover"><link name="base_link"/></model></sdf>',
+    {"model.config": _config(' version="1.6">model.sdf</sdf>')},
+]
+BAD = [
+    """
+<sdf version="1.7">  <!-- ^ SDF002 -->
+  <model name="rover"><link name="base_link"/></model>
+</sdf>
+""",
+    """
+<sdf>  <!-- ^ SDF002 -->
+  <model name="rover"><link name="base_link"/></model>
+</sdf>
+""",
+    {"model.config": _config(' version="1.5">model.sdf</sdf>  <!-- ^ SDF002 -->')},
+]

@@ -1,0 +1,95 @@
+"""A required element or attribute that is missing or empty.
+
+What has no default cannot be made up: the parser refuses the file, or builds a part that is not
+there. A visual without geometry shows nothing, a part without a name cannot be found. The ends of
+joints are judged by KIN001.
+
+Fix: add what the message names.
+Source: SDFormat specification, "Required: 1" at the element or attribute.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.schema import ElementType
+from checker.model.sdf.document import SdfDocument
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.xml import Element
+
+CHOICES = frozenset({"geometry"})
+"""Required containers that no default fills; all others come with defaults for what is in them."""
+ELSEWHERE = {("sdf", "version")}
+"""Attributes, with their elements, that another rule judges."""
+REQUIRED = ("1", "+")
+"""How often an element occurs that has to be there."""
+ENDS = ("parent", "child")
+"""Of a model's joint: KIN001 speaks of those."""
+
+
+@rule("SDF005", "required-part-missing", Severity.ERROR)
+def check(sdf: SdfDocument) -> Findings:
+    """Report what an element has to say and does not."""
+    if sdf.root.tag != "sdf":
+        yield finding(sdf.root, f"the outermost element is <{sdf.root.tag}>, expected <sdf>")
+    for element, kind in sdf.typed_elements:
+        if kind is not None:
+            yield from _attributes(element, kind)
+            yield from _children(element, kind)
+
+
+def _attributes(element: Element, kind: ElementType) -> Iterator[Finding]:
+    for name, (_, _, required) in kind.attributes.items():
+        if required == "1" and (element.tag, name) not in ELSEWHERE and not element.get(name):
+            state = "is empty" if name in element.attributes else "is missing"
+            yield finding(
+                element.attribute(name) or element,
+                f"the attribute {name!r} of <{element.tag}> {state}",
+                key=f"{element.tag}/@{name}",
+            )
+
+
+def _children(element: Element, kind: ElementType) -> Iterator[Finding]:
+    ends = ENDS if element.parent is not None and element.parent.tag == "model" else ()
+    for name, child in kind.children.items():
+        if child.occurs not in REQUIRED or name in ends:
+            continue
+        stated = element.all(name)
+        if not stated and _has_to_be_said(child):
+            yield finding(element, f"{_named(element)} lacks <{name}>", key=f"{element.tag}/{name}")
+        for each in stated:
+            if child.value_type and not each.text.stated:
+                message = f"<{name}> of {_named(element)} is empty"
+                yield finding(each, message, key=f"{element.tag}/{name} empty")
+
+
+def _has_to_be_said(child: ElementType) -> bool:
+    return child.default is None if child.value_type else child.name in CHOICES
+
+
+def _named(element: Element) -> str:
+    name = element.get("name")
+    return f"{element.tag} {name!r}" if name else f"<{element.tag}>"
+
+
+GOOD = [
+    '<visual name="body"><geometry><sphere><radius>1</radius></sphere></geometry></visual>',
+    '<sensor name="s" type="camera"><camera/></sensor>',
+]
+BAD = [
+    '<visual name="body"/>  <!-- ^ SDF005 -->',
+    "<link/>  <!-- ^ SDF005 -->",
+    '<sensor name="s" type=""/>  <!-- ^ SDF005 -->',
+    """
+<gripper name="claw">  <!-- ^ SDF005 -->
+  <gripper_link>base_link</gripper_link>
+</gripper>
+""",
+    """
+<visual name="body">
+  <geometry>
+    <mesh>
+      <uri></uri>  <!-- ^ SDF005 -->
+    </mesh>
+  </geometry>
+</visual>
+""",
+]

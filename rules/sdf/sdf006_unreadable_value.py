@@ -1,0 +1,113 @@
+"""A value that does not read as its type.
+
+`1.O1e2` with a letter O, `nan`, seven numbers in a pose, `yes` for a boolean: some parsers refuse
+the file, others take the part that they can read: the robot weighs 1 kg where 101 kg were meant.
+Numbers that the specification bounds (a stddev below 0), and words that it lists (the type of a
+light), are judged here as well.
+
+Fix: write the value as the message says. Numbers have a point and no unit, and blanks between them.
+Source: SDFormat specification, type, min and max of each element.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from checker.model.schema import ElementType
+from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.value_types import QUATERNION_POSE, misread, out_of_bounds
+from checker.resources import table
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
+from checker.source.xml import Element
+
+
+@rule("SDF006", "unreadable-value", Severity.ERROR)
+def check(sdf: SdfDocument) -> Findings:
+    """Report texts and attributes that are no value of their type."""
+    words = table("sdf_words")
+    for element, kind in sdf.typed_elements:
+        if kind is None:
+            continue
+        yield from _text(element, kind)
+        above = element.parent.tag if element.parent is not None else ""
+        choice = words["elements"].get(f"{above}/{element.tag}")
+        yield from _word(element.text, f"<{element.tag}>", choice)
+        yield from _attributes(element, kind, words["attributes"])
+
+
+def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
+    text, value_type = element.text, kind.value_type
+    if not text.stated:
+        # An empty element that is required is for SDF005.
+        if value_type not in ("", "string", "pose") and kind.occurs in ("0", "*"):
+            yield finding(
+                element,
+                f"<{element.tag}> is empty, and counts as its default {kind.default}",
+                severity=Severity.WARNING,
+            )
+        return
+    if value_type == "pose" and "rotation_format" in kind.attributes:
+        quaternion = element.get("rotation_format") == "quat_xyzw"
+        value_type = QUATERNION_POSE if quaternion else value_type
+        if quaternion and element.get("degrees") in ("true", "1"):
+            yield finding(element, "<pose> gives a quaternion in degrees, which has none")
+    faults = misread(text, value_type) or out_of_bounds(text, kind.bounds)
+    for fault in faults:
+        severity = Severity.WARNING if fault.lossy else None
+        yield finding(fault.span, f"<{element.tag}> {fault.problem}", severity=severity)
+
+
+def _attributes(
+    element: Element, kind: ElementType, words: Mapping[str, Sequence[str]]
+) -> Iterator[Finding]:
+    known = kind.attributes
+    for name in element.attributes.keys() & known.keys():
+        written = element.attribute(name)
+        if written is None or not written.value.strip():
+            continue
+        text = Located(written.value.strip(), written.span)
+        label = f"{name!r} of <{element.tag}>"
+        for fault in misread(text, known[name][0]):
+            yield finding(fault.span, f"{label} {fault.problem}")
+        yield from _word(text, label, words.get(f"{element.tag}/{name}"))
+
+
+def _word(text: Located[str], label: str, choice: Sequence[str] | None) -> Iterator[Finding]:
+    if choice and text.stated and text.value not in choice:
+        listed = ", ".join(choice)
+        yield finding(text, f"{label} is {text.value[:40]!r}, expected {listed}")
+
+
+def _inertial(mass: str, pose: str = "0 0 0 0 0 0</pose>") -> str:
+    return f"""
+<inertial>
+  <pose>{pose}
+  <mass>{mass}
+</inertial>
+"""
+
+
+GOOD = [
+    _inertial("1.01e2</mass>"),
+    _inertial(".5</mass>", "\n0 0 0\n0 0 -1.5707963267948966</pose>"),
+    "<light name='lamp' type='point'><diffuse>1 1 1</diffuse></light>",
+    "<link name='arm'><gravity>false</gravity><pose/></link>",
+]
+BAD = [
+    _inertial("1.O1e2</mass>  <!-- ^ SDF006 -->"),
+    _inertial("nan</mass>  <!-- ^ SDF006 -->"),
+    _inertial("3.6 kg</mass>  <!-- ^ SDF006 -->"),
+    _inertial("1</mass>", "0 0 0 0 0 0 0</pose>  <!-- ^ SDF006 -->"),
+    _inertial("1</mass>", "0 0 inf 0 0 0</pose>  <!-- ^ SDF006 -->"),
+    "<link name='arm'><gravity>no</gravity></link>  <!-- ^ SDF006 -->",
+    "<light name='lamp' type='bulb'/>  <!-- ^ SDF006 -->",
+    """
+<sensor name="eye" type="camera">
+  <camera>
+    <horizontal_fov>90</horizontal_fov>  <!-- ^ SDF006 -->
+    <image>
+      <width>640.5</width>  <!-- ^ SDF006 -->
+    </image>
+  </camera>
+</sensor>
+""",
+]

@@ -1,0 +1,63 @@
+"""Text between elements, where SDFormat has none.
+
+It is mostly the rest of something: a tag that lost its brackets, a note without `<!--`, the end of
+a line that was cut. Parsers skip it without a word, and with it what it should have been.
+
+Fix: remove it, or make it the element or comment that it was meant to be.
+Source: SDFormat specification: elements hold either one value or other elements.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.sdf.document import SdfDocument
+from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.source.text import Span
+from checker.source.xml import Element
+
+_SHOWN = 60
+
+
+@rule("SDF007", "stray-text", Severity.ERROR)
+def check(sdf: SdfDocument) -> Findings:
+    """Report text in elements that hold no value."""
+    for element, kind in sdf.typed_elements:
+        if kind is None or kind.free or kind.value_type:
+            continue
+        for span in element.stray_texts if element.children else _alone(element):
+            words = " ".join(span.text.split())
+            shown = words if len(words) <= _SHOWN else words[:_SHOWN] + "…"
+            yield finding(
+                span,
+                f"{shown!r} stands between the elements of <{element.tag}>",
+                fix=replace_text(span, ""),
+            )
+
+
+def _alone(element: Element) -> Iterator[Span]:
+    if element.text.stated:
+        yield element.text_span
+
+
+GOOD = [
+    """
+<link name="arm">
+  <!-- a note -->
+  <pose>0 0 1 0 0 0</pose>
+</link>
+""",
+    '<plugin name="p" filename="libp.so">anything</plugin>',
+]
+BAD = [
+    """
+<link name="arm">
+  a note  <!-- ^ SDF007 -->
+  <pose>0 0 1 0 0 0</pose>
+</link>
+""",
+    """
+<link name="arm">
+  <pose>0 0 1 0 0 0</pose>&gt;  <!-- ^ SDF007 -->
+</link>
+""",
+    '<link name="arm">wrist</link>  <!-- ^ SDF007 -->',
+]

@@ -1,0 +1,101 @@
+"""A model file that does not hold exactly one movable model with links.
+
+The simulator spawns the one model that it finds. A world around it, a second model, or
+`<static>true` gives another robot than the one that was meant, or one that cannot move. A model
+without links is refused by every parser.
+
+Fix: leave one `<model>` directly below `<sdf>`; worlds go to `worlds/`.
+Source: Model Migration Guide, step 3; SDFormat specification 1.8, "only one model at the root";
+libsdformat: "A model must have at least one link."
+"""
+
+from collections.abc import Iterator
+
+from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.version import sdf_version
+from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.source.xml import Element
+
+
+@rule("SDF012", "not-one-model", Severity.ERROR)
+def check(sdf: SdfDocument, context: Context) -> Findings:
+    """Report what keeps a model file from being one robot."""
+    if sdf.root.tag != "sdf":
+        return  # SDF005 says so.
+    yield from _second_models(sdf, context)
+    yield from _without_links(sdf)
+    if context.release:
+        yield from _no_robot(sdf)
+
+
+def _second_models(sdf: SdfDocument, context: Context) -> Iterator[Finding]:
+    models = sdf.root.all("model")
+    # Before 1.8 a file could hold several; whoever spawns it takes the first.
+    forbidden = context.release or sdf_version(sdf.document) >= (1, 8)
+    for model in models[1:]:
+        yield finding(
+            model,
+            f"model {model.get('name')!r} stands beside model {models[0].get('name')!r}, "
+            "expected one model in the file",
+            severity=None if forbidden else Severity.WARNING,
+            related=[(models[0], "the first model")],
+        )
+
+
+def _without_links(sdf: SdfDocument) -> Iterator[Finding]:
+    for element in sdf.elements():
+        if element.tag != "model" or _is_static(element):
+            continue
+        # <model> of an actor's or a world's state describes no model.
+        described = element.parent is None or element.parent.tag in ("sdf", "world", "model")
+        if described and not any(child.tag in _WITH_LINKS for child in element.children):
+            yield finding(element, f"model {element.get('name')!r} has no link")
+
+
+_WITH_LINKS = ("link", "model", "include")
+
+
+def _no_robot(sdf: SdfDocument) -> Iterator[Finding]:
+    worlds = sdf.root.all("world")
+    for world in worlds:
+        yield finding(world, f"world {world.get('name')!r} stands in the model file")
+    models = sdf.root.all("model")
+    if not models and not worlds:
+        yield finding(sdf.root, "the file holds no model")
+    for model in models:
+        static = model.child("static")
+        if static is not None and _is_static(model):
+            yield finding(static, f"model {model.get('name')!r} is static: it cannot move")
+
+
+def _is_static(model: Element) -> bool:
+    static = model.child("static")
+    return static is not None and static.text.value.lower() in ("true", "1")
+
+
+_ROVER = '<model name="rover"><link name="base_link"/></model>'
+GOOD = [
+    f'<sdf version="1.6">{_ROVER}</sdf>',
+    '<link name="arm"/><static>0</static>',
+]
+BAD = [
+    '<sdf version="1.6"/>  <!-- ^ SDF012 -->',
+    '<sdf version="1.6"><model name="rover"/></sdf>  <!-- ^ SDF012 -->',
+    f"""
+<sdf version="1.6">
+  {_ROVER}
+  {_ROVER}  <!-- ^ SDF012 -->
+</sdf>
+""",
+    f"""
+<sdf version="1.6">
+  <world name="cave">  <!-- ^ SDF012 -->
+    {_ROVER}
+  </world>
+</sdf>
+""",
+    """
+<link name="arm"/>
+<static>true</static>  <!-- ^ SDF012 -->
+""",
+]

@@ -1,0 +1,81 @@
+"""An element twice where one is allowed.
+
+Parsers take one of the two, mostly the first, and say nothing: the other is not what the robot has.
+
+Fix: remove the one that is not meant.
+Source: SDFormat specification, "Required: 0" or "1" at the element: at most one.
+"""
+
+from checker.model.schema import ElementType
+from checker.model.sdf.document import SdfDocument
+from checker.rule import Findings, Severity, finding, rule
+from checker.source.xml import Element
+
+ELSEWHERE = {("sdf", "model")}
+"""Parents and elements that another rule judges."""
+SEVERAL = {("contact", "collision")}
+"""Parents and elements of which simulators read several, whatever the tables say."""
+
+
+@rule("SDF013", "element-twice", Severity.WARNING)
+def check(sdf: SdfDocument) -> Findings:
+    """Report second elements of a kind that may occur once."""
+    for element, kind in sdf.typed_elements:
+        if kind is None or kind.free or len(element.children) < 2:
+            continue
+        first: dict[str, Element] = {}
+        contents: dict[str, list[tuple[object, ...]]] = {}
+        for child in element.children:
+            earlier = first.setdefault(child.tag, child)
+            if earlier is child or not _once(element, kind, child.tag):
+                continue
+            said = contents.get(child.tag) or contents.setdefault(child.tag, _content(earlier))
+            same = _content(child) == said
+            yield finding(
+                child,
+                f"<{element.tag}> holds a second <{child.tag}>, "
+                + ("the same as the first" if same else "different from the first"),
+                severity=Severity.INFO if same else None,
+                related=[(earlier, "the first")],
+            )
+
+
+def _once(parent: Element, kind: ElementType, tag: str) -> bool:
+    if (parent.tag, tag) in SEVERAL | ELSEWHERE:
+        return False
+    if (parent.tag, tag) == ("sensor", "camera") and parent.get("type") == "multicamera":
+        return False
+    child = kind.children.get(tag)
+    return child is not None and child.occurs in ("0", "1")
+
+
+def _content(element: Element) -> list[tuple[object, ...]]:
+    """Return all that an element says, blanks and the order of attributes aside."""
+    return [
+        (each.tag, tuple(sorted(each.attributes.items())), " ".join(each.raw_text.split()))
+        for each in (element, *element.descendants())
+    ]
+
+
+GOOD = [
+    """
+<link name="arm">
+  <visual name="a"><geometry><box/></geometry></visual>
+  <visual name="b"><geometry><box/></geometry></visual>
+</link>
+"""
+]
+BAD = [
+    """
+<inertial>
+  <mass>1</mass>
+  <mass>2</mass>  <!-- ^ SDF013 -->
+</inertial>
+""",
+    """
+<inertial>
+  <mass>1</mass>
+  <mass> 1 </mass>  <!-- ^ SDF013 -->
+</inertial>
+""",
+]

@@ -1,0 +1,53 @@
+"""A pose with the attribute `frame`.
+
+Gazebo on SDF 1.5 and 1.6 never read it, and from SDF 1.7 on `relative_to` takes its place. A named
+frame is therefore ignored, or refused by a newer parser; an empty one says nothing.
+
+Fix: remove the attribute, and write the pose relative to the element around it.
+Source: SDFormat specification, pose 1.5 to 1.7. The Model Migration Guide's own example still has
+the empty attribute that Gazebo 9's converter wrote.
+"""
+
+from checker.model.sdf.document import SdfDocument
+from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.source.text import Span
+from checker.source.xml import Element
+
+
+@rule("SDF014", "pose-frame", Severity.WARNING)
+def check(sdf: SdfDocument) -> Findings:
+    """Report the attribute, empty or not."""
+    for element in sdf.elements():
+        frame = element.attribute("frame") if element.tag == "pose" else None
+        if frame is None:
+            continue
+        if frame.value:
+            yield finding(
+                frame, f"the pose names the frame {frame.value!r}, which the target ignores"
+            )
+        else:
+            yield finding(
+                element.attribute_name_span("frame"),
+                "the pose has an empty attribute `frame`, which says nothing",
+                severity=Severity.INFO,
+                fix=replace_text(_whole_attribute(element), ""),
+            )
+
+
+def _whole_attribute(element: Element) -> Span:
+    """Return the attribute with the blanks before it and the quotes around its value."""
+    name = element.attribute_name_span("frame")
+    value = element.attribute("frame")
+    end = value.span.end + 1 if value is not None else name.end
+    text = element.source.text
+    start = name.start
+    while text[start - 1].isspace():
+        start -= 1
+    return Span(element.source, start, end, element.path)
+
+
+GOOD = ['<link name="arm"><pose>0 0 1 0 0 0</pose></link>']
+BAD = [
+    '<link name="arm"><pose frame="base_link">0 0 1 0 0 0</pose></link>  <!-- ^ SDF014 -->',
+    "<link name='arm'><pose frame=''>0 0 1 0 0 0</pose></link>  <!-- ^ SDF014 -->",
+]

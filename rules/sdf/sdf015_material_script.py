@@ -1,0 +1,67 @@
+"""A material by script.
+
+Ignition Gazebo does not read OGRE material scripts: what only a script colours comes out grey or
+black. Where plain colours or PBR textures stand beside the script, they are what is seen, and the
+script does nothing. Its `file://media` URIs are judged here and nowhere else.
+
+Fix: give `<ambient>`, `<diffuse>` and `<specular>`, or `<pbr>` with textures of the package, and
+remove the script.
+Source: Model Migration Guide and model reviews; gz-rendering reads no material scripts.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.sdf.document import SdfDocument
+from checker.rule import Context, Finding, Findings, Severity, finding, replace_text, rule
+from checker.source.xml import Element
+
+SCRIPTED = ("", "classic")
+"""Releases that read scripts, and no release in particular."""
+_COLOURS = frozenset({"ambient", "diffuse", "specular", "emissive", "pbr"})
+
+
+@rule("SDF015", "material-script", Severity.ERROR)
+def check(sdf: SdfDocument, context: Context) -> Findings:
+    """Report scripts that the target does not read, and materials that say nothing."""
+    for element in sdf.elements():
+        if element.tag != "material":
+            continue
+        script = element.child("script")
+        if script is not None and context.release not in SCRIPTED:
+            yield from _script(element, script)
+        elif not element.children and not element.text.stated:
+            yield finding(element, "<material> is empty: it says nothing", severity=Severity.INFO)
+
+
+def _script(material: Element, script: Element) -> Iterator[Finding]:
+    name = script.child("name")
+    called = f" {name.text.value!r}" if name is not None and name.text.stated else ""
+    if any(child.tag in _COLOURS for child in material.children):
+        yield finding(
+            script,
+            f"the material script{called} is not read: what stands beside it counts",
+            severity=Severity.WARNING,
+            fix=replace_text(script.whole_span, ""),
+        )
+    else:
+        yield finding(
+            script, f"the material script{called} is not read, and nothing else colours the part"
+        )
+
+
+def _visual(material: str) -> str:
+    return f"""
+<visual name="body">
+  <geometry><box><size>1 1 1</size></box></geometry>
+  {material}
+</visual>
+"""
+
+
+_SCRIPT = "<script><uri>file://media/gazebo.material</uri><name>Gazebo/Red</name></script>"
+GOOD = [_visual("<material><diffuse>1 0 0 1</diffuse></material>"), _visual("")]
+BAD = [
+    _visual(f"<material>{_SCRIPT}</material>  <!-- ^ SDF015 -->"),
+    _visual(f"<material>{_SCRIPT}<ambient>1 0 0 1</ambient></material>  <!-- ^ SDF015 -->"),
+    _visual("<material/>  <!-- ^ SDF015 -->"),
+]

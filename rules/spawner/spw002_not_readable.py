@@ -1,0 +1,62 @@
+"""A spawner that cannot be read without running it.
+
+Ruby that is uploaded is never run. A small part of the language is evaluated instead: definitions,
+conditions, loops, texts, numbers, arrays, hashes and YAML files. What lies beyond it is named here,
+and the rules that need what the spawner emits are not checked.
+
+Fix: build the XML from the function's parameters alone, without other programs, files or network.
+Source: the evaluator of this checker. No accepted package at hand goes beyond it.
+"""
+
+from collections.abc import Iterator
+
+from checker.rule import Findings, Severity, finding, rule
+from checker.spawner.reader import EXECUTABLES_ARGUMENTS, SPAWNER_ARGUMENTS, Spawner
+
+ARGUMENTS = {"spawner": SPAWNER_ARGUMENTS, "rosExecutables": EXECUTABLES_ARGUMENTS}
+
+
+@rule("SPW002", "spawner-not-readable", Severity.INFO)
+def check(spawner: Spawner) -> Findings:
+    """Report what ended the evaluation; errors that Ruby itself raises are warnings."""
+    if spawner.syntax_faults:
+        return
+    for unread in spawner.unread:
+        if unread in _not_to_be_called(spawner):
+            continue
+        raises = unread.reason.startswith("raises ")
+        yield finding(
+            unread.span,
+            f"the spawner {unread.reason}: what it emits is not known",
+            severity=Severity.WARNING if raises else None,
+        )
+
+
+def _not_to_be_called(spawner: Spawner) -> Iterator[object]:
+    """Yield the results of functions that are missing or take other arguments: SPW003."""
+    for name, result in (("spawner", spawner.spawn), ("rosExecutables", spawner.executables)):
+        function = spawner.functions.get(name)
+        if spawner.lacks(name) or (function and function.required > len(ARGUMENTS[name])):
+            yield result
+
+
+def _spawner(line: str) -> str:
+    return f"""def spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)
+  {line}
+  "<spawn name='#{{_name}}'>#{{noise}}</spawn>"
+end
+
+def rosExecutables(_name, _worldName)
+  ""
+end
+"""
+
+
+GOOD = [
+    {"launch/spawner.rb": _spawner("noise = [1, 2].join(' ')")},
+    {"launch/spawner.rb": _spawner("noise = Math::PI.round(2)")},
+]
+BAD = [
+    {"launch/spawner.rb": _spawner("noise = Net::HTTP.get('a') # ^ SPW002")},
+    {"launch/spawner.rb": _spawner("noise = nois + 1 # ^ SPW002")},
+]

@@ -1,0 +1,63 @@
+"""A spawner without the functions or parameters that the launcher calls.
+
+The launcher calls `spawner` with 9 and `rosExecutables` with 2 arguments, by position. A function
+that is missing, or that takes fewer, stops the launch; further parameters need defaults.
+
+Fix: define `spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)` and
+`rosExecutables(_name, _worldName)`.
+Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+"""
+
+from collections.abc import Iterator
+
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.spawner.reader import Spawner
+from checker.spawner.scope import Function
+
+EXPECTED = {
+    "spawner": ["_name", "_modelURI", "_worldName", "_x", "_y", "_z", "_roll", "_pitch", "_yaw"],
+    "rosExecutables": ["_name", "_worldName"],
+}
+
+
+@rule("SPW003", "missing-spawner-function", Severity.ERROR)
+def check(spawner: Spawner) -> Findings:
+    """Report functions that are missing or cannot be called with the launcher's arguments."""
+    for name, expected in EXPECTED.items():
+        function = spawner.functions.get(name)
+        if function is not None:
+            yield from _judge(function, expected)
+        elif spawner.lacks(name) and not spawner.syntax_faults:
+            yield finding(
+                spawner.entry.whole(),
+                f"there is no function {name}({', '.join(expected)})",
+            )
+
+
+def _judge(function: Function, expected: list[str]) -> Iterator[Finding]:
+    takes, given = function.most, len(expected)
+    call = f"the launcher calls {function.name!r} with {given} arguments"
+    if takes is not None and takes < given:
+        missing = ", ".join(expected[takes:])
+        yield finding(function, f"{call}, it takes {takes}: {missing} is missing")
+    elif function.required > given:
+        yield finding(
+            function, f"{call}, it wants {function.required}: the last ones need defaults"
+        )
+
+
+_TEXTS = "  ''\nend\n"
+_SPAWNER = "def spawner(_name, _uri, _world, _x, _y, _z, _roll, _pitch, _yaw"
+_ROS = "def rosExecutables(_name, _worldName"
+
+GOOD = [
+    {"launch/spawner.rb": f"{_SPAWNER})\n{_TEXTS}{_ROS})\n{_TEXTS}"},
+    {"launch/spawner.rb": f"{_SPAWNER}, _more = 1)\n{_TEXTS}{_ROS}, *_rest)\n{_TEXTS}"},
+]
+BAD = [
+    {"launch/spawner.rb": f"# ^ SPW003\n{_SPAWNER})\n{_TEXTS}"},
+    {
+        "launch/spawner.rb": f"{_SPAWNER}, _more) # ^ SPW003\n{_TEXTS}"
+        f"def rosExecutables(_name) # ^ SPW003\n{_TEXTS}"
+    },
+]

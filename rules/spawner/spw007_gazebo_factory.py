@@ -1,0 +1,44 @@
+"""A spawner that wraps the robot in the old gazebo-factory plugin.
+
+The launcher of the competition reads `<spawn>`. What stands in a plugin of the launch system is not
+spawned.
+
+Fix: put name, pose, world and SDF directly into `<spawn name="#{_name}">` and drop the plugin.
+Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+"""
+
+from checker.rule import Findings, Severity, finding, rule
+from checker.spawning import SpawnedXml
+
+
+@rule("SPW007", "gazebo-factory", Severity.ERROR)
+def check(spawned: SpawnedXml) -> Findings:
+    """Report the wrapper that Ignition Launch once used."""
+    for plugin in spawned.gazebo_factories:
+        yield finding(
+            plugin,
+            f"the robot is wrapped in {plugin.get('filename') or plugin.get('name')}, "
+            "expected <spawn>",
+        )
+
+
+def _spawner(opening: str, closing: str) -> str:
+    return f"""def spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)
+  <<-HEREDOC
+    {opening}
+      <name>#{{_name}}</name>
+    {closing}
+  HEREDOC
+end
+
+def rosExecutables(_name, _worldName)
+  ""
+end
+"""
+
+
+_PLUGIN = """<plugin name="ignition::launch::GazeboFactory"
+            filename="libignition-launch-gazebo-factory.so"> <!-- ^ SPW007 -->"""
+
+GOOD = [{"launch/spawner.rb": _spawner('<spawn name="#{_name}">', "</spawn>")}]
+BAD = [{"launch/spawner.rb": _spawner(_PLUGIN.replace("\n            ", " "), "</plugin>")}]

@@ -1,0 +1,110 @@
+"""A roslaunch command for a file that is not there, or a launch file that nothing starts.
+
+A command of a missing file, or of a robot that is not installed beside this one, fails: the robot
+moves and no topic of it reaches ROS. A description.launch or vehicle_topics.launch that nothing
+starts leaves out the robot's description or its bridges.
+
+Fix: name this package and an existing file; declare another robot's package in package.xml.
+Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.launch.command import LaunchCommand
+from checker.model.launch.graph import LaunchGraph
+from checker.package.inheritance import SUBMISSION_NAME, Found
+from checker.package.package import Package
+from checker.package.references import PROVIDED, ReferenceKind
+from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+from checker.source.text import Located
+from checker.spawner.reader import Spawner
+from checker.spawning import StartedXml
+
+USUAL = ("description.launch", "vehicle_topics.launch")
+
+
+@rule("SPW009", "launch-file-not-there", Severity.ERROR)
+def check(package: Package, spawner: Spawner, started: StartedXml, launch: LaunchGraph) -> Findings:
+    """Report commands that fail, and launch files that are left out."""
+    names = {include.file.rsplit("/", 1)[-1] for include in launch.includes}
+    for element in started.commands:
+        command = LaunchCommand.parse(element.text.value)
+        if command is None or not command.file:
+            continue
+        names.add(command.file.rsplit("/", 1)[-1])
+        if command.package:
+            yield from _judge(package, command, element.text)
+    function = spawner.functions.get("rosExecutables")
+    for name in USUAL:
+        if name not in names and isinstance(package.part(f"launch/{name}"), Found):
+            yield finding(
+                function or spawner.entry.whole(),
+                f"nothing starts {name}",
+                severity=Severity.WARNING,
+            )
+
+
+def _judge(
+    package: Package, command: LaunchCommand, where: Located[str]
+) -> Iterator[Finding | Unchecked]:
+    name, file = command.package, command.file.rsplit("/", 1)[-1]
+    foreign = bool(SUBMISSION_NAME.search(name)) and _robot(name) != _robot(package.name)
+    if foreign and not _is_meant(package, name):
+        yield finding(where, f"starts {file} of another robot, {name}, which is not declared")
+        return
+    holder = package if name == package.name else package.workspace.package(name)
+    if holder is None and name in PROVIDED:
+        return
+    if holder is None:
+        yield unchecked(f"{name}, whose {file} is started, is not at hand")
+    elif not any(e.path.rsplit("/", 1)[-1] == file for e in holder.index.with_suffix(file.lower())):
+        yield finding(where, f"starts {file}, which {holder.name} does not have")
+
+
+def _robot(name: str) -> str:
+    return SUBMISSION_NAME.sub("", name)
+
+
+def _is_meant(package: Package, name: str) -> bool:
+    """Say whether a package lends its model to this one or is declared in package.xml."""
+    if package.base is not None and package.base.package_name == name:
+        return True
+    declared = (each for each in package.references if each.kind is ReferenceKind.DEPENDENCY)
+    return name in (each.package_name for each in declared)
+
+
+def _spawner(first: str, second: str = "", mark: str = "") -> str:
+    return f"""def spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)
+  ""
+end
+
+def rosExecutables(_name, _worldName) {mark}
+  <<-HEREDOC
+    <executable name="a"><command>roslaunch --wait {first}
+    </executable>
+    <executable name="b"><command>roslaunch --wait {second or _TOPICS}
+    </executable>
+  HEREDOC
+end
+"""
+
+
+_NAME = "acme_rover_sensor_config_1"
+_END = "</command>"
+_TOPICS = f"{_NAME} vehicle_topics.launch{_END}"
+_MARK = "<!-- ^ SPW009 -->"
+
+GOOD = [{"launch/spawner.rb": _spawner(f"{_NAME} description.launch{_END}")}]
+BAD = [
+    {
+        "launch/spawner.rb": _spawner(
+            f"x1_sensor_config_6 description.launch{_END}{_MARK}",
+        )
+    },
+    {
+        "launch/spawner.rb": _spawner(
+            f"{_NAME} description.launch{_END}", f"{_NAME} t.launch{_END}{_MARK}", f"# {_MARK}"
+        )
+    },
+    {"launch/spawner.rb": _spawner(_TOPICS, mark=f"# {_MARK}")},
+]

@@ -1,0 +1,87 @@
+"""A spawn element that lacks what the competition needs.
+
+Without `<is_performer>true</is_performer>` the robot does not count as a member of the team; with
+renaming allowed its topics may carry another name than its own; without `<world>` it goes nowhere.
+
+Fix: write `<world>#{_worldName}</world>`, `<is_performer>true</is_performer>` and
+`<allow_renaming>false</allow_renaming>` below `<spawn>`.
+Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+"""
+
+from collections.abc import Iterator
+
+from checker.rule import Finding, Findings, Safety, Severity, finding, replace_text, rule
+from checker.source.xml import Element
+from checker.spawner.reader import Spawner
+from checker.spawning import SpawnedXml
+
+FLAGS = {"is_performer": True, "allow_renaming": False}
+WORLD = 2
+"""Position of the world's name among the parameters of `spawner`."""
+
+_TRUTH = {"true": True, "1": True, "false": False, "0": False}
+
+
+@rule("SPW012", "incomplete-spawn", Severity.ERROR)
+def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
+    """Report `<spawn>` elements without world or with other flags than the launcher needs."""
+    function = spawner.functions.get("spawner")
+    names = [each.name for each in function.parameters] if function else []
+    if not spawned.spawns and not spawned.gazebo_factories:
+        yield finding(function or spawner.entry.whole(), "spawner emits no <spawn>")
+    for spawn in spawned.spawns:
+        yield from _judge_flags(spawn)
+        world = spawn.child("world")
+        if world is None or not world.text.stated:
+            yield finding(world or spawn, "<spawn> names no <world>")
+        elif len(names) > WORLD and names[WORLD] not in spawned.parameters_of(world.text.span):
+            yield finding(
+                world.text,
+                f"<world> is {world.text.value!r}, expected #{{{names[WORLD]}}}",
+            )
+
+
+def _judge_flags(spawn: Element) -> Iterator[Finding]:
+    for tag, wanted in FLAGS.items():
+        expected = str(wanted).lower()
+        flag = spawn.child(tag)
+        if flag is None:
+            yield finding(spawn, f"<spawn> has no <{tag}>{expected}</{tag}>")
+        elif _TRUTH.get(flag.text.value.lower()) is not wanted:
+            yield finding(
+                flag.text,
+                f"<{tag}> is {flag.text.value!r}, expected {expected}",
+                fix=replace_text(flag.text, expected, Safety.UNSAFE) if flag.text.stated else None,
+            )
+
+
+def _spawner(inside: str, mark: str = "") -> str:
+    return f"""def spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)
+  <<-HEREDOC
+    <spawn name="#{{_name}}"> {mark}
+      {inside}
+    </spawn>
+  HEREDOC
+end
+
+def rosExecutables(_name, _worldName)
+  ""
+end
+"""
+
+
+_WORLD = "<world>#{_worldName}</world>"
+_PERFORMER = "<is_performer>true</is_performer>"
+_RENAMING = "<allow_renaming>false</allow_renaming>"
+_MARK = "<!-- ^ SPW012 -->"
+
+GOOD = [{"launch/spawner.rb": _spawner(_WORLD + _PERFORMER + _RENAMING)}]
+BAD = [
+    {"launch/spawner.rb": _spawner(_WORLD + _RENAMING, _MARK)},
+    {"launch/spawner.rb": _spawner(_PERFORMER + _RENAMING, _MARK)},
+    {
+        "launch/spawner.rb": _spawner(
+            f"<world>tunnel</world>{_PERFORMER}<allow_renaming>1</allow_renaming>{_MARK}"
+        )
+    },
+]

@@ -1,0 +1,66 @@
+"""Boxes around links hold every point of their shapes, and no more."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checker.model.boxes import Box
+from tests.model.robots import as_matrix, sdf
+
+BALL = "<sphere><radius>0.5</radius></sphere>"
+MESH = "<mesh><uri>a.stl</uri></mesh>"
+angles = st.floats(-math.pi, math.pi)
+
+
+def link(collision: str, visual: str = "", pose: str = "0 0 0 0 0 0") -> str:
+    shapes = f'<collision name="c"><geometry>{collision}</geometry></collision>'
+    if visual:
+        shapes += f'<visual name="v"><geometry>{visual}</geometry></visual>'
+    return f'<link name="a"><pose>{pose}</pose>{shapes}</link>'
+
+
+@given(angles, angles, angles)
+def test_a_box_turned_about(roll: float, pitch: float, yaw: float) -> None:
+    robot = sdf(link("<box><size>1 2 3</size></box>", pose=f"1 2 3 {roll} {pitch} {yaw}"))
+    box = robot.box_of(robot.links[0])
+    assert box is not None
+    matrix = as_matrix(robot.pose_of("a"))
+    corners = [
+        (matrix @ [x / 2, y, 1.5 * z, 1.0])[:3]
+        for x, y, z in itertools.product((-1.0, 1.0), repeat=3)
+    ]
+    for i in range(3):
+        assert box.low[i] == pytest.approx(min(corner[i] for corner in corners))
+        assert box.high[i] == pytest.approx(max(corner[i] for corner in corners))
+    assert box.centre == pytest.approx((1, 2, 3))
+
+
+def test_a_link_with_a_mesh_has_no_known_box() -> None:
+    robot = sdf(link(BALL, MESH))
+    assert robot.box_of(robot.links[0]) is None
+    collisions = robot.box_of(robot.links[0], visuals_too=False)
+    assert collisions == Box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+
+
+def test_a_link_without_shapes_or_place_has_no_box() -> None:
+    robot = sdf(
+        '<link name="a"/>' + link(BALL).replace("<pose>", "<pose frame='x'>").replace('"a"', '"b"')
+    )
+    assert robot.box_of(robot.links[0]) is None
+    assert robot.box_of(robot.links[1]) is None
+
+
+@pytest.mark.parametrize(
+    ("shift", "gap"),
+    [((0, 0, 0), 0), ((1, 0, 0), 0), ((3, 0, 0), 2), ((4, 5, 0), 5), ((2, 3, 3), 3)],
+)
+def test_gap_between_boxes(shift: tuple[float, float, float], gap: float) -> None:
+    one = Box((0, 0, 0), (1, 1, 1))
+    x, y, z = shift
+    other = Box((x, y, z), (x + 1, y + 1, z + 1))
+    assert one.gap(other) == other.gap(one) == pytest.approx(gap)
