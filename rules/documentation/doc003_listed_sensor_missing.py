@@ -5,7 +5,7 @@ another type, is found out in the first run.
 
 Fix: add the sensor to the model, or correct the sheet; say "modeled by a … sensor" where the
 device's name does not tell what it is.
-Source: Model Preparation Guide, section "Sensors"; reviewers compare sheet and model one by one.
+Source: SubT maintainers compare sheet and model sensor by sensor in their reviews.
 """
 
 import re

@@ -4,7 +4,7 @@ What package.xml does not name is not installed with the robot: the launch files
 submission, or the bridge to ROS, are then missing where the robot runs. Comments do not count.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used.
-Source: REP 149, exec_depend; reviewers asked for the dependency on configuration 1.
+Source: REP 149, exec_depend; model reviews: the dependency on configuration 1 was added.
 """
 
 from collections.abc import Iterator

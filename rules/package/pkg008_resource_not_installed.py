@@ -4,8 +4,7 @@ The robot is started from the installed packages: a folder or model file that is
 there on the author's machine only.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`.
-Source: Model Submission Process: packages are built and installed before they are run; catkin
-documentation, "Installing resources".
+Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo look for them there.
 """
 
 from collections.abc import Iterator

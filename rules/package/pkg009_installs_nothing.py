@@ -1,10 +1,10 @@
 """CMakeLists.txt installs a file or folder that is not there.
 
-`catkin_make install` stops at it, and nothing of the package, nor of those behind it, is installed.
+The installation stops there with an error, and what comes behind it is not installed.
 No accepted package at hand shows it.
 
 Fix: take the entry out of `install()`, or add what it names.
-Source: CMake documentation, `install`: a file that does not exist is an error.
+Source: CMake, tried: `cmake --install` ends with "cannot find" for a file or folder.
 """
 
 import posixpath

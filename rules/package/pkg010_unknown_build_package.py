@@ -6,7 +6,8 @@ workspace brings along, is taken to be there. No accepted package at hand shows 
 
 Fix: take it out when nothing uses it; ask for the version that the release has; or declare the
 dependency in package.xml, so that it is installed.
-Source: libraries of Ignition Dome and Gazebo Harmonic by their release notes; REP 149.
+Source: general knowledge of Ignition Dome, Gazebo Harmonic and ROS Melodic, not compared with their
+package lists; REP 149 for declared dependencies.
 """
 
 import re

@@ -4,7 +4,7 @@ Backups, caches, settings of an editor and sources of CAD programs are uploaded 
 the robot. A second model file makes a reader wonder which of the two is the robot.
 
 Fix: delete it; `.gitignore` keeps it from coming back.
-Source: Model Submission Process: packages hold what the robot needs, and no more.
+Source: common practice; the Model Migration Guide, step 7, shows the files of a package.
 """
 
 import posixpath

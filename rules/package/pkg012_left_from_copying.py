@@ -6,7 +6,8 @@ are meant, and so are those that a word such as "derived from" explains. No acce
 shows it.
 
 Fix: write this package's name.
-Source: model reviews: names of other robots and teams in model.config, titles and commands.
+Source: model reviews: the name of another team in model.config; that titles and commands count as
+graver is ours.
 """
 
 import re

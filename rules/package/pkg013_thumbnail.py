@@ -4,7 +4,8 @@ The five pictures show the robot in the catalogue from which teams choose: `1.pn
 from the top, the side, the front and the rear.
 
 Fix: add the pictures as PNG files, called `1.png` to `5.png`, in `thumbnails/`.
-Source: Model Preparation Guide, section "Thumbnails".
+Source: Model Migration Guide, step 7, final directory structure: `thumbnails/1.png` to `5.png`;
+which view is which is ours.
 """
 
 import posixpath

@@ -5,7 +5,7 @@ copy of an old one. Only packages at hand are compared; configurations of one ro
 pictures. No accepted package at hand shows it.
 
 Fix: make pictures of this robot.
-Source: Model Preparation Guide, section "Thumbnails".
+Source: common practice.
 """
 
 from checker.package.package import Package

@@ -6,7 +6,7 @@ accepted package at hand shows it. A reference that differs from its file only i
 where it stands, by REF002, PKG004 or PKG009.
 
 Fix: rename the file with ASCII letters, digits, `_`, `-` and `.`, and the references to it.
-Source: CMake and SDFormat: lists and URIs; experience with archives made on Windows and macOS.
+Source: common practice with CMake lists, URIs and archives made on Windows and macOS.
 """
 
 import posixpath

@@ -4,7 +4,7 @@ What it leads to does not travel with the package: once uploaded or installed, t
 there, although it is on the author's machine. No accepted package at hand shows it.
 
 Fix: put the file itself in the place of the link, or correct the link.
-Source: Model Submission Process: a package holds everything that the robot needs.
+Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package.
 """
 
 from checker.package.index import LinkState

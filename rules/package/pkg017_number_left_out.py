@@ -5,7 +5,8 @@ packages at hand are counted; a robot of which there is one configuration alone 
 No accepted package at hand shows it.
 
 Fix: give the configuration the next number that is free.
-Source: Model Submission Process: naming of configurations.
+Source: Model Migration Guide, step 4: names end in `_sensor_config_<#>`; that numbers follow each
+other is common practice.
 """
 
 import re

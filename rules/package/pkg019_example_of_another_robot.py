@@ -4,7 +4,8 @@
 that was copied starts another one, or an empty world.
 
 Fix: include `model://<this package>` in the world, or call `spawner` in example.ign.
-Source: Model Preparation Guide, "example.ign": how to test a model by itself.
+Source: Model Migration Guide, step 7, final directory structure: `launch/example.ign` and
+`worlds/example.sdf`.
 """
 
 import re

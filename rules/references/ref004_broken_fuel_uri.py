@@ -1,12 +1,12 @@
 """A Fuel URI that leads nowhere.
 
-Gazebo downloads what such a URI names. One with a space in it, or of another form, is taken for a
-path; one that names a file which its package lacks ends in an error at the download. No accepted
+Gazebo downloads what such a URI names. One with a space in it, or of another form, may not be
+understood; one that names a file which its package lacks cannot be downloaded. No accepted
 package at hand shows it.
 
 Fix: write `https://fuel.ignitionrobotics.org/1.0/<owner>/models/<name>/tip/files/<path>`, with
 `%20` for each space, or better the relative path of a file in the package.
-Source: ign-fuel-tools, forms of URIs of models and of their files.
+Source: general knowledge of the URIs that ign-fuel-tools reads.
 """
 
 import re

@@ -3,7 +3,7 @@
 It is downloaded with the robot each time. Often it is what a wrong path should have led to.
 
 Fix: delete it, or correct the reference that should lead to it.
-Source: Model Submission Process: packages hold what the robot needs, and no more.
+Source: common practice; the Model Migration Guide, steps 6 and 7, gathers what the model uses.
 """
 
 from checker.package.mentions import unsearched

@@ -4,7 +4,8 @@ Gazebo loads it all the same. Reviewers, and tools that move a model to Fuel, ex
 `materials/textures`, or beside the mesh that wears them.
 
 Fix: move the file to `materials/textures`, and correct the path in model.sdf.
-Source: Model Migration Guide, step 7: gather all materials in the package.
+Source: Model Migration Guide, step 7: materials in `materials`, or textures beside their mesh;
+`materials/textures` is the custom of accepted packages.
 """
 
 import posixpath

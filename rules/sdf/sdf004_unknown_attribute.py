@@ -3,6 +3,7 @@
 Parsers skip attributes that they do not know, so what one should have said is lost: a misspelt
 `relative_to` leaves a part where nobody put it. The attribute `frame` of a pose is SDF014;
 attributes with a namespace prefix belong to others.
+No accepted package at hand shows it.
 
 Fix: spell it as the specification does, or remove it.
 Source: SDFormat specification, the version that the file states.

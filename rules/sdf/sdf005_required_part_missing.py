@@ -3,6 +3,7 @@
 What has no default cannot be made up: the parser refuses the file, or builds a part that is not
 there. A visual without geometry shows nothing, a part without a name cannot be found. The ends of
 joints are judged by KIN001.
+No accepted package at hand shows it.
 
 Fix: add what the message names.
 Source: SDFormat specification, "Required: 1" at the element or attribute.

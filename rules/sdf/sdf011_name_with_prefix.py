@@ -3,6 +3,7 @@
 Gazebo 9 needed names such as `X1/base_link` to tell robots apart. Ignition Gazebo keeps the names
 of one robot apart from those of another by itself, and the simulator renames the robot when it
 spawns it, so the old prefix is wrong in every frame and topic that is made of it.
+No accepted package at hand shows it.
 
 Fix: remove the prefix from links and joints, and wherever they are named: joints' ends, plugins,
 launch files.

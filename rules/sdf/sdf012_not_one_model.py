@@ -3,6 +3,7 @@
 The simulator spawns the one model that it finds. A world around it, a second model, or
 `<static>true` gives another robot than the one that was meant, or one that cannot move. A model
 without links is refused by every parser.
+No accepted package at hand shows it.
 
 Fix: leave one `<model>` directly below `<sdf>`; worlds go to `worlds/`.
 Source: Model Migration Guide, step 3; SDFormat specification 1.8, "only one model at the root";

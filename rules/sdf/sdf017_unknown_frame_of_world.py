@@ -2,6 +2,7 @@
 
 Nobody can tell where the model or frame is, so parsers refuse the file. Frames inside a model are
 KIN010.
+No accepted package at hand shows it.
 
 Fix: name a frame or model of the same world; let the pose of a model outside of a world stand
 alone; let `placement_frame` name a frame of the model.
