@@ -37,6 +37,7 @@ format: .venv/tested
 
 bench: .venv/tested
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/static.py
+	$(BIN)/python bench/hostile.py
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested

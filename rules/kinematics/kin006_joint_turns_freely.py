@@ -40,6 +40,7 @@ def check(robot: Robot, *, turning: tuple[str, ...] = _TURNING) -> Findings:
             tie.joint,
             f"{tie.joint.type.value} joint {tie.joint.name.value!r} has no limits, and no plugin "
             f"drives it: {tie.child!r} moves freely{carries}",
+            key="carries a sensor" if carries else "free",
         )
 
 
