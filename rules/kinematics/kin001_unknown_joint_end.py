@@ -2,6 +2,8 @@
 
 The simulator refuses the whole model, or drops the joint and the part falls off.
 
+No accepted package at hand shows it.
+
 Fix: name a link of the model as its `name` attribute spells it.
 Source: SDFormat specification, joint/parent and joint/child.
 """

@@ -2,6 +2,8 @@
 
 Nobody can tell where the part is: parsers refuse the model, or put the part at the origin.
 
+No accepted package at hand shows it.
+
 Fix: name a link, joint or frame of the same model as it spells itself, and let no two frames be
 posed relative to each other.
 Source: SDFormat specification 1.7, "Pose frame semantics"; SDF 1.5 and 1.6, pose/@frame.

@@ -3,6 +3,8 @@
 Ignition Gazebo cannot load plugins that were built for Gazebo Classic: it prints one line and goes
 on without the drive, the sensor or the light that they made.
 
+No accepted package at hand shows it.
+
 Fix: remove the plugin and use what the message names: a system plugin in `launch/spawner.rb`, or a
 sensor in the model.
 Source: Model Migration Guide, "Remove/replace unsupported plugins".

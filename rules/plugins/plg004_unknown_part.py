@@ -3,6 +3,8 @@
 The plugin starts, finds nothing to act on, and does nothing: the wheel does not turn, the rotor
 does not lift, the slip is never applied.
 
+No accepted package at hand shows it.
+
 Fix: name the part as its `name` attribute in the model spells it.
 Source: parameter descriptions of Gazebo's systems (`plugin_references.json`).
 """

@@ -5,6 +5,8 @@ found, and newer parsers refuse the file. From SDF 1.7 on no two siblings may sh
 that a visual and a collision could. Names of the form `__x__`, the name `world`, and names with
 `::` mean something else to the parser. Plugins may share a name.
 
+No accepted package at hand shows it.
+
 Fix: give each sibling a name of its own.
 Source: SDFormat specification 1.7, "unique sibling names" and "reserved names".
 """

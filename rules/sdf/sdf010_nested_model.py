@@ -3,6 +3,8 @@
 Ignition Gazebo Dome does not simulate nested models: their links are not there. The `<include>`
 that `launch/spawner.rb` emits is another matter and must be there.
 
+No accepted package at hand shows it.
+
 Fix: flatten the model, so that all links and joints stand directly in one `<model>`.
 Source: Model Migration Guide, step 9: "Flattening the model file is necessary because nested
 models are not yet supported."

@@ -3,6 +3,8 @@
 The launcher decides where each robot of a team starts. A spawner that leaves out a coordinate puts
 the robot somewhere else, or turned the wrong way, on top of its team mates.
 
+No accepted package at hand shows it.
+
 Fix: write `<pose>#{_x} #{_y} #{_z + 0.2} #{_roll} #{_pitch} #{_yaw}</pose>`.
 Source: Model Migration Guide, example spawner.
 """
