@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from time import perf_counter
 from typing import Any
 
 from checker.finding import Fix, Place, Safety, Severity
@@ -25,30 +24,22 @@ TEXT_LIMIT = 1000
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the rules said.
-
-    Attributes:
-        seconds: Time spent in each rule, by id.
-    """
+    """What the rules said, and which of them could not look."""
 
     findings: tuple[ReportedFinding, ...]
     not_checked: tuple[NotChecked, ...]
-    seconds: Mapping[str, float]
 
 
 def run_rules(rules: Iterable[Rule], parts: Parts, profile: Profile, settings: Settings) -> Outcome:
     """Run the rules that profile and settings want; one that crashes stops no other."""
     findings: list[ReportedFinding] = []
     not_checked: list[NotChecked] = []
-    seconds: dict[str, float] = {}
     for rule in rules:
         if not wanted(rule, profile, settings):
             if profile.includes(rule) and not settings.select:
                 not_checked.append(NotChecked(rule.id, "switched off", Cause.SWITCHED_OFF))
             continue
-        started = perf_counter()
         said = _run_isolated(rule, parts, profile.context, settings)
-        seconds[rule.id] = perf_counter() - started
         if isinstance(said, NotChecked):
             not_checked.append(said)
             continue
@@ -58,7 +49,7 @@ def run_rules(rules: Iterable[Rule], parts: Parts, profile: Profile, settings: S
         unchecked = (each.reason for each in said if isinstance(each, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
-    return Outcome(_distinct(_sorted(findings)), tuple(not_checked), seconds)
+    return Outcome(_distinct(_sorted(findings)), tuple(not_checked))
 
 
 def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:

@@ -26,11 +26,9 @@ from checker.spawning import StartedXml
 USUAL_FILES = ("launch/description.launch", "launch/vehicle_topics.launch")
 """What a spawner ought to start; read with sample arguments when it does not."""
 
-_USUAL_ARGUMENTS: Mapping[str, str] = MappingProxyType(
+SAMPLE_ARGUMENTS: Mapping[str, str] = MappingProxyType(
     dict(zip(("name", "world_name"), map(str, EXECUTABLES_ARGUMENTS), strict=True))
 )
-
-SAMPLE_ARGUMENTS = dict(zip(("name", "world_name"), map(str, EXECUTABLES_ARGUMENTS), strict=True))
 """What a launcher gives to every launch file."""
 
 

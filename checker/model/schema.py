@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cache, cached_property
 from typing import Any
 
@@ -154,9 +153,3 @@ def walk(root: Element, version: str) -> Iterator[tuple[Element, ElementType | N
             for child in reversed(element.children)
             if ":" not in child.tag
         )
-
-
-def nearest(word: str, choices: Iterator[str] | list[str] | frozenset[str]) -> str | None:
-    """Return the known word that a misspelt one stands for, if one is near enough."""
-    matches = get_close_matches(word, list(choices), n=1, cutoff=0.8)
-    return matches[0] if matches else None

@@ -18,7 +18,7 @@ from checker.source.xml import XmlDocument
 
 PROVIDED = frozenset({"subt_ros"})
 """Packages of the challenge itself; what their launch files bridge is known and right."""
-DEPENDENCY_TAGS = frozenset({"exec_depend", "run_depend", "depend"})
+RUN_TIME_TAGS = frozenset({"exec_depend", "run_depend", "depend"})
 
 
 class ReferenceKind(StrEnum):
@@ -80,6 +80,6 @@ def _reference(
 def dependencies(manifest: XmlDocument) -> Iterator[Reference]:
     """Yield the packages that a package.xml needs when it runs."""
     for element in manifest.root.children:
-        if element.tag in DEPENDENCY_TAGS and element.text.value:
+        if element.tag in RUN_TIME_TAGS and element.text.value:
             place = element.text.span.place()
             yield Reference(element.text.value, ReferenceKind.DEPENDENCY, place)

@@ -52,14 +52,6 @@ class SourceText:
         end = starts[number] if number < len(starts) else len(self.text)
         return self.text[starts[number - 1] : end].rstrip("\r\n")
 
-    def line_span(self, number: int) -> Span:
-        """Return the span of a line's text, without the blanks around it."""
-        start = self._line_starts[number - 1]
-        text = self.line(number)
-        stripped = text.strip()
-        start += len(text) - len(text.lstrip()) if stripped else 0
-        return Span(self, start, start + len(stripped))
-
     def place(self, start: int, end: int) -> Place:
         """Return the place of the characters from `start` up to, not including, `end`."""
         line, column = self.position(start)

@@ -9,8 +9,8 @@ Fix: spell it as the specification does, or remove it.
 Source: SDFormat specification, the version that the file states.
 """
 
-from checker.model.schema import nearest
 from checker.model.sdf.document import SdfDocument
+from checker.model.suggestions import Suggestions
 from checker.rule import Findings, Severity, finding, replace_text, rule
 
 ELSEWHERE = {("pose", "frame")}
@@ -27,7 +27,7 @@ def check(sdf: SdfDocument) -> Findings:
         for name in element.attributes:
             if name in known or ":" in name or (element.tag, name) in ELSEWHERE:
                 continue
-            near = nearest(name[:100], list(known))
+            near = Suggestions(known).near(name)
             place = element.attribute_name_span(name)
             hint = f"; did you mean {near!r}?" if near else ""
             yield finding(

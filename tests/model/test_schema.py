@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.schema import VERSIONS, ElementType, all_tags, nearest, sdf_root, walk
+from checker.model.schema import VERSIONS, ElementType, all_tags, sdf_root, walk
+from checker.model.suggestions import Suggestions
 from tests.model.robots import document
 
 ANYTHING = "<p:q/><anything><at/></anything>"
@@ -92,5 +93,6 @@ def test_walk_tells_known_from_unknown(data: st.DataObject, version: str) -> Non
 
 
 def test_the_nearest_word() -> None:
-    assert nearest("horizondal_fov", all_tags("1.6")) == "horizontal_fov"
-    assert nearest("zebra", all_tags("1.6")) is None
+    suggestions = Suggestions(all_tags("1.6"))
+    assert suggestions.near("horizondal_fov") == "horizontal_fov"
+    assert suggestions.near("zebra") is None
