@@ -11,8 +11,9 @@ WORKERS ?= auto
 
 demo: .venv/installed
 	@mkdir -p demo
-	@echo "== a good robot"
-	@$(BIN)/subt-check samples/husky_migration_sensor_config_1 | tee demo/good.txt
+	@echo "== good robots: on wheels, on steered wheels, on tracks, and in the air"
+	@$(BIN)/subt-check samples/husky_migration_sensor_config_1 samples/subtcheck_*_sensor_config_1 \
+	  | tee demo/good.txt
 	@echo "== a robot with faults (the first lines; everything is in demo/broken.txt)"
 	@$(BIN)/subt-check samples/broken_rover_sensor_config_1 --report demo > demo/broken.txt; \
 	  test $$? -eq 1
@@ -37,6 +38,7 @@ format: .venv/tested
 
 bench: .venv/tested
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/static.py
+	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/trial.py
 	$(BIN)/python bench/hostile.py
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.

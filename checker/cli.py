@@ -60,6 +60,11 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     check.add_argument("--select", metavar="IDS", type=_ids, help="only these rules or groups")
     check.add_argument("--ignore", metavar="IDS", type=_ids, help="leave out rules or groups")
     check.add_argument("--fail-on", choices=("error", "warning"), help="(default: error)")
+    check.add_argument("--no-trial", action="store_true", help="do not drive the robot")
+    check.add_argument(
+        "--thorough", action="store_true", help="drive it again at half the time step"
+    )
+    check.add_argument("--no-cache", action="store_true", help="keep no results, take none")
     check.add_argument("--jobs", type=_positive, default=1, metavar="N", help="processes")
     check.add_argument("--color", choices=("auto", "always", "never"), default="auto")
 

@@ -14,7 +14,15 @@ from checker.discovery import all_rules
 from checker.errors import CheckerError
 from checker.finding import Severity
 from checker.options import no_such_rule
-from checker.output import EXIT_CLEAN, EXIT_CRASH, EXIT_FINDINGS, EXIT_USAGE, show, write
+from checker.output import (
+    EXIT_CLEAN,
+    EXIT_CRASH,
+    EXIT_FINDINGS,
+    EXIT_USAGE,
+    say_progress,
+    show,
+    write,
+)
 from checker.page import parse_page
 from checker.report.json_report import to_json
 from checker.report.palette import palette_for
@@ -22,6 +30,7 @@ from checker.report.report import Report
 from checker.report.text_report import to_text
 from checker.report.wording import plain, shortened
 from checker.rule import Rule
+from checker.stages import say_nothing
 
 
 def check(options: argparse.Namespace) -> int:
@@ -31,8 +40,12 @@ def check(options: argparse.Namespace) -> int:
         "select": options.select,
         "ignore": options.ignore,
         "fail_on": Severity(options.fail_on) if options.fail_on else None,
+        "trial": False if options.no_trial else None,
+        "thorough": True if options.thorough else None,
+        "cache": False if options.no_cache else None,
     }
-    report = check_paths([Path(path) for path in options.paths], wishes, options.jobs)
+    say = say_progress if sys.stderr.isatty() else say_nothing
+    report = check_paths([Path(path) for path in options.paths], wishes, options.jobs, say)
     for each in report.not_opened:
         if each.failed:
             print(

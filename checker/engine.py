@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
 
@@ -13,10 +13,11 @@ from checker.options import options_of
 from checker.page import parse_page
 from checker.parts import NotAtHand, Parts
 from checker.profiles import Profile
-from checker.report.report import Cause, NotChecked, ReportedFinding
+from checker.report.report import NO_TRIAL, Cause, NotChecked, ReportedFinding
 from checker.report.wording import shortened
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.settings import Settings
+from checker.trial.robot_trial import RepeatedTrial, RobotTrial
 
 TEXT_LIMIT = 1000
 """Characters of a message, note or reason; names in a package may be longer than any of them."""
@@ -24,37 +25,68 @@ TEXT_LIMIT = 1000
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the rules said, and which of them could not look."""
+    """What the rules said, and which of them could not look.
+
+    Attributes:
+        looked: Ids of the rules that had all they asked for, each with the options it used.
+    """
 
     findings: tuple[ReportedFinding, ...]
     not_checked: tuple[NotChecked, ...]
+    looked: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
 
 def run_rules(rules: Iterable[Rule], parts: Parts, profile: Profile, settings: Settings) -> Outcome:
     """Run the rules that profile and settings want; one that crashes stops no other."""
     findings: list[ReportedFinding] = []
     not_checked: list[NotChecked] = []
+    looked: dict[str, Mapping[str, Any]] = {}
     for rule in rules:
         if not wanted(rule, profile, settings):
-            if profile.includes(rule) and not settings.select:
-                not_checked.append(NotChecked(rule.id, "switched off", Cause.SWITCHED_OFF))
+            not_checked += _switched_off(rule, profile, settings)
             continue
         said = _run_isolated(rule, parts, profile.context, settings)
         if isinstance(said, NotChecked):
             not_checked.append(said)
             continue
+        looked[rule.id] = {**rule.options, **options_of(rule, settings)}
         findings += _report(
             rule, [each for each in said if isinstance(each, Finding)], profile, settings
         )
         unchecked = (each.reason for each in said if isinstance(each, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
-    return Outcome(_distinct(_sorted(findings)), tuple(not_checked))
+    return Outcome(_distinct(_sorted(findings)), tuple(not_checked), looked)
 
 
 def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:
     """Say whether a rule is to run; the user's selection counts more than the profile's."""
+    asked_for = _asked_for(rule, profile, settings)
+    return asked_for and (settings.trial or not _needs_trial(rule))
+
+
+def needed_parts(rules: Iterable[Rule], profile: Profile, settings: Settings) -> set[type]:
+    """Return the parts that the rules to be run ask for."""
+    to_run = (rule for rule in rules if wanted(rule, profile, settings))
+    return {kind for rule in to_run for kind in rule.needs.values()}
+
+
+def _asked_for(rule: Rule, profile: Profile, settings: Settings) -> bool:
+    if RepeatedTrial in rule.needs.values() and not settings.thorough:
+        return False
     return settings.selects(rule) and (bool(settings.select) or profile.includes(rule))
+
+
+def _needs_trial(rule: Rule) -> bool:
+    return bool({RobotTrial, RepeatedTrial} & set(rule.needs.values()))
+
+
+def _switched_off(rule: Rule, profile: Profile, settings: Settings) -> Iterator[NotChecked]:
+    """Say what the user switched off; what was not asked for in the first place goes unsaid."""
+    if _asked_for(rule, profile, settings):
+        yield NotChecked(rule.id, NO_TRIAL, Cause.SWITCHED_OFF)
+    elif not settings.selects(rule) and profile.includes(rule) and not settings.select:
+        yield NotChecked(rule.id, "switched off", Cause.SWITCHED_OFF)
 
 
 def _run_isolated(
@@ -112,6 +144,7 @@ def _report(
             _joined_fix([each.fix for each in group if each.fix]),
             page.reason,
             " ".join(page.fix.split()),
+            first.key,
         )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 from checker.errors import CheckerError
@@ -27,6 +28,13 @@ def show(text: str) -> None:
         os.close(nowhere)
     except OSError as error:
         raise CheckerError(f"the result cannot be written: {error.strerror}") from None
+
+
+def say_progress(words: str) -> None:
+    """Say on the standard error what goes on; whether somebody reads it does not matter."""
+    with suppress(OSError):
+        sys.stderr.write(f"{words}\n")
+        sys.stderr.flush()
 
 
 def write(path: Path, text: str) -> None:

@@ -35,6 +35,9 @@ class Settings:
         severity: Severity by rule id, where the user wants another.
         options: Options by rule id.
         source: The file they were read from; None for the defaults.
+        trial: Whether robots are driven.
+        thorough: Whether they are driven again at half the time step.
+        cache: Whether results are kept on disk, and taken from there.
     """
 
     profile: str = "subt"
@@ -44,6 +47,9 @@ class Settings:
     severity: Mapping[str, Severity] = field(default_factory=dict)
     options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     source: Path | None = None
+    trial: bool = True
+    thorough: bool = False
+    cache: bool = True
 
     def selects(self, rule: Rule) -> bool:
         """Whether the user wants this rule to run."""
@@ -64,6 +70,8 @@ class Settings:
         changes += [f"without {', '.join(self.ignore)}"] if self.ignore else []
         changes += [f"severity of {', '.join(self.severity)}"] if self.severity else []
         changes += [f"options of {', '.join(self.options)}"] if self.options else []
+        changes += [] if self.trial else ["without trial"]
+        changes += ["thorough"] if self.thorough else []
         return f"{self.source.name} ({'; '.join(changes)})"
 
 
@@ -140,6 +148,8 @@ _KEYS = {
     "fail-on": "fail_on",
     "severity": "severity",
     "rules": "options",
+    "trial": "trial",
+    "thorough": "thorough",
 }
 """Keys of the file, and the fields they set."""
 
@@ -168,6 +178,10 @@ def _convert(key: str, value: Any, path: Path) -> Any:
             if not isinstance(value, list) or not all(isinstance(v, str) for v in value):
                 raise InvalidSettings(path, f"{key} is {value!r}, expected a list of rule ids")
             return tuple(value)
+        case "trial" | "thorough":
+            if not isinstance(value, bool):
+                raise InvalidSettings(path, f"{key} is {value!r}, expected true or false")
+            return value
         case "severity":
             levels = [str(level) for level in Severity]
             return {

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TypeVar
 
+from checker.cache import NO_CACHE, Cache
+from checker.driving import Driving
+from checker.dynamics.mass_properties import MassProperties
+from checker.dynamics.weighing import weigh
 from checker.including import ModelIncludes
 from checker.launching import launch_graph
+from checker.mesh.library import PackageMeshes, mesh_uris
+from checker.model.configuration import FirstConfiguration
 from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
@@ -15,6 +22,7 @@ from checker.model.sdf.links import read_plugin
 from checker.model.sdf.reader import read_sdf
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.reader import read_urdf
+from checker.package.configuration import first_configuration
 from checker.package.inheritance import SPAWNER, Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
@@ -25,6 +33,10 @@ from checker.source.positions import XmlFault
 from checker.source.xml import XmlDocument
 from checker.spawner.reader import Spawner, read_spawner
 from checker.spawning import SpawnedXml, StartedXml, WorkspaceFiles, emitted_xml
+from checker.stages import Stages, TimedMeshes
+from checker.trial.robot_trial import RepeatedTrial, RobotTrial
+
+T = TypeVar("T")
 
 _WITHOUT_ROBOT = {
     PackageKind.PLUGIN: "the package only carries a plugin",
@@ -34,9 +46,18 @@ _WITHOUT_ROBOT = {
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """One package under review."""
+    """One package under review.
+
+    Attributes:
+        package: Its files.
+        cache: Where results that take long are kept.
+        stages: Told of what takes long.
+    """
 
     package: Package
+    cache: Cache = NO_CACHE
+    stages: Stages = field(default_factory=Stages)
+    _provided: dict[type, Sequence[object]] = field(default_factory=dict, repr=False)
 
     def part(self, kind: type) -> Sequence[object] | NotAtHand:
         """Return the part that is an instance of `kind`; a file may hold several robots.
@@ -50,7 +71,18 @@ class Subject:
         had = provide(self)
         if isinstance(had, NotAtHand):
             return had
-        return had if isinstance(had, tuple) else (had,)
+        self._provided[kind] = had if isinstance(had, tuple) else (had,)
+        return self._provided[kind]
+
+    def provided(self, kind: type[T]) -> Sequence[T]:
+        """Return a part that some rule had; nothing when none asked for it or it is not at hand."""
+        return [each for each in self._provided.get(kind, ()) if isinstance(each, kind)]
+
+    def start(self, kinds: Collection[type]) -> None:
+        """Begin with parts that take long, so that they come about while the rules run."""
+        twice = RepeatedTrial in kinds
+        if (twice or RobotTrial in kinds) and not isinstance(self.driving, NotAtHand):
+            self.driving.begin(twice=twice)
 
     @cached_property
     def paperwork(self) -> Paperwork:
@@ -99,7 +131,18 @@ class Subject:
 
     @cached_property
     def robots(self) -> tuple[Robot, ...] | NotAtHand:
-        """The robot of the package, with the plugins that the spawner adds; all of a lone file."""
+        """The robots of the package with their meshes."""
+        robots = self._read_robots()
+        if isinstance(robots, NotAtHand):
+            return robots
+        return tuple(replace(robot, meshes=self._meshes(robot)) for robot in robots)
+
+    def _meshes(self, robot: Robot) -> TimedMeshes:
+        uris = mesh_uris(robot)
+        return TimedMeshes(PackageMeshes(self.package, uris, self.cache), len(uris), self.stages)
+
+    def _read_robots(self) -> tuple[Robot, ...] | NotAtHand:
+        """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
         if isinstance(self.model, NotAtHand):
             return self.model
         if self.model.root.tag == "robot":
@@ -119,6 +162,42 @@ class Subject:
             return replace(robot, unread_plugins=unread)
         added = (read_plugin(element) for element in self.spawned.plugins)
         return replace(robot, plugins=(*robot.plugins, *added))
+
+    @cached_property
+    def masses(self) -> tuple[MassProperties, ...] | NotAtHand:
+        """The robots as Pinocchio weighs them."""
+        if isinstance(self.robots, NotAtHand):
+            return self.robots
+        with self.stages.stage("weigh"):
+            return tuple(weigh(robot) for robot in self.robots)
+
+    @cached_property
+    def first_configuration(self) -> FirstConfiguration | NotAtHand:
+        """The configuration of the same robot that has the lowest number at hand."""
+        package = first_configuration(self.package)
+        if package is None:
+            return NotAtHand("no earlier configuration is at hand to compare", applicable=False)
+        robots = Subject(package)._read_robots()
+        if isinstance(robots, NotAtHand):
+            return NotAtHand(f"{package.name} cannot be compared: {robots.reason}")
+        return FirstConfiguration(package.name, robots[0])
+
+    @cached_property
+    def driving(self) -> Driving | NotAtHand:
+        """The trials of the robots."""
+        if isinstance(self.robots, NotAtHand):
+            return self.robots
+        return Driving(self.robots, self.cache, self.stages)
+
+    @property
+    def driven(self) -> tuple[RobotTrial, ...] | NotAtHand:
+        """The robots and their trials."""
+        return self.driving if isinstance(self.driving, NotAtHand) else self.driving.once
+
+    @property
+    def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAtHand:
+        """The robots and their trials, also at half the time step."""
+        return self.driving if isinstance(self.driving, NotAtHand) else self.driving.twice
 
     @cached_property
     def spawner(self) -> Spawner | NotAtHand:
@@ -182,6 +261,10 @@ _PROVIDERS: dict[type, _Provider] = {
     Paperwork: lambda subject: subject.paperwork,
     SdfDocument: lambda subject: subject.sdf,
     Robot: lambda subject: subject.robots,
+    FirstConfiguration: lambda subject: subject.first_configuration,
+    MassProperties: lambda subject: subject.masses,
+    RobotTrial: lambda subject: subject.driven,
+    RepeatedTrial: lambda subject: subject.driven_twice,
     Spawner: lambda subject: subject.spawner,
     SpawnedXml: lambda subject: subject.spawned,
     StartedXml: lambda subject: subject.started,

@@ -22,13 +22,17 @@ Colour = tuple[float, float, float]
 Face = tuple[tuple[Vector, Vector, Vector], Colour]
 
 HERE = Path(__file__).resolve().parent
-GOOD = HERE / "husky_migration_sensor_config_1"
+HUSKY = HERE / "husky_migration_sensor_config_1"
+CRAWLER = HERE / "subtcheck_crawler_sensor_config_1"
+BUGGY = HERE / "subtcheck_buggy_sensor_config_1"
+QUADRO = HERE / "subtcheck_quadro_sensor_config_1"
 BROKEN = HERE / "broken_rover_sensor_config_1"
 
 BLACK: Colour = (0.08, 0.08, 0.09)
 GREY: Colour = (0.35, 0.36, 0.38)
 YELLOW: Colour = (0.93, 0.74, 0.10)
 BLUE: Colour = (0.20, 0.35, 0.60)
+RED: Colour = (0.70, 0.15, 0.12)
 
 
 @dataclass(frozen=True)
@@ -84,6 +88,28 @@ def plate(length: float, width: float, height: float, bevel: float) -> Solid:
     c, d = a - bevel, b - bevel
     outline = [(-c, -b), (c, -b), (a, -d), (a, d), (c, b), (-c, b), (-a, d), (-a, -d)]
     return extrude(outline, 0.0, height)
+
+
+def cylinder(radius: float, length: float, segments: int = 32) -> Solid:
+    """A cylinder about the z axis."""
+    turns = (2 * math.pi * k / segments for k in range(segments))
+    outline = [(radius * math.cos(t), radius * math.sin(t)) for t in turns]
+    return extrude(outline, -length / 2, length / 2)
+
+
+def track(length: float, radius: float, width: float, segments: int = 16) -> Solid:
+    """A track along the x axis: a belt around two wheels.
+
+    Args:
+        length: Between the middles of the wheels, in metres.
+        radius: Of a wheel with its belt, in metres.
+        width: Along the y axis, in metres.
+        segments: Of each half circle.
+    """
+    turns = [math.pi * k / segments for k in range(segments + 1)]
+    front = [(radius * math.cos(t), length / 2 + radius * math.sin(t)) for t in turns]
+    rear = [(-z, -x) for z, x in front]
+    return extrude([*front, *rear], -width / 2, width / 2, "y")
 
 
 def wheel(radius: float, width: float, segments: int = 32) -> Solid:
@@ -147,7 +173,7 @@ COLLADA = """<?xml version="1.0" encoding="utf-8"?>
   </asset>{images}
   <library_effects>
     <effect id="paint-effect"><profile_COMMON><technique sid="common"><phong>
-      <diffuse><color>{colour} 1</color></diffuse>
+      <diffuse>{diffuse}</diffuse>
       <specular><color>0.1 0.1 0.1 1</color></specular>
     </phong></technique></profile_COMMON></effect>
   </library_effects>
@@ -185,6 +211,9 @@ IMAGE = """
   </library_images>"""
 
 
+SKIN = '<texture texture="skin" texcoord="UV"/>'
+
+
 def source(identifier: str, vectors: Sequence[Vector]) -> str:
     """A Collada ``<source>`` of vectors, rounded to a micrometre."""
     numbers = " ".join(f"{round(value, 6) + 0.0:g}" for vector in vectors for value in vector)
@@ -217,7 +246,7 @@ def collada(name: str, solid: Solid, colour: Colour, image: str = "") -> str:
     return COLLADA.format(
         name=name,
         images=IMAGE.format(file=image) if image else "",
-        colour=" ".join(f"{part:g}" for part in colour),
+        diffuse=SKIN if image else "<color>{:g} {:g} {:g} 1</color>".format(*colour),
         positions=source(f"{name}-positions", solid.vertices),
         normals=source(f"{name}-normals", [(n[0], n[1], n[2]) for n in distinct]),
         count=len(solid.triangles),
@@ -225,8 +254,11 @@ def collada(name: str, solid: Solid, colour: Colour, image: str = "") -> str:
     )
 
 
-def good_meshes() -> dict[str, tuple[Solid, Colour]]:
-    """The meshes of the good sample, by file name without ``.dae``."""
+Meshes = dict[str, tuple[Solid, Colour]]
+
+
+def husky_meshes() -> Meshes:
+    """The meshes of the Husky, by file name without ``.dae``."""
     # outlines that lie in the plane (z, x) for axis y, (y, z) for axis x
     hull = [(0.0, -0.41), (0.04, -0.45), (0.205, -0.45), (0.205, 0.45), (0.04, 0.45), (0.0, 0.41)]
     rail = [(-0.24, 0), (-0.21, 0), (-0.21, 0.15), (0.21, 0.15), (0.21, 0), (0.24, 0)]
@@ -249,10 +281,50 @@ def good_meshes() -> dict[str, tuple[Solid, Colour]]:
     }
 
 
+def crawler_meshes() -> Meshes:
+    """The meshes of the crawler."""
+    hull = [(0.0, -0.24), (0.04, -0.28), (0.12, -0.25), (0.12, 0.25), (0.04, 0.28), (0.0, 0.24)]
+    return {
+        "hull": (extrude(hull, -0.165, 0.165, "y"), YELLOW),
+        "track": (track(0.46, 0.09, 0.1), BLACK),
+    }
+
+
+def buggy_meshes() -> Meshes:
+    """The meshes of the buggy."""
+    hull = [(-0.01, -0.3), (0.02, -0.32), (0.11, -0.28), (0.11, 0.26), (0.03, 0.32), (-0.01, 0.3)]
+    return {
+        "hull": (extrude(hull, -0.1, 0.1, "y"), RED),
+        "wheel": (wheel(0.1, 0.06), BLACK),
+    }
+
+
+def quadro_meshes() -> Meshes:
+    """The meshes of the quadrotor."""
+    body = [(-0.03, -0.08), (0.0, -0.1), (0.03, -0.08), (0.03, 0.08), (0.0, 0.1), (-0.03, 0.08)]
+    blade = [(-0.119, -0.005), (0.0, -0.012), (0.119, -0.005)]
+    propeller = [*blade, *((-x, -y) for x, y in blade)]
+    return {
+        "body": (extrude(body, -0.1, 0.1, "y"), YELLOW),
+        "propeller": (extrude(propeller, -0.004, 0.004), BLACK),
+    }
+
+
+def good_samples() -> dict[Path, Meshes]:
+    """The meshes of each good sample, by its folder."""
+    return {
+        HUSKY: husky_meshes(),
+        CRAWLER: crawler_meshes(),
+        BUGGY: buggy_meshes(),
+        QUADRO: quadro_meshes(),
+    }
+
+
 def write_meshes() -> None:
-    """Writes the Collada files of both samples."""
-    for name, (solid, colour) in good_meshes().items():
-        (GOOD / "meshes" / f"{name}.dae").write_text(collada(name, solid, colour), "utf-8")
+    """Writes the Collada files of all samples."""
+    for sample, meshes in good_samples().items():
+        for name, (solid, colour) in meshes.items():
+            (sample / "meshes" / f"{name}.dae").write_text(collada(name, solid, colour), "utf-8")
     folder = BROKEN / "meshes"
     body = box((-0.25, 0.25), (-0.15, 0.15), (-0.05, 0.05))
     tyre = wheel(0.1, 0.06, 16)
@@ -292,20 +364,23 @@ def move(frame: tuple[Matrix, Vector], point: Vector) -> Vector:
     return dot(a, point) + x, dot(b, point) + y, dot(c, point) + z
 
 
-def solid_of(visual: etree._Element) -> Solid:
-    """The shape of a visual of the good sample: one of its meshes, or a box."""
+def solid_of(visual: etree._Element, meshes: Meshes) -> Solid:
+    """The shape of a visual of a good sample: one of its meshes, a cylinder or a box."""
     uri = visual.findtext("geometry/mesh/uri")
     if uri:
-        return good_meshes()[Path(uri).stem][0]
+        return meshes[Path(uri).stem][0]
+    radius, length = (visual.findtext(f"geometry/cylinder/{size}") for size in ("radius", "length"))
+    if radius and length:
+        return cylinder(float(radius), float(length))
     x, y, z = (float(word) / 2 for word in visual.findtext("geometry/box/size", "").split())
     return box((-x, x), (-y, y), (-z, z))
 
 
-def faces_of(model: Path) -> Iterator[Face]:
+def faces_of(model: Path, meshes: Meshes) -> Iterator[Face]:
     """Every triangle of every visual of a model file."""
     for link in etree.parse(model).getroot().iter("link"):
         for visual in link.findall("visual"):
-            solid = solid_of(visual)
+            solid = solid_of(visual, meshes)
             red, green, blue = visual.findtext("material/diffuse", "0.5 0.5 0.5 1").split()[:3]
             colour = (float(red), float(green), float(blue))
             places = [
@@ -340,15 +415,24 @@ def fill(corners: list[Vector], paint: bytes, picture: bytearray, depth: list[fl
                 picture[3 * spot : 3 * spot + 3] = paint
 
 
+def extent(faces: Sequence[Face]) -> tuple[Vector, float]:
+    """The middle of the faces' box, and its diagonal in metres."""
+    corners = [corner for triangle, _ in faces for corner in triangle]
+    low = [min(corner[i] for corner in corners) for i in range(3)]
+    high = [max(corner[i] for corner in corners) for i in range(3)]
+    x, y, z = ((a + b) / 2 for a, b in zip(low, high, strict=True))
+    return (x, y, z), math.dist(low, high)
+
+
 def draw(faces: Sequence[Face], eye: Vector, up: Vector) -> bytes:
-    """A picture without perspective, 240 pixels to 1.3 m, as rows of RGB bytes."""
+    """A picture without perspective that the robot fills, as rows of RGB bytes."""
     ahead = unit(eye)
     right = unit(cross(up, ahead))
     above = cross(ahead, right)
-    scale = HEIGHT / 1.3
     picture = bytearray(b"\xf2\xf4\xf6" * (WIDTH * HEIGHT))
     depth = [-math.inf] * (WIDTH * HEIGHT)
-    middle = (0.0, 0.0, 0.13)
+    middle, size = extent(faces)
+    scale = HEIGHT / (1.1 * size)
     for face in faces:
         corners = []
         for corner in face[0]:
@@ -374,10 +458,11 @@ def png(rows: bytes, width: int, height: int) -> bytes:
 
 def write_pictures() -> None:
     """Writes the thumbnails, and the broken sample's texture and cut-off thumbnail."""
-    faces = list(faces_of(GOOD / "model.sdf"))
-    for name, (eye, up) in VIEWS.items():
-        picture = png(draw(faces, eye, up), WIDTH, HEIGHT)
-        (GOOD / "thumbnails" / f"{name}.png").write_bytes(picture)
+    for sample, meshes in good_samples().items():
+        faces = list(faces_of(sample / "model.sdf", meshes))
+        for name, (eye, up) in VIEWS.items():
+            picture = png(draw(faces, eye, up), WIDTH, HEIGHT)
+            (sample / "thumbnails" / f"{name}.png").write_bytes(picture)
     panel = png(b"\x30\x58\x98" * 64, 8, 8)
     (BROKEN / "materials" / "textures" / "panel.png").write_bytes(panel)
     (BROKEN / "thumbnails" / "1.png").write_bytes(panel[:20])
@@ -385,7 +470,8 @@ def write_pictures() -> None:
 
 def main() -> None:
     """Writes all assets and says how much they weigh."""
-    folders = (GOOD / "meshes", GOOD / "thumbnails", BROKEN / "meshes", BROKEN / "thumbnails")
+    samples = (*good_samples(), BROKEN)
+    folders = [sample / part for sample in samples for part in ("meshes", "thumbnails")]
     for folder in (*folders, BROKEN / "materials" / "textures"):
         folder.mkdir(parents=True, exist_ok=True)
     write_meshes()

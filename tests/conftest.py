@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# Machines differ and are shared: no example of a property is held against the clock.
+settings.register_profile("shared machines", deadline=None)
+settings.load_profile("shared machines")
 
 SAMPLES = Path(__file__).parent.parent / "samples"
 
@@ -29,3 +35,11 @@ def corpus() -> Path:
 def samples() -> Path:
     """The sample packages."""
     return SAMPLES
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _cache_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Keep results of tests out of the user's cache, and the user's out of the tests."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SUBT_CHECK_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield

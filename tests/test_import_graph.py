@@ -13,13 +13,16 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 LAYERS = (
-    {"collection", "errors", "finding", "page", "parts", "resources", "versions"},
+    {"cache", "collection", "confined", "errors", "finding", "page", "parts"},
+    {"resources", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
-    {"checklist", "discovery", "paperwork", "profiles", "spawning"},
-    {"including", "launching", "settings"},
+    {"checklist", "discovery", "dynamics", "mesh", "paperwork", "profiles", "spawning"},
+    {"stages", "trial"},
+    {"driving", "including", "launching", "settings"},
     {"options", "subject"},
-    {"engine", "facts"},
+    {"engine", "facts", "recall"},
+    {"measured"},
     {"check"},
     {"commands"},
     {"cli"},
@@ -27,8 +30,8 @@ LAYERS = (
 """Modules and packages of `checker`; each imports only what stands in an earlier row."""
 
 FOR_RULES = {
-    *("finding", "launching", "model", "package", "paperwork"),
-    *("resources", "rule", "source", "spawner", "spawning"),
+    *("dynamics", "finding", "launching", "model", "package", "paperwork"),
+    *("resources", "rule", "source", "spawner", "spawning", "trial"),
 }
 """What a rule may import: the parts of a package, and what a rule's author reads."""
 

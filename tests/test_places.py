@@ -28,6 +28,10 @@ ABOUT_SOMETHING_MISSING = {
     "SPW004": "leftover text is described in words",
     "SPW010": "the height is worked out from the marked pose",
     "SPW005": "the marked pose is what does not use the coordinate",
+    "DRV010": "the thrust is worked out from the marked speed",
+    "INE009": "the centre of mass is worked out from the marked pose",
+    "TRI003": "the whole robot moves; the plugin that moves it is marked",
+    "TRI006": "the whole robot moves; the plugin that moves it is marked",
 }
 """Rules whose message names what is not at the marked place, and why."""
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from checker.cache import Cache, cache_folder
 from checker.discovery import all_rules
 from checker.engine import run_rules
 from checker.package.opening import open_input
@@ -29,8 +30,8 @@ CASES = [
 def test_example(rule: Rule, kind: str, example: Any, tmp_path: Path) -> None:
     package = write_example(example, tmp_path)
     with open_input(package) as opened:
-        subject = Subject(opened.packages[0])
-        outcome = run_rules([rule], subject, profile("subt"), Settings())
+        subject = Subject(opened.packages[0], Cache(cache_folder()))
+        outcome = run_rules([rule], subject, profile("subt"), Settings(thorough=True))
     looked_away = [n for n in outcome.not_checked if n.cause is not Cause.NOT_APPLICABLE]
     assert not looked_away
     reported = {

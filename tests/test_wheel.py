@@ -43,8 +43,10 @@ def environment(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     ]
     subprocess.run([*pip, "--no-deps", "--no-index", str(wheel)], check=True)
     # The .pth files of a folder that a .pth file adds are not read: an editable installation of
-    # the project stays out of sight.
-    (packages(folder) / "running.pth").write_text(sysconfig.get_path("purelib") + "\n")
+    # the project stays out of sight, and what lies deeper (as Pinocchio's does) is named here.
+    installed = sysconfig.get_path("purelib")
+    deeper = [place for place in sys.path if place.startswith(installed + os.sep)]
+    (packages(folder) / "running.pth").write_text("\n".join([installed, *deeper, ""]))
     return folder
 
 

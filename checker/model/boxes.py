@@ -1,4 +1,4 @@
-"""Boxes around simple shapes, along the axes of one frame."""
+"""Boxes around shapes, along the axes of one frame."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from checker.model.mesh import Meshes, NoMeshes
 from checker.model.shapes import Geometry
 from checker.model.support import support
 from checker.model.transform import Transform, Vector
 
+_NO_MESHES = NoMeshes()
 _AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
@@ -44,16 +46,18 @@ class Box:
         return math.hypot(along_x, along_y, along_z)
 
 
-def box_around(shapes: Iterable[tuple[Geometry, Transform]]) -> Box | None:
+def box_around(
+    shapes: Iterable[tuple[Geometry, Transform]], meshes: Meshes = _NO_MESHES
+) -> Box | None:
     """Return the box around shapes, each with its pose in the frame of the box.
 
-    None without shapes, and where one has no known extent (a mesh).
+    None without shapes, and where one has no known extent (a mesh that is not known).
     """
     low, high = [math.inf] * 3, [-math.inf] * 3
     for geometry, pose in shapes:
         for i, (x, y, z) in enumerate(_AXES):
-            above = support(geometry, pose, (x, y, z))
-            below = support(geometry, pose, (-x, -y, -z))
+            above = support(geometry, pose, (x, y, z), meshes)
+            below = support(geometry, pose, (-x, -y, -z), meshes)
             if above is None or below is None:
                 return None
             low[i], high[i] = min(low[i], -below), max(high[i], above)

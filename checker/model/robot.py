@@ -25,7 +25,12 @@ from checker.model.components import (
 from checker.model.drive import driven_joints, find_wheels
 from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
+from checker.model.locomotion import Locomotion
+from checker.model.locomotion_reader import read_locomotion
+from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
 from checker.model.sdf.version import sdf_version
+from checker.model.shapes import Geometry
+from checker.model.support import support
 from checker.model.transform import Transform, Vector
 from checker.model.tree import LinkTree, link_tree
 from checker.source.text import Located
@@ -48,6 +53,7 @@ class Robot(Part):
         faults: What could not be read as it stands.
         unresolved_includes: URIs of includes whose model is not at hand.
         unread_plugins: Why plugins that the spawner adds are not among these; else empty.
+        meshes: What its mesh files hold.
     """
 
     document: XmlDocument
@@ -63,6 +69,7 @@ class Robot(Part):
     faults: tuple[Fault, ...] = ()
     unresolved_includes: tuple[Located[str], ...] = ()
     unread_plugins: str = ""
+    meshes: Meshes = field(default=NoMeshes(), repr=False)
 
     @cached_property
     def links_by_name(self) -> dict[str, Link]:
@@ -90,6 +97,11 @@ class Robot(Part):
     def wheels(self) -> tuple[Link, ...]:
         """Links that a drive plugin turns, and links that are called wheels."""
         return tuple(find_wheels(self.links, self.joints, self.plugins))
+
+    @cached_property
+    def locomotion(self) -> Locomotion:
+        """What its drive plugins move, and within which limits."""
+        return read_locomotion(self)
 
     @cached_property
     def tree(self) -> LinkTree:
@@ -185,10 +197,15 @@ class Robot(Part):
             base = self.pose_of(owner.scoped_name)
         return None if base is None else base @ pose.transform
 
+    def support_of(self, geometry: Geometry, pose: Transform, direction: Vector) -> float | None:
+        """Return how far a shape reaches in a direction, metres; see `support`."""
+        return support(geometry, pose, direction, self.meshes)
+
     def box_of(self, link: Link, *, visuals_too: bool = True) -> Box | None:
         """Return the box around a link's collisions and visuals, in the robot's frame.
 
-        None for a link without shapes, and where one is a mesh or its place is unknown.
+        Meshes count by their convex hull. None for a link without shapes, and where a mesh or a
+        place is unknown.
         """
         placed = []
         shapes: tuple[Collision | Visual, ...] = link.collisions
@@ -199,7 +216,29 @@ class Robot(Part):
             if pose is None:
                 return None
             placed.append((shape.geometry, pose))
-        return box_around(placed)
+        return box_around(placed, self.meshes)
+
+    def mesh_of(self, shape: Collision | Visual) -> Mesh | MeshFault | None:
+        """Return the mesh that a collision or visual consists of; None for other shapes."""
+        return mesh_of(shape.geometry, self.meshes)
+
+    @cached_property
+    def mesh_uses(self) -> tuple[MeshUse, ...]:
+        """Every collision and visual that names a mesh file."""
+        named = (
+            (shape, shape.geometry.uri) for shape in self.shapes() if shape.geometry.shape == "mesh"
+        )
+        return tuple(
+            MeshUse(shape, uri, self.meshes.of(uri))
+            for shape, uri in named
+            if uri is not None and uri.value
+        )
+
+    @cached_property
+    def unseen_meshes(self) -> tuple[str, ...]:
+        """Why some mesh files are not known though Gazebo may read them, one reason a file."""
+        reasons = (use.reason_unseen for use in self.mesh_uses)
+        return tuple(dict.fromkeys(reason for reason in reasons if reason))
 
     def axis_in_model(self, joint: Joint, axis: Axis) -> Vector | None:
         """Return the direction of a joint's axis in the robot's frame, of length 1.

@@ -1,31 +1,37 @@
-"""How far a simple shape reaches in a direction: its support function."""
+"""How far a shape reaches in a direction: its support function."""
 
 from __future__ import annotations
 
 import math
 
+from checker.model.mesh import Mesh, Meshes, NoMeshes, mesh_of
 from checker.model.shapes import Geometry
 from checker.model.transform import Transform, Vector
 
+_NO_MESHES = NoMeshes()
 
-def support(geometry: Geometry, pose: Transform, direction: Vector) -> float | None:
+
+def support(
+    geometry: Geometry, pose: Transform, direction: Vector, meshes: Meshes = _NO_MESHES
+) -> float | None:
     """Return the largest `direction · p` of all points p of a shape, in metres.
 
-    None for meshes and for shapes without end.
+    None for meshes that are not known and for shapes without end.
 
     Args:
         geometry: The shape.
         pose: Of the shape, in the frame of `direction`.
         direction: Of length 1.
+        meshes: Of the robot; a mesh reaches as far as its convex hull.
     """
     local = _turned_back(pose, direction)
-    own = _own_support(geometry, local)
+    own = _own_support(geometry, local, meshes)
     if own is None:
         return None
     return own + sum(a * b for a, b in zip(direction, pose.translation, strict=True))
 
 
-def _own_support(geometry: Geometry, local: Vector) -> float | None:
+def _own_support(geometry: Geometry, local: Vector, meshes: Meshes) -> float | None:
     """Return the support of a shape about its own centre, in its own frame."""
     x, y, z = local
     sideways = math.hypot(x, y)
@@ -47,7 +53,17 @@ def _own_support(geometry: Geometry, local: Vector) -> float | None:
         case "ellipsoid":
             radii = _lengths(geometry, "radii")
             reach = math.hypot(*(part * radius for part, radius in zip(local, radii, strict=True)))
+        case "mesh":
+            mesh = mesh_of(geometry, meshes)
+            reach = _reach_of(mesh, geometry, local) if isinstance(mesh, Mesh) else None
     return reach
+
+
+def _reach_of(mesh: Mesh, geometry: Geometry, local: Vector) -> float:
+    """Return the support of a mesh with its `<scale>`, which mirrors where it is negative."""
+    # d · (s p) = (s d) · p: one vector is scaled instead of all corners.
+    x, y, z = (a * b for a, b in zip(local, _lengths(geometry, "scale"), strict=True))
+    return max(x * a + y * b + z * c for a, b, c in mesh.corners)
 
 
 def _turned_back(pose: Transform, direction: Vector) -> Vector:

@@ -40,6 +40,7 @@ def _package(package: PackageReport) -> dict[str, Any]:
             {"rule": each.rule, "reason": each.reason, "cause": str(each.cause)}
             for each in package.not_checked
         ],
+        "trial": package.trial,
         "facts": dict(package.facts),
         "timings": {stage: round(seconds, 4) for stage, seconds in package.timings.items()},
     }

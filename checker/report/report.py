@@ -10,6 +10,8 @@ from typing import Any
 from checker.finding import Fix, Place, Severity
 
 SCHEMA_VERSION = "1"
+NO_TRIAL = "trial not run (--no-trial)"
+"""Why rules about the trial did not look when the user wants none."""
 
 
 class VerdictKind(enum.StrEnum):
@@ -56,6 +58,7 @@ class ReportedFinding:
         fingerprint: The same as long as the fault is the same, wherever the lines move.
         why: First words of the rule's page.
         how: How to mend it, from the rule's page.
+        key: What its places have in common, where the rule says so.
     """
 
     rule: str
@@ -67,6 +70,7 @@ class ReportedFinding:
     fix: Fix | None = None
     why: str = ""
     how: str = ""
+    key: str = ""
 
     @property
     def help(self) -> str:
@@ -94,6 +98,7 @@ class PackageReport:
         fail_on: Findings at or above this severity make the run fail.
         settings: What a settings file changed, in words; empty when there is none.
         facts: Mass, links, joints, … by name.
+        trial: What was driven and measured, as the JSON report has it; None without a trial.
         timings: Seconds by stage.
     """
 
@@ -108,6 +113,7 @@ class PackageReport:
     profile: str = "subt"
     fail_on: Severity = Severity.ERROR
     settings: str = ""
+    trial: Mapping[str, Any] | None = None
 
     @property
     def verdict(self) -> VerdictKind:

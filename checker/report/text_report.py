@@ -8,6 +8,7 @@ from checker.finding import Place, Severity
 from checker.report.finding_text import MESSAGE_LIMIT, finding_text, path_of
 from checker.report.palette import Palette
 from checker.report.report import (
+    NO_TRIAL,
     Cause,
     NotChecked,
     NotOpened,
@@ -16,6 +17,7 @@ from checker.report.report import (
     ReportedFinding,
     VerdictKind,
 )
+from checker.report.trial_text import trial_text
 from checker.report.wording import count, listed, plain, shortened
 
 UNITS = {"kg": "kg", "m": "m", "deg": "°", "s": "s"}
@@ -65,6 +67,7 @@ def _package(
     )
     lines += _inherited(package)
     lines += _not_checked(package.not_checked)
+    lines += trial_text(package.trial, palette) if package.trial else []
     lines += _facts(package.facts)
     lines.append(_verdict(package, palette))
     return "\n".join(lines) + "\n"
@@ -116,14 +119,23 @@ def _facts(facts: Mapping[str, object]) -> Iterator[str]:
     shown = []
     for name, value in facts.items():
         words, _, unit = name.rpartition("_")
-        if isinstance(value, float) and unit in UNITS:
-            shown.append(f"{words.replace('_', ' ')} {value:.4g} {UNITS[unit]}")
+        if unit in UNITS and isinstance(value, float | list):
+            shown.append(f"{words.replace('_', ' ')} {_quantity(words, value)} {UNITS[unit]}")
+        elif isinstance(value, float):
+            shown.append(f"{name.replace('_', ' ')} {value:.3g}")
         elif isinstance(value, int):
             shown.append(count(value, name.replace("_", " ").removesuffix("s")))
-        else:
+        elif isinstance(value, str):
             shown.append(f"{name.replace('_', ' ')} {value}")
     if shown:
         yield plain(", ".join(shown))
+
+
+def _quantity(name: str, value: float | list[float]) -> str:
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    numbers = [f"{round(each, 3) + 0.0:g}" for each in value]
+    return " × ".join(numbers) if name == "size" else f"({', '.join(numbers)})"
 
 
 def _verdict(package: PackageReport, palette: Palette) -> str:
@@ -141,9 +153,12 @@ def _verdict(package: PackageReport, palette: Palette) -> str:
             sentence = "Incomplete: no error, but " + ", ".join(filter(None, said))
         case _:
             sentence = "Ready" + (f": {looks}" if looks else ": nothing to fix")
-    off = sum(n.cause is Cause.SWITCHED_OFF for n in package.not_checked)
-    if off:
-        sentence += f" ({count(off, 'rule')} switched off)"
+    off = [n.reason for n in package.not_checked if n.cause is Cause.SWITCHED_OFF]
+    said = ["trial not run"] if NO_TRIAL in off else []
+    others = sum(reason != NO_TRIAL for reason in off)
+    said += [f"{count(others, 'rule')} switched off"] if others else []
+    if said:
+        sentence += f" ({', '.join(said)})"
     return palette.verdict(package.verdict, f"{plain(package.name)}: {sentence}")
 
 

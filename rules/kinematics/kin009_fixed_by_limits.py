@@ -1,33 +1,50 @@
-"""A joint whose two limits are equal: a fixed joint is meant.
+"""A joint that cannot move: its two limits are equal, or it is fixed while a plugin drives it.
 
 The physics engine holds it in place by force in every step, which costs time and gives way under
-load; a fixed joint costs nothing.
+load; a fixed joint costs nothing. Where a plugin is to move it, it is an error: a wheel that does
+not turn is dragged along.
 
-Fix: write `type="fixed"` and remove the axis; Ignition keeps the link, its sensors and its frame.
+Fix: write `type="fixed"` and remove the axis; Ignition keeps the link, its sensors and its frame. A
+joint that a plugin moves is `revolute`, with limits apart or none.
 Source: SDFormat specification, joint/type.
 """
 
 import math
 
+from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule
 
 
 @rule("KIN009", "fixed-by-limits", Severity.INFO)
 def check(robot: Robot) -> Findings:
-    """Report revolute and prismatic joints whose stated limits are equal."""
+    """Report joints that cannot move: an error where a plugin moves them."""
     for joint in robot.joints:
-        if joint.type.value not in ("revolute", "prismatic") or len(joint.axes) != 1:
+        why = _why_not(joint)
+        plugin = robot.driven_joints.get(joint.scoped_name)
+        if not why or (plugin is None and joint.type.value == "fixed"):
             continue
-        lower, upper = joint.axes[0].lower, joint.axes[0].upper
-        stated = lower.stated and upper.stated and math.isfinite(lower.value)
-        if stated and lower.value == upper.value:
-            yield finding(
-                joint,
-                f"{joint.type.value} joint {joint.name.value!r} cannot move: both limits are "
-                f"{lower.value:g}",
-                key="equal limits",
-            )
+        said = f"{joint.type.value} joint {joint.name.value!r} cannot move: {why}"
+        if plugin is None:
+            yield finding(joint, said, key="equal limits")
+            continue
+        yield finding(
+            joint,
+            f"{said}; {plugin.class_name} is to move it",
+            severity=Severity.ERROR,
+            related=[(plugin, "moves it")],
+        )
+
+
+def _why_not(joint: Joint) -> str:
+    """Say why a joint cannot move; nothing for one that can."""
+    if joint.type.value == "fixed":
+        return "it is fixed"
+    if joint.type.value not in ("revolute", "prismatic") or len(joint.axes) != 1:
+        return ""
+    lower, upper = joint.axes[0].lower, joint.axes[0].upper
+    stated = lower.stated and upper.stated and math.isfinite(lower.value)
+    return f"both limits are {lower.value:g}" if stated and lower.value == upper.value else ""
 
 
 def _hinge(limits: str, mark: str = "", kind: str = "revolute") -> str:
@@ -41,13 +58,21 @@ def _hinge(limits: str, mark: str = "", kind: str = "revolute") -> str:
 """
 
 
+_DRIVE = """
+<plugin filename="libp.so" name="ignition::gazebo::systems::JointPositionController">
+  <joint_name>mast_joint</joint_name>
+</plugin>
+"""
 _MARK = "  <!-- ^ KIN009 -->"
 GOOD = [
     _hinge("<lower>-0.1</lower><upper>0.1</upper>"),
     _hinge("<lower>0</lower><upper>0</upper>", kind="fixed"),
+    _hinge("<lower>-1</lower><upper>1</upper>") + _DRIVE,
     _hinge(""),
 ]
 BAD = [
     _hinge("<lower>0</lower><upper>0</upper>", _MARK),
     _hinge("<lower>0.2</lower><upper>0.2</upper>", _MARK, "prismatic"),
+    _hinge("<lower>0</lower><upper>0</upper>", _MARK) + _DRIVE,
+    _hinge("", _MARK, "fixed") + _DRIVE,
 ]

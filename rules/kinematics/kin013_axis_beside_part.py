@@ -24,8 +24,8 @@ def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
     """Report parts far from their axis or parent.
 
     An axis may be `sizes` diagonals of the part's collisions away from their outside, a parent
-    `gap` diagonals of both parts together. Meshes are of unknown extent: parts that collide as
-    meshes, and for the parent parts that show as meshes, are passed over.
+    `gap` diagonals of both parts together. Meshes count by their convex hull; parts with one that
+    cannot be read are passed over.
     """
     boxes = {name: robot.box_of(link) for name, link in robot.tree.links.items()}
     for tie in robot.tree.ties:

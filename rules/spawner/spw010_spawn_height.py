@@ -7,16 +7,15 @@ No accepted package at hand shows it.
 
 Fix: write into `<pose>` the height that puts the lowest point of the wheels just above the ground:
 `#{_z + 0.2}` for wheels that reach 0.19 m below the model's origin.
-Source: SubT review findings. Legged robots, which start high and let themselves down, are left out;
-meshes are not measured here.
+Source: SubT review findings. Legged robots, which start high and let themselves down, are left out.
 """
 
 from collections.abc import Iterator
 
 from checker.model.components import Collision, Link
 from checker.model.drive import is_legged
+from checker.model.mesh import MeshFault
 from checker.model.robot import Robot
-from checker.model.support import support
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Span
 from checker.spawner.reader import SPAWNER_ARGUMENTS
@@ -45,8 +44,8 @@ def check(
             yield finding(
                 pose.text, f"the robot starts {-clearance:.3g} m in the ground, expected above it"
             )
-        elif _meshes_decide(robot):
-            yield unchecked("the spawn height depends on collision meshes, which are not measured")
+        elif (unknown := _unknown(robot)) is not None:
+            yield unchecked(f"the spawn height depends on {unknown}")
         elif depths and clearance > highest:
             yield finding(
                 pose.text,
@@ -70,22 +69,29 @@ def _depths(robot: Robot) -> Iterator[float | None]:
     """Yield how far each collision reaches below the robot's origin, metres."""
     for link in robot.links:
         for collision in link.collisions:
-            pose = robot.pose_of_part(link, collision.pose)
-            yield support(collision.geometry, pose, DOWN) if pose is not None else None
+            yield _depth(robot, link, collision)
 
 
-def _meshes_decide(robot: Robot) -> bool:
-    """Say whether a mesh may reach lowest: wheels of simple shapes reach below their robot."""
+def _depth(robot: Robot, link: Link, collision: Collision) -> float | None:
+    pose = robot.pose_of_part(link, collision.pose)
+    return robot.support_of(collision.geometry, pose, DOWN) if pose is not None else None
+
+
+def _unknown(robot: Robot) -> str | None:
+    """Return which shape of unknown extent may reach lowest, and why it is unknown.
+
+    Wheels reach below their robot: then only theirs count.
+    """
     wheels = [wheel for wheel in robot.wheels if wheel.collisions]
-    return any(map(_has_mesh, wheels or robot.links))
-
-
-def _has_mesh(link: Link) -> bool:
-    return any(_is_mesh(collision) for collision in link.collisions)
-
-
-def _is_mesh(collision: Collision) -> bool:
-    return collision.geometry.shape in ("mesh", "polyline")
+    for link in wheels or robot.links:
+        for collision in link.collisions:
+            shape = collision.geometry.shape
+            if shape in ("mesh", "polyline") and _depth(robot, link, collision) is None:
+                mesh = robot.mesh_of(collision)
+                why = f", which {mesh.reason}" if isinstance(mesh, MeshFault) else ""
+                uri = collision.geometry.uri
+                return f"{uri.value if uri is not None else f'a {shape}'}{why}"
+    return None
 
 
 def _spawner(z: str, mark: str = "") -> str:
@@ -111,12 +117,37 @@ _BALL = """
 </link>
 """
 
+_MESH = """
+<link name="foot"><collision name="c">
+  <geometry><mesh><uri>meshes/foot.obj</uri><scale>1 1 0.2</scale></mesh></geometry>
+</collision></link>
+"""
+_PYRAMID = """v 0 0 -1
+v 0.1 0 0
+v 0 0.1 0
+v -0.1 -0.1 0
+f 1 2 3
+f 1 3 4
+f 1 4 2
+f 2 4 3
+"""
+
 GOOD = [
     {"@fragment": _BALL, "launch/spawner.rb": _spawner("#{_z + 0.2}")},
     {"@fragment": _BALL, "launch/spawner.rb": _spawner("#{_z + 0.45}")},
     {"launch/spawner.rb": _spawner("#{_z + 9}")},
+    {
+        "@fragment": _MESH,
+        "meshes/foot.obj": _PYRAMID,
+        "launch/spawner.rb": _spawner("#{_z + 0.2}"),
+    },
 ]
 BAD = [
+    {
+        "@fragment": _MESH,
+        "meshes/foot.obj": _PYRAMID,
+        "launch/spawner.rb": _spawner("#{_z + 0.1}", _MARK),
+    },
     {"@fragment": _BALL, "launch/spawner.rb": _spawner("#{_z}", _MARK)},
     {"@fragment": _BALL, "launch/spawner.rb": _spawner("#{_z + 2}", _MARK)},
 ]

@@ -44,6 +44,8 @@ def test_everything_that_can_be_set(tmp_path: Path) -> None:
         select = ["SEN", "INE001"]
         ignore = ["no-inertial"]
         fail-on = "warning"
+        trial = false
+        thorough = true
         [severity]
         SEN005 = "info"
         [rules.SEN005]
@@ -59,7 +61,10 @@ def test_everything_that_can_be_set(tmp_path: Path) -> None:
         {"SEN005": Severity.INFO},
         {"SEN005": {"limit": 3}},
         tmp_path / "subt-check.toml",
+        trial=False,
+        thorough=True,
     )
+    assert "; without trial; thorough" in settings.description
 
 
 def test_a_section_of_pyproject_toml_will_do(tmp_path: Path) -> None:
@@ -147,6 +152,8 @@ def test_the_command_line_replaces_what_it_names() -> None:
         ("severity.SEN = 'info'", "there is no rule 'SEN'; did you mean SEN005?"),
         ("rules.XYZ123.limit = 1", "there is no rule 'XYZ123'; `subt-check rules` lists them"),
         ("rules.SEN005.limits = 1", "rules.SEN005 has no option 'limits', expected one of: limit,"),
+        ("trial = 1", "trial is 1, expected true or false"),
+        ("thorough = 'yes'", "thorough is 'yes', expected true or false"),
         ("rules.SEN005.limit = '1'", "rules.SEN005.limit is '1', expected a number"),
         ("rules.SEN005.limit = true", "rules.SEN005.limit is True, expected a number"),
         ("rules.SEN005.limit = nan", "rules.SEN005.limit is nan, expected a number"),

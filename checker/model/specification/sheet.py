@@ -18,6 +18,7 @@ from checker.model.specification.motion import (
 )
 from checker.model.specification.quantities import Quantity
 from checker.model.specification.sensors import ListedSensor, listed_sensors
+from checker.model.specification.validation import validation_links
 from checker.source.markdown import Markdown, Passage, PassageKind, read_markdown
 from checker.source.text import SourceText, Span
 
@@ -121,6 +122,17 @@ class Specification:
     def turning_radii(self) -> tuple[Quantity, ...]:
         """Turning radii of the motion section, in m."""
         return tuple(turning_radii(self._passages_of("motion")))
+
+    @cached_property
+    def validation_links(self) -> tuple[Span, ...]:
+        """Links to measurements of the real robot, in the section for them or elsewhere."""
+        section = self.section("validation")
+        if section is None:
+            return tuple(validation_links(self.source, 0, 0))
+        start = section.span.start
+        later = (each for each in self.sections if each.span.start > start)
+        ends = (each.span.start for each in later if each.level <= section.level)
+        return tuple(validation_links(self.source, start, next(ends, len(self.source.text))))
 
     @cached_property
     def line_references(self) -> tuple[LineReference, ...]:

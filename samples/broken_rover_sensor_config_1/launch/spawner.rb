@@ -31,7 +31,7 @@ def spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)
         <right_joint>front_right_joint</right_joint>
         <right_joint>rear_right_joint</right_joint>
         <wheel_separation>0.15</wheel_separation>
-        <wheel_radius>0.1</wheel_radius>
+        <wheel_radius>0.14</wheel_radius>
         <topic>/model/rover/cmd_vel_relay</topic>
         <odometry_topic>/model/#{_name}/odometry</odometry_topic>
         <min_velocity>-1</min_velocity>

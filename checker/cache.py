@@ -1,0 +1,119 @@
+"""Results on disk by the hash of everything that they depend on.
+
+A cache never fails: what cannot be read or written is worked out again. Entries are JSON, never
+pickles, so that a foreign file in the folder can at most be wrong, not run.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import tempfile
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cache as once
+from pathlib import Path
+from typing import Any
+
+SIZE_LIMIT = 300_000_000
+"""Bytes on disk; the entries that were used least recently go first."""
+
+
+def cache_folder() -> Path:
+    """Return where results are kept: `SUBT_CHECK_CACHE`, else the user's cache folder."""
+    own = os.environ.get("SUBT_CHECK_CACHE")
+    if own:
+        return Path(own)
+    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    return Path(base).expanduser() / "subt-check"
+
+
+def key_of(*parts: bytes | str) -> str:
+    """Return the key of a result that depends on these parts and on nothing else."""
+    digest = hashlib.sha256()
+    for part in parts:
+        data = part.encode(errors="surrogatepass") if isinstance(part, str) else part
+        digest.update(len(data).to_bytes(8, "big"))
+        digest.update(data)
+    return digest.hexdigest()
+
+
+@once
+def code_hash(*folders: str) -> str:
+    """Return a hash of this program's own sources below some of its folders or files.
+
+    Args:
+        folders: Relative to the package `checker`; results of one are stale when it changes.
+    """
+    root = Path(__file__).parent
+    parts: list[bytes | str] = []
+    for path in sorted(path for name in folders for path in _sources(root / name)):
+        parts += [path.relative_to(root.parent).as_posix(), path.read_bytes()]
+    return key_of(*parts)
+
+
+def _sources(place: Path) -> Iterable[Path]:
+    if place.is_file():
+        return [place]
+    return (path for path in place.rglob("*") if path.suffix in (".py", ".json"))
+
+
+@dataclass(frozen=True)
+class Cache:
+    """Results by kind and key.
+
+    Attributes:
+        folder: Where they are kept; None keeps nothing.
+    """
+
+    folder: Path | None
+
+    def get(self, kind: str, key: str) -> Any:
+        """Return a result as the JSON that was put; None when it is not known."""
+        if self.folder is None:
+            return None
+        path = self._path(kind, key)
+        try:
+            found = json.loads(path.read_bytes())
+            os.utime(path)
+        except (OSError, ValueError, RecursionError):
+            return None
+        return found
+
+    def put(self, kind: str, key: str, result: Any) -> None:
+        """Keep a result that JSON can express."""
+        if self.folder is None:
+            return
+        path = self._path(kind, key)
+        with suppress(OSError):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
+                file.write(json.dumps(result, separators=(",", ":")).encode())
+            Path(file.name).replace(path)
+
+    def _path(self, kind: str, key: str) -> Path:
+        if self.folder is None:
+            raise ValueError("a cache without a folder keeps nothing")
+        return self.folder / kind / key[:2] / f"{key}.json"
+
+    def prune(self, limit: int = SIZE_LIMIT) -> None:
+        """Drop the entries that were used least recently until the rest fits into `limit` bytes."""
+        if self.folder is None:
+            return
+        entries = []
+        for path in self.folder.glob("*/*/*"):
+            with suppress(OSError):
+                found = path.stat()
+                entries.append((found.st_mtime, found.st_size, path))
+        room = limit
+        for _, size, path in sorted(entries, reverse=True):
+            room -= size
+            if room < 0:
+                with suppress(OSError):
+                    path.unlink()
+
+
+NO_CACHE = Cache(None)
+"""Keeps nothing."""

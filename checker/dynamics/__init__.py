@@ -1,0 +1,1 @@
+"""A robot on the scales: mass, inertia and balance, by Pinocchio."""

@@ -1,0 +1,141 @@
+"""The meshes of one robot: found in its package, read in a child process, kept on disk."""
+
+from __future__ import annotations
+
+import json
+import posixpath
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from importlib.metadata import version
+
+from checker.cache import NO_CACHE, Cache, code_hash, key_of
+from checker.confined import Died, Limits, ask
+from checker.mesh.limits import MEMORY, SECONDS_FOR_ALL, SECONDS_FOR_ONE, SIZE_LIMIT
+from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
+from checker.mesh.materials import textures_in
+from checker.mesh.uris import MeshFile, file_behind
+from checker.mesh.wire import from_json, to_json
+from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from checker.model.robot import Robot
+from checker.package.package import Package
+from checker.package.reading import NotReadable, read_bytes
+from checker.source.text import Located
+
+_KIND = "mesh"
+_LIBRARIES = ("numpy", "pycollada", "scipy", "trimesh")
+_UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is no mesh of this robot")
+
+_Read = Mesh | MeshFault
+
+
+@dataclass(frozen=True, eq=False)
+class PackageMeshes:
+    """Gives the meshes of a robot: a `Meshes`.
+
+    Attributes:
+        package: Where they are looked for.
+        uris: All that the robot names.
+        cache: Where results are kept.
+    """
+
+    package: Package = field(repr=False)
+    uris: tuple[Located[str], ...]
+    cache: Cache = NO_CACHE
+
+    def of(self, uri: Located[str]) -> Mesh | MeshFault:
+        """Return what the file behind a URI holds; the first call reads all files."""
+        return self._by_address.get(_address(uri), _UNKNOWN)
+
+    @cached_property
+    def _by_address(self) -> dict[tuple[str, str], _Read]:
+        """What is known, by folder and URI as written."""
+        places = {at: file_behind(self.package, *at) for at in map(_address, self.uris)}
+        files = {place.path: place for place in places.values() if isinstance(place, MeshFile)}
+        read = dict(zip(files, self._all(files.values()), strict=True))
+        return {
+            at: read[place.path] if isinstance(place, MeshFile) else place
+            for at, place in places.items()
+        }
+
+    def _all(self, files: Iterable[MeshFile]) -> list[_Read]:
+        """Return what files hold; those of one content are read once."""
+        keys = [(file, _key(file)) for file in files]
+        read: dict[str, _Read] = {}
+        unread: dict[str, MeshFile] = {}
+        for file, key in keys:
+            if isinstance(key, str) and key not in read:
+                known = _known(self.cache, key)
+                if known is None:
+                    unread[key] = file
+                else:
+                    read[key] = known
+        read |= self._now(unread)
+        return [
+            key if isinstance(key, MeshFault) else self._placed(read[key], file)
+            for file, key in keys
+        ]
+
+    def _now(self, files: Mapping[str, MeshFile]) -> dict[str, _Read]:
+        """Read files in a child process and keep what holds next time as well."""
+        read = dict(zip(files, _asked([*files.values()]), strict=True)) if files else {}
+        for key, found in read.items():
+            # Another day, or another machine, may have the time or the memory.
+            if isinstance(found, Mesh) or found.trouble is not MeshTrouble.NOT_LOOKED_AT:
+                self.cache.put(_KIND, key, to_json(found))
+        return read
+
+    def _placed(self, read: _Read, file: MeshFile) -> _Read:
+        """Return what was read as that of a file, with what the files beside it say."""
+        if isinstance(read, MeshFault):
+            return read
+        folder = posixpath.dirname(file.path)
+        textures = list(read.textures)
+        for name in read.materials:
+            path = posixpath.normpath(posixpath.join(folder, name))
+            content = self.package.read_bytes(path, MATERIAL_LIMIT)
+            textures += textures_in(content) if isinstance(content, bytes) else ()
+        return replace(read, path=file.path, textures=tuple(dict.fromkeys(textures)))
+
+
+def mesh_uris(robot: Robot) -> tuple[Located[str], ...]:
+    """Return the URIs of all meshes that a robot names."""
+    shapes = (shape.geometry for shape in robot.shapes())
+    uris = (shape.uri for shape in shapes if shape.shape == "mesh")
+    return tuple(uri for uri in uris if uri is not None and uri.stated and uri.value)
+
+
+def _address(uri: Located[str]) -> tuple[str, str]:
+    return Robot.folder_of(uri), uri.value
+
+
+def _key(file: MeshFile) -> str | MeshFault:
+    """Return the cache's key of a file: a hash of all that its mesh depends on."""
+    data = read_bytes(file.location, file.path, SIZE_LIMIT)
+    if isinstance(data, NotReadable):
+        return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
+    suffix = posixpath.splitext(file.path)[1].lower()
+    libraries = [version(library) for library in _LIBRARIES]
+    return key_of(suffix, data, code_hash("mesh", "model/mesh.py"), *libraries)
+
+
+def _known(cache: Cache, key: str) -> _Read | None:
+    try:
+        return from_json(cache.get(_KIND, key))
+    except ValueError:
+        return None
+
+
+def _asked(files: list[MeshFile]) -> list[_Read]:
+    """Return what a child process reads."""
+    locations = [str(file.location) for file in files]
+    request = json.dumps({"files": locations, "seconds": SECONDS_FOR_ONE}).encode()
+    answer = ask("checker.mesh.worker", request, Limits(SECONDS_FOR_ALL, MEMORY))
+    try:
+        read = [] if isinstance(answer, Died) else [from_json(each) for each in json.loads(answer)]
+    except ValueError:
+        read = []
+    if len(read) == len(files):
+        return read
+    reason = answer.reason if isinstance(answer, Died) else "answered with nonsense"
+    return [MeshFault(MeshTrouble.NOT_LOOKED_AT, f"was not read: its reader {reason}")] * len(files)

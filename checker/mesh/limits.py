@@ -1,0 +1,13 @@
+"""What the reading of meshes may take."""
+
+SIZE_LIMIT = 100_000_000
+"""Bytes of a file; the largest of 129 real ones has 1.9 MB."""
+
+SECONDS_FOR_ONE = 20
+"""Processor time for one file."""
+
+SECONDS_FOR_ALL = 90
+"""By the clock, for the files of one robot; those left then are not looked at."""
+
+MEMORY = 3_000_000_000
+"""Bytes of address space; the libraries alone take 0.6 GB of it."""

@@ -1,0 +1,55 @@
+"""What a mesh file holds, by its suffix; runs in a child process only (see `worker`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from checker.mesh.dae import read_dae
+from checker.mesh.measure import measure
+from checker.mesh.obj import read_obj
+from checker.mesh.stl import read_stl
+from checker.mesh.surface import NoSurface, Surface
+from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+
+_Reader = Callable[[bytes], Surface]
+_READERS: dict[str, _Reader] = {"dae": read_dae, "stl": read_stl, "obj": read_obj}
+
+_POINTER = b"version https://git-lfs"
+
+
+def read_mesh(data: bytes, path: str) -> Mesh | MeshFault:
+    """Return what a file holds.
+
+    Args:
+        data: Its content.
+        path: Its name; the suffix decides on the format, as in Gazebo.
+    """
+    suffix = path.rpartition(".")[2].lower()
+    reader = _READERS.get(suffix)
+    if reader is None:
+        return MeshFault(MeshTrouble.UNSUPPORTED, f"is of a format that is not read: .{suffix}")
+    if not data.strip():
+        return MeshFault(MeshTrouble.UNREADABLE, "is empty")
+    if data.startswith(_POINTER):
+        return MeshFault(MeshTrouble.UNREADABLE, "is a pointer of Git LFS, not the mesh")
+    try:
+        return measure(_surface(reader, data), path, suffix)
+    except NoSurface as none:
+        return MeshFault(none.trouble, none.reason)
+
+
+def _surface(reader: _Reader, data: bytes) -> Surface:
+    """Read a file whose every line may be wrong.
+
+    Raises:
+        NoSurface: It cannot be read.
+    """
+    try:
+        return reader(data)
+    except (NoSurface, MemoryError):
+        raise
+    except RecursionError:
+        raise NoSurface("is nested too deeply", MeshTrouble.NOT_LOOKED_AT) from None
+    except Exception as error:  # libraries raise anything on corrupt files
+        said = str(error).strip().partition("\n")[0][:200]
+        raise NoSurface(f"is corrupt: {said or type(error).__name__}") from error

@@ -1,0 +1,66 @@
+"""Triangles of an STL file, binary or as text; its numbers are taken as metres, as Gazebo does."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from checker.mesh.surface import NoSurface, Surface
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+_HEADER, _TRIANGLE = 84, 50
+"""Bytes: 80 of any text and the count; a normal, three corners (4-byte numbers), 2 more bytes."""
+
+_VERTEX = re.compile(rb"^[ \t]*vertex[ \t]+(\S+)[ \t]+(\S+)[ \t]+(\S+)", re.I | re.M)
+_SOLID = re.compile(rb"^[ \t]*solid[ \t]+(\S[^\r\n]{0,200})", re.I | re.M)
+_END = re.compile(rb"^[ \t]*endsolid\b", re.I | re.M)
+
+
+def read_stl(data: bytes) -> Surface:
+    """Return the triangles.
+
+    Many binary files start with `solid` as text files do, so the length decides first.
+
+    Raises:
+        NoSurface: The file is cut off, or neither kind of STL.
+    """
+    count = int.from_bytes(data[80:_HEADER], "little")
+    if len(data) >= _HEADER and len(data) == _HEADER + count * _TRIANGLE:
+        return Surface(_binary(data, count))
+    if data.lstrip()[:5].lower() == b"solid" and b"\0" not in data:
+        return _text(data)
+    if len(data) < _HEADER:
+        raise NoSurface(f"is no STL file: it has {len(data)} bytes, its header alone takes 84")
+    held = (len(data) - _HEADER) // _TRIANGLE
+    if held < count:
+        raise NoSurface(
+            f"is cut off: it declares {count:,} triangles, its {len(data):,} bytes hold {held:,}"
+        )
+    left = len(data) - _HEADER - count * _TRIANGLE
+    return Surface(_binary(data, count), defects=(f"{left:,} bytes follow its last triangle.",))
+
+
+def _binary(data: bytes, count: int) -> NDArray[float64]:
+    import numpy as np
+
+    numbers = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    triangles = np.frombuffer(data, numbers, count, _HEADER)
+    return np.asarray(triangles["corners"], np.float64)
+
+
+def _text(data: bytes) -> Surface:
+    import numpy as np
+
+    numbers = _VERTEX.findall(data)
+    if len(numbers) % 3:
+        raise NoSurface(f"is cut off: it has {len(numbers):,} corners, not 3 for each triangle")
+    try:
+        corners = np.array(numbers, np.float64).reshape(-1, 3, 3)
+    except ValueError as error:
+        raise NoSurface(f"holds a corner that is no number: {error}") from None
+    names = [name.decode("utf-8", "replace").strip() for name in _SOLID.findall(data)]
+    defects = () if _END.search(data) else ("It does not end in `endsolid`.",)
+    return Surface(corners, defects=defects, parts=tuple(dict.fromkeys(names)))

@@ -1,0 +1,60 @@
+"""Reads mesh files in a child process: the module behind `checker.confined`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from checker.mesh.apart import Ended, apart
+from checker.mesh.limits import SECONDS_FOR_ALL, SIZE_LIMIT
+from checker.mesh.reader import read_mesh
+from checker.mesh.wire import to_json
+from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from checker.package.reading import NotReadable, read_bytes
+
+
+def answer(request: bytes) -> bytes:
+    """Read files.
+
+    Args:
+        request: JSON: `files`, their absolute paths, links resolved, and `seconds` of processor
+            time for each.
+
+    Returns:
+        JSON: what each file holds, in the same order.
+    """
+    _load_libraries()
+    until = monotonic() + SECONDS_FOR_ALL
+    asked = json.loads(request)
+    seconds = asked["seconds"]
+    return json.dumps([_read_apart(Path(each), seconds, until) for each in asked["files"]]).encode()
+
+
+def _load_libraries() -> None:
+    """Import once what every fork needs."""
+    import collada
+    import scipy.spatial
+    import trimesh
+
+    _ = collada, scipy, trimesh
+
+
+def _read_apart(location: Path, seconds: int, until: float) -> Any:
+    """Read one file in a process of its own: it takes no other file with it."""
+    seconds = min(seconds, int(until - monotonic()))
+    if seconds < 1:
+        reason = f"was not read: the others took {SECONDS_FOR_ALL:g} s"
+        return to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, reason))
+    read = apart(lambda: json.dumps(to_json(_read(location))).encode(), seconds)
+    if isinstance(read, Ended):
+        return to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, read.reason))
+    return json.loads(read)
+
+
+def _read(location: Path) -> Mesh | MeshFault:
+    data = read_bytes(location, location.name, SIZE_LIMIT)
+    if isinstance(data, NotReadable):
+        return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
+    return read_mesh(data, location.name)

@@ -1,0 +1,162 @@
+"""What a mesh file holds, and where a robot's meshes are had from."""
+
+from __future__ import annotations
+
+import enum
+import itertools
+from dataclasses import dataclass
+from typing import Protocol
+
+from checker.model.components import Collision, Visual
+from checker.model.shapes import Geometry
+from checker.model.transform import Vector
+from checker.source.text import Located
+
+
+class MeshTrouble(enum.StrEnum):
+    """Why a mesh is not known."""
+
+    MISSING = "missing"
+    """Its URI leads to no file (REF rules say so)."""
+    UNSUPPORTED = "unsupported"
+    """A format that the checker does not read."""
+    UNREADABLE = "unreadable"
+    """Empty or corrupt."""
+    NOT_LOOKED_AT = "not looked at"
+    """The checker gave up (limits of time, memory, size), or its place is beyond the workspace."""
+
+
+@dataclass(frozen=True)
+class MeshFault:
+    """A mesh that is not known.
+
+    Attributes:
+        reason: The end of a sentence whose subject is the file: `is empty`.
+    """
+
+    trouble: MeshTrouble
+    reason: str
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """What a mesh file holds, in metres: its own unit is honoured, the model's `<scale>` is not.
+
+    Attributes:
+        path: Of the file, relative to the package.
+        format: `dae`, `stl` or `obj`.
+        triangles: How many; polygons count as the triangles they are cut into.
+        low: Least x, y, z of its box, metres.
+        high: Greatest.
+        metres_per_unit: COLLADA `<unit meter>`; 1 for formats without.
+        hull: Corners of the convex hull, metres; none where all points lie in a plane.
+        volume: Of the surface as it stands, m³; negative when inside out, None when not watertight
+            or when neighbours disagree on which side is outside.
+        hull_volume: m³.
+        watertight: Whether each edge joins two triangles, once equal corners are joined.
+        degenerate: Number of triangles without area.
+        textures: Picture files as named inside, and in the material files that it names.
+        materials: Material files as named inside (`mtllib` of OBJ).
+        defects: What is not valid for the format though loaders cope, as whole sentences.
+        parts: Names of the parts inside, which SDF's `<submesh>` picks.
+    """
+
+    path: str
+    format: str
+    triangles: int
+    low: Vector
+    high: Vector
+    metres_per_unit: float = 1.0
+    hull: tuple[Vector, ...] = ()
+    volume: float | None = None
+    hull_volume: float = 0.0
+    watertight: bool = False
+    degenerate: int = 0
+    textures: tuple[str, ...] = ()
+    materials: tuple[str, ...] = ()
+    defects: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
+
+    @property
+    def corners(self) -> tuple[Vector, ...]:
+        """Points around the mesh, metres: of its hull; where that is flat, of its box."""
+        sides = zip(self.low, self.high, strict=True)
+        return self.hull or tuple((x, y, z) for x, y, z in itertools.product(*sides))
+
+
+class Meshes(Protocol):
+    """Gives the meshes of a robot; all files are read when the first one is asked for."""
+
+    def of(self, uri: Located[str]) -> Mesh | MeshFault:
+        """Return what the file behind a URI holds."""
+        ...
+
+
+@dataclass(frozen=True)
+class NoMeshes:
+    """For a robot that was read without its package."""
+
+    def of(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002 - as a `Meshes` has it
+        """Say that the file is not at hand."""
+        return MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not looked for")
+
+
+def mesh_of(geometry: Geometry, meshes: Meshes) -> Mesh | MeshFault | None:
+    """Return the mesh that a shape consists of; None for other shapes."""
+    if geometry.shape != "mesh" or geometry.uri is None:
+        return None
+    return _as_used(geometry, meshes.of(geometry.uri))
+
+
+def _as_used(geometry: Geometry, file: Mesh | MeshFault) -> Mesh | MeshFault:
+    """Return what a shape takes of a file: SDF's `<submesh>` names one part of it.
+
+    How far one of several parts reaches is not known.
+    """
+    submesh = geometry.element.child("submesh")
+    if submesh is None or isinstance(file, MeshFault):
+        return file
+    name, center = submesh.child("name"), submesh.child("center")
+    centred = center is not None and center.text.value.strip() in ("true", "1")
+    if name is not None and file.parts == (name.text.value.strip(),) and not centred:
+        return file
+    return MeshFault(MeshTrouble.NOT_LOOKED_AT, "is used in part only (<submesh>)")
+
+
+@dataclass(frozen=True, eq=False)
+class MeshUse:
+    """A collision or visual that names a mesh file.
+
+    Attributes:
+        shape: It.
+        uri: As written.
+        file: What the whole file holds.
+    """
+
+    shape: Collision | Visual
+    uri: Located[str]
+    file: Mesh | MeshFault
+
+    @property
+    def is_collision(self) -> bool:
+        """Whether it touches things; else it is only seen."""
+        return isinstance(self.shape, Collision)
+
+    @property
+    def mesh(self) -> Mesh | None:
+        """What the shape takes of the file; None when that is not known."""
+        used = _as_used(self.shape.geometry, self.file)
+        return used if isinstance(used, Mesh) else None
+
+    @property
+    def scale(self) -> tuple[float, ...]:
+        """The model's `<scale>` along x, y, z."""
+        return tuple(number.value for number in self.shape.geometry.sizes["scale"])
+
+    @property
+    def reason_unseen(self) -> str:
+        """Why the checker does not know the file though Gazebo may; empty when it does."""
+        known = (MeshTrouble.MISSING, MeshTrouble.UNREADABLE)
+        if isinstance(self.file, Mesh) or self.file.trouble in known:
+            return ""
+        return f"{self.uri.value} {self.file.reason}"

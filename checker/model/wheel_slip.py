@@ -1,0 +1,57 @@
+"""What WheelSlip plugins say about the wheels of a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from checker.model.components import Plugin
+from checker.model.robot import Robot
+from checker.model.values import parse_number
+from checker.source.text import Located, Span
+from checker.source.xml import Element
+
+
+@dataclass(frozen=True, eq=False)
+class SlippingWheel:
+    """One `<wheel>` of a WheelSlip plugin.
+
+    Attributes:
+        plugin: The WheelSlip.
+        link: Scoped name of the link that it means; empty when it names none.
+        lateral: Slip compliance across the wheel; None if not stated.
+        normal_force: Newtons; None if not stated.
+        radius: Metres; None if not stated.
+        span: The element.
+    """
+
+    plugin: Plugin
+    link: str
+    lateral: Located[float] | None
+    normal_force: Located[float] | None
+    radius: Located[float] | None
+    span: Span
+
+
+def slipping_wheels(robot: Robot) -> Iterator[SlippingWheel]:
+    """Yield the wheels that WheelSlip plugins list, also those that do not exist."""
+    for plugin in robot.all_plugins:
+        if plugin.class_name != "WheelSlip":
+            continue
+        scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
+        for wheel in plugin.element.all("wheel"):
+            name = wheel.attribute("link_name")
+            yield SlippingWheel(
+                plugin,
+                "" if name is None else scope + name.value,
+                _number(wheel, "slip_compliance_lateral"),
+                _number(wheel, "wheel_normal_force"),
+                _number(wheel, "wheel_radius"),
+                wheel.span,
+            )
+
+
+def _number(wheel: Element, tag: str) -> Located[float] | None:
+    child = wheel.child(tag)
+    value = parse_number(child.text.value) if child is not None else None
+    return None if child is None or value is None else Located(value, child.text.span)

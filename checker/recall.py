@@ -1,0 +1,97 @@
+"""Remembers reports: a package that did not change is not checked again.
+
+What a report depends on is hashed: the program, the settings, the package's content, and which
+files lie in the packages beside it (by size and time of change).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+from collections.abc import Iterator
+from contextlib import suppress
+from importlib.metadata import entry_points
+from itertools import islice
+from pathlib import Path
+
+from checker.cache import Cache, code_hash, key_of
+from checker.package.package import Package
+from checker.package.recognition import looks_like_package
+from checker.package.walk import SKIPPED_FOLDERS
+from checker.report.report import PackageReport
+from checker.report.stored import from_stored, to_stored
+from checker.settings import Settings
+from checker.versions import versions
+
+KIND = "report"
+ENTRIES_LIMIT = 100_000
+"""Files beside a package; with more of them, looking at all takes longer than checking."""
+
+
+def memory_key(package: Package, settings: Settings) -> str:
+    """Return the key of a package's report; empty when it is not worth remembering."""
+    if package.only:
+        return ""
+    parts: list[bytes | str] = [code_hash("", "../rules"), repr(sorted(versions().items()))]
+    parts += [repr(settings), *sorted(_rules_of_others()), str(package.root)]
+    parts += _content(package)
+    beside = list(islice(_beside(package), ENTRIES_LIMIT))
+    return key_of(*parts, *beside) if len(beside) < ENTRIES_LIMIT else ""
+
+
+def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
+    """Return the report that was remembered under a key; None when there is none."""
+    said = cache.get(KIND, key) if key else None
+    if said is None:
+        return None
+    try:
+        return from_stored(said, shown)
+    except (KeyError, TypeError, ValueError):
+        return None
+
+
+def remember(cache: Cache, key: str, report: PackageReport) -> None:
+    """Keep a report, unless something went wrong that may go well the next time."""
+    if key and not report.crashed:
+        cache.put(KIND, key, to_stored(report))
+
+
+def _rules_of_others() -> Iterator[str]:
+    for entry in entry_points(group="subt_check.rules"):
+        yield f"{entry.value} {entry.dist.version if entry.dist else ''}"
+
+
+def _content(package: Package) -> Iterator[bytes | str]:
+    for entry in package.index.entries.values():
+        yield f"{entry.path} {entry.kind} {entry.target} {entry.target_state}"
+        if entry.is_file:
+            with suppress(OSError), entry.location.open("rb") as file:
+                yield hashlib.file_digest(file, "sha256").digest()
+
+
+def _beside(package: Package) -> Iterator[str]:
+    """Yield what can be seen of the other packages without opening their files."""
+    for directory in package.workspace.directories:
+        for folder in _folders(directory):
+            yield str(folder)
+            if folder != package.root and looks_like_package(folder):
+                yield from _below(folder)
+
+
+def _folders(directory: Path) -> list[Path]:
+    try:
+        return sorted(Path(item.path) for item in os.scandir(directory) if item.is_dir())
+    except OSError:
+        return []
+
+
+def _below(folder: Path) -> Iterator[str]:
+    waiting = [folder]
+    while waiting:
+        with suppress(OSError), os.scandir(waiting.pop()) as items:
+            for item in sorted(items, key=lambda item: item.name):
+                found = item.stat(follow_symlinks=False)
+                yield f"{item.path} {found.st_mode} {found.st_size} {found.st_mtime_ns}"
+                if stat.S_ISDIR(found.st_mode) and item.name not in SKIPPED_FOLDERS:
+                    waiting.append(Path(item.path))

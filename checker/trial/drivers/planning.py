@@ -1,0 +1,53 @@
+"""The plan of a robot's trial, by its way of moving."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+
+from checker.model.locomotion import DriveKind, Locomotion
+from checker.model.robot import Robot
+from checker.trial.drivers.ackermann import plan_ackermann
+from checker.trial.drivers.copter import plan_copter
+from checker.trial.drivers.hold import at_rest, plan_hold
+from checker.trial.drivers.tracks import plan_tracks
+from checker.trial.drivers.wheels import plan_wheels
+from checker.trial.plan import Plan
+
+
+def plan_of(robot: Robot) -> Plan:
+    """Return what a robot shall do in its trial; joints that plugins move otherwise stand still."""
+    plan = _of_kind(robot, robot.locomotion)
+    turned = {*plan.speeds, *plan.places}
+    others = [name for name in robot.driven_joints if name not in turned]
+    places = {**plan.places, **at_rest(robot, others, plan.legs)}
+    efforts = _efforts(robot, (*plan.speeds, *places))
+    return replace(plan, places=places, efforts=efforts)
+
+
+def _of_kind(robot: Robot, locomotion: Locomotion) -> Plan:
+    kind = locomotion.kind
+    if kind is DriveKind.MULTICOPTER:
+        return plan_copter(robot, locomotion)
+    if kind is DriveKind.TRACKED and any(drive.tracks for drive in locomotion.tracked_drives):
+        return plan_tracks(robot, locomotion)
+    if kind is DriveKind.ACKERMANN and locomotion.wheels:
+        return plan_ackermann(robot, locomotion)
+    if kind in (DriveKind.DIFFERENTIAL, DriveKind.SKID_STEER) and locomotion.wheels:
+        return plan_wheels(locomotion)
+    plan = plan_hold(robot, kind)
+    if kind in (DriveKind.LEGGED, DriveKind.NONE):
+        return plan
+    return replace(plan, notes=("Its plugins drive nothing that the model has: it only stands.",))
+
+
+def _efforts(robot: Robot, joints: Iterable[str]) -> dict[str, float]:
+    """Return the effort limits that joints state, N·m or N."""
+    limits: dict[str, float] = {}
+    for name in joints:
+        joint = robot.joints_by_name.get(name)
+        effort = joint.axes[0].effort.value if joint is not None and joint.axes else 0.0
+        if 0.0 < effort < math.inf:
+            limits[name] = effort
+    return limits

@@ -1,0 +1,65 @@
+"""What happened over time, for plots and replays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from checker.trial.motion import Motion
+from checker.trial.profile import value_at
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_MOST_PARTS = 40
+"""Links, and joints, that get series of their own."""
+
+
+def series_of(motion: Motion) -> dict[str, Sequence[float]]:
+    """Return samples by name, as `Trial.series` lists them."""
+    import numpy as np
+
+    rotation, samples, rig = motion.rotation, motion.run.samples, motion.run.rig
+    roll = np.arctan2(rotation[:, 2, 1], rotation[:, 2, 2])
+    pitch = np.arcsin(np.clip(-rotation[:, 2, 0], -1.0, 1.0))
+    found: dict[str, Array] = {
+        "time": motion.time,
+        **dict(zip("xyz", motion.position.T, strict=True)),
+        "roll": roll,
+        "pitch": pitch,
+        "yaw": motion.yaw,
+        "speed": motion.forward,
+        "yaw_rate": motion.spin[:, 2],
+        "command_linear": np.array([value_at(motion.plan.linear, t) for t in motion.time]),
+        "command_angular": np.array([value_at(motion.plan.angular, t) for t in motion.time]),
+    }
+    steps = np.rint(motion.time / motion.run.timestep).astype(int)
+    forces = np.array(motion.run.forces)[steps]
+    places = np.array(samples.joints)
+    for number, joint in enumerate(rig.names[:_MOST_PARTS]):
+        found[f"torque:{joint}"] = forces[:, number]
+        found[f"joint:{joint}"] = places[:, number]
+    found |= _loads(motion)
+    return {name: tuple(values.tolist()) for name, values in found.items() if len(values)}
+
+
+def _loads(motion: Motion) -> dict[str, Array]:
+    """Return the mean load of each link around each sample, N, of links that touch the ground."""
+    import numpy as np
+
+    found: dict[str, Array] = {}
+    touches = motion.run.samples.touches
+    bounds = np.array([touch.time for touch in touches])
+    at = np.abs(bounds[:, None] - motion.time).argmin(axis=1) if len(motion.time) else bounds
+    for touch, number in zip(touches, at.tolist(), strict=True):
+        for link, load in zip(touch.links, touch.loads.tolist(), strict=True):
+            name = f"load:{link}"
+            if name not in found and len(found) < _MOST_PARTS:
+                found[name] = np.zeros(len(motion.time))
+            if name in found:
+                found[name][number] += load
+    counts = np.bincount(at, minlength=len(motion.time))
+    return {name: total / np.maximum(counts, 1) for name, total in found.items()}

@@ -1,0 +1,1 @@
+"""DRV: drive plugins and motion limits."""

@@ -1,0 +1,53 @@
+"""A robot without a drive plugin that is known.
+
+Nothing that is known moves it: the trial can only let the robot settle, and says nothing about how
+it drives.
+
+Fix: add the drive plugin to the spawner, such as DiffDrive; a robot with a plugin of its own needs
+none.
+Source: the systems that drive the robots of the SubT challenge.
+"""
+
+from checker.model.locomotion import DriveKind
+from checker.model.robot import Robot
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("DRV001", "no-drive", Severity.INFO)
+def check(package: Package, robot: Robot) -> Findings:
+    """Report robots that no known plugin drives; what others build on may leave it to them."""
+    if package.kind is PackageKind.BASE_MODEL or robot.locomotion.kind is not DriveKind.NONE:
+        return
+    reason = robot.unread_plugins or robot.missing_parts
+    if reason:
+        yield unchecked(reason)
+        return
+    yield finding(
+        robot,
+        f"no plugin that is known drives {robot.name.value!r}: the trial can only let it settle",
+    )
+
+
+GOOD = [
+    """
+<link name="wheel"/>
+<joint name="axle" type="revolute"><parent>base_link</parent><child>wheel</child></joint>
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>axle</left_joint>
+</plugin>
+""",
+    '<plugin filename="libp.so" name="gz::sim::systems::MulticopterVelocityControl"/>',
+    {"@name": "acme_rover_base", "launch/spawner.rb": None, "launch/vehicle_topics.launch": None},
+]
+BAD = [
+    """
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">  <!-- ^ DRV001 -->
+<link name="base_link"/>
+<plugin filename="libp.so" name="ignition::gazebo::systems::PosePublisher"/>
+</model>
+</sdf>
+""",
+]

@@ -1,0 +1,96 @@
+"""A fast robot whose specifications.md links to no measurement.
+
+Above 1 m/s on the ground and 4 m/s in the air the organisers want to see the real robot do it: a
+video or a recording, with a link in the sheet. Datasheets of sensors show nothing about speed, and
+placeholders such as `https://youtu.be/xxxx` show nothing at all.
+Of the accepted packages at hand two show it: one links datasheets alone, the other placeholders.
+
+Fix: link the video or the data in the section "Validation and Specification Links", or lower the
+limits until there is one.
+Source: SubT Model Preparation Guide; reviews limit robots to 1 m/s "until validation is completed".
+"""
+
+from checker.model.bounded_motion import BoundedMotion, bounded_motions, is_unlimited
+from checker.model.robot import Robot
+from checker.model.specification.motion import MotionQuantity
+from checker.model.specification.sheet import Specification
+from checker.rule import Findings, HasSpan, Severity, finding, rule, unchecked
+from checker.source.text import Located
+
+
+@rule("DRV005", "fast-without-proof", Severity.WARNING)
+def check(
+    robot: Robot, specification: Specification, *, ground: float = 1.0, air: float = 4.0
+) -> Findings:
+    """Report robots that may go faster than `ground` or `air`, m/s, without validation links."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    too_fast = [
+        (speed, motion)
+        for motion in bounded_motions(robot.locomotion)
+        if motion.kind == "linear"
+        for speed in motion.velocity
+        if speed is not None
+        and not is_unlimited(speed)
+        and abs(speed.value) > (air if motion.flies else ground)
+    ]
+    if not too_fast or specification.validation_links:
+        return
+    speed, motion = max(too_fast, key=lambda each: abs(each[0].value))
+    allowed = air if motion.flies else ground
+    yield finding(
+        _place(specification, motion, speed),
+        f"the robot may go {abs(speed.value):g} m/s, above {allowed:g} m/s: expected a link to a "
+        "video or data that proves it",
+        related=[(speed, "the limit of the model")],
+    )
+
+
+def _place(sheet: Specification, motion: BoundedMotion, speed: Located[float]) -> HasSpan:
+    """Return where the sheet speaks of the speed, else of motion, else the speed itself."""
+    claim = sheet.limit(MotionQuantity.LINEAR_VELOCITY, motion.axis)
+    return claim or sheet.section("motion") or speed
+
+
+def _drive(speed: str, mark: str = "") -> str:
+    return f"""
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">
+  <max_velocity>{speed}</max_velocity>{mark}
+</plugin>
+"""
+
+
+_MARK = " <!-- ^ DRV005 -->"
+_COPTER = """
+<plugin filename="libp.so" name="ignition::gazebo::systems::MulticopterVelocityControl">
+  <maximumLinearVelocity>5 4 3</maximumLinearVelocity>
+</plugin>
+"""
+_LINKS = "## Validation and Specification Links\n"
+
+GOOD = [
+    _drive("1"),
+    _COPTER.replace("5 4 3", "4 4 3"),
+    _drive("1.79769e308"),
+    {
+        "@fragment": _drive("2"),
+        "specifications.md": f"# Rover\n{_LINKS}* Speed test - https://youtu.be/H15Kpvpepv4\n",
+    },
+    {
+        "@fragment": _COPTER,
+        "specifications.md": f"# Rover\n{_LINKS}* [Validation data](https://acme.com/flights.bag)\n",
+    },
+]
+BAD = [
+    _drive("2", _MARK),
+    {
+        "@fragment": _drive("2"),
+        "specifications.md": f"# Rover\n## Motion\n_x_ velocity range from -2 m/s to 2 m/s{_MARK}\n"
+        f"{_LINKS}* [Lidar datasheet](https://www.sick.com/lms1xx)\n",
+    },
+    {
+        "@fragment": _COPTER,
+        "specifications.md": f"# Rover\n## Motion{_MARK}\nIt flies.\n"
+        f"{_LINKS}* [Validation video](https://youtu.be/xxxxxxxxx/)\n",
+    },
+]

@@ -1,0 +1,139 @@
+"""A driven wheel or track without collision, a body without, or a robot without any.
+
+What has no collision touches nothing: the wheel turns in the air or sinks into the ground, a body
+drives through walls, and a robot without collisions falls through the world.
+No accepted package at hand shows it.
+
+Fix: give each wheel a `<collision>` with a cylinder, and each track boxes and cylinders.
+Source: contacts come from `<collision>` elements alone, SDFormat specification.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from checker.model.components import Link, Plugin
+from checker.model.rigid import rigid_bodies
+from checker.model.robot import Robot
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.source.text import Located
+
+
+@rule("GEO002", "part-without-collision", Severity.ERROR)
+def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
+    """Report wheels and tracks without collision; a warning for wheels that nothing drives.
+
+    A warning as well for a link with a visual, no collision, and more than `body_share` of the
+    robot's mass.
+    """
+    if robot.missing_parts or robot.unread_plugins:
+        yield unchecked(robot.missing_parts or robot.unread_plugins)
+    if robot.links and not any(link.collisions for link in robot.links):
+        if not robot.missing_parts:
+            yield finding(robot, "no link of the robot has a collision")
+        return
+    for part in _driven(robot):
+        if not any(link.collisions for link in part.links):
+            yield finding(
+                part.links[0],
+                f"{part.kind} {part.links[0].name.value!r} has no collision",
+                related=[(part.by, "the plugin that drives it")],
+            )
+    yield from _others(robot)
+    yield from _bodies(robot, body_share * robot.mass)
+
+
+def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:
+    of_wheels = {link.scoped_name for part in _driven(robot) for link in part.links}
+    for body in rigid_bodies(robot).links.values():
+        links = [robot.tree.links[name] for name in body if name not in of_wheels]
+        mass = sum(link.mass for link in links)
+        seen = [link for link in links if link.visuals]
+        if seen and mass > least_mass and not any(link.collisions for link in links):
+            yield finding(
+                seen[0],
+                f"{seen[0].name.value!r} of {mass:.3g} kg is seen and has no collision",
+                severity=Severity.WARNING,
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    kind: str
+    links: tuple[Link, ...]
+    by: Plugin | Located[str]
+
+
+def _driven(robot: Robot) -> Iterator[_Part]:
+    for wheel in robot.locomotion.wheels:
+        yield _Part("wheel", wheel.body, wheel.name)
+    for track in robot.locomotion.tracks:
+        yield _Part("track", (track.link,), track.plugin)
+
+
+def _others(robot: Robot) -> Iterator[Finding]:
+    driven = {link.scoped_name for part in _driven(robot) for link in part.links}
+    for link in robot.wheels if robot.locomotion.wheel_drives else ():
+        if link.scoped_name not in driven and not link.collisions:
+            yield finding(
+                link,
+                f"wheel {link.name.value!r} has no collision, and no plugin drives it",
+                severity=Severity.WARNING,
+            )
+
+
+def _rover(wheel: str, mark: str = "", body: str = "<collision name='c'/>") -> str:
+    return f"""
+<link name="body">{body}</link>
+<link name="wheel">{mark}
+  {wheel}
+</link>
+<joint name="axle" type="revolute">
+  <parent>body</parent>
+  <child>wheel</child>
+  <axis><xyz>0 1 0</xyz></axis>
+</joint>
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>axle</left_joint>
+</plugin>
+"""
+
+
+_ROUND = (
+    "<collision name='c'><geometry><cylinder><radius>0.1</radius><length>0.1</length></cylinder>"
+    "</geometry></collision>"
+)
+_TYRE = f"""
+<link name="tyre">{_ROUND}</link>
+<joint name="rim" type="fixed"><parent>wheel</parent><child>tyre</child></joint>
+"""
+_TRACK = """
+<plugin filename="libp.so" name="ignition::gazebo::systems::TrackController">
+  <link>left_track</link>
+</plugin>
+"""
+
+GOOD = [_rover(_ROUND), _rover("") + _TYRE]
+BAD = [
+    _rover("<visual name='v'/>", "  <!-- ^ GEO002 -->"),
+    """
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">  <!-- ^ GEO002 -->
+<link name="base_link"><visual name="v"/></link>
+</model>
+</sdf>
+""",
+    f"""
+<link name="left_track"/>  <!-- ^ GEO002 -->
+<link name="body">{_ROUND}</link>
+{_TRACK}
+""",
+    f"""
+<link name="body"><visual name="v"/></link>  <!-- ^ GEO002 -->
+<link name="bumper">{_ROUND}</link>
+<joint name="spring" type="prismatic"><parent>body</parent><child>bumper</child></joint>
+""",
+    f"""
+<link name="rear_wheel"/>  <!-- ^ GEO002 -->
+{_rover(_ROUND)}
+""",
+]

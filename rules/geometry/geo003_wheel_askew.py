@@ -1,0 +1,76 @@
+"""The cylinder of a wheel does not turn about the wheel's axis.
+
+It tumbles like a coin instead of rolling: a cylinder stands along its own z axis until its pose
+turns it, and that pose is missing or turns about the wrong axis.
+No accepted package at hand shows it.
+
+Fix: turn the collision, mostly by a `<pose>` of `0 0 0 1.5707963267948966 0 0`.
+Source: Model Migration Guide, step 3: orientations of the wheel collisions; cylinders of SDF and
+URDF are round about z.
+"""
+
+import math
+
+from checker.model.robot import Robot
+from checker.model.wheel_shape import askew, tread
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("GEO003", "wheel-askew", Severity.ERROR)
+def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
+    """Report driven wheels whose largest collision is round about another axis than the joint's.
+
+    Both may differ by `degrees`; smaller angles are the business of GEO001.
+    """
+    for wheel in robot.locomotion.wheels:
+        angle = askew(robot, wheel)
+        rolls = tread(robot, wheel)
+        if rolls is None or angle is None or math.degrees(angle) <= degrees:
+            continue
+        yield finding(
+            rolls.shape.pose,
+            f"{rolls.shape.geometry.shape} {rolls.shape.name.value!r} of wheel "
+            f"{wheel.link.name.value!r} stands {math.degrees(angle):.3g}° off the axis of joint "
+            f"{wheel.joint.name.value!r}, expected 0°",
+            related=[(wheel.joint, "the joint")],
+        )
+
+
+def _wheel(collision: str, xyz: str = "0 1 0") -> str:
+    return f"""
+<link name="wheel">
+  <pose>0 0.3 0 0 0 0.5</pose>
+  {collision}
+</link>
+<joint name="axle" type="revolute">
+  <parent>base_link</parent>
+  <child>wheel</child>
+  <axis><xyz>{xyz}</xyz></axis>
+</joint>
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>axle</left_joint>
+</plugin>
+"""
+
+
+def _cylinder(pose: str, radius: float = 0.1) -> str:
+    return f"""
+<collision name="c{radius}">{pose}
+  <geometry><cylinder><radius>{radius}</radius><length>0.05</length></cylinder></geometry>
+</collision>
+"""
+
+
+_TURNED = "<pose>0 0 0 1.5707963267948966 0 0</pose>"
+GOOD = [
+    _wheel(_cylinder(_TURNED)),
+    _wheel(_cylinder("<pose>0 0 0 -1.5708 0 0</pose>")),
+    _wheel(_cylinder(""), "0 0 1"),
+    _wheel(_cylinder(_TURNED) + _cylinder("", 0.02)),
+    _wheel("<collision name='c'><geometry><sphere/></geometry></collision>"),
+]
+BAD = [
+    _wheel(_cylinder("\n<pose>0 0 0 0 1.5707963267948966 0</pose>  <!-- ^ GEO003 -->")),
+    _wheel(_cylinder("  <!-- ^ GEO003 -->")),
+    _wheel(_cylinder("\n<pose>0 0 0 1.5 0 0</pose>  <!-- ^ GEO003 -->")),
+]

@@ -1,0 +1,99 @@
+"""Collision and visual of a link are in different places, or of different size.
+
+What is seen is not what touches: a wheel rolls beside its picture, a robot stops in front of
+nothing or drives into walls. Mostly one of the two has a wrong pose, scale or unit.
+No accepted package at hand shows it.
+
+Fix: give collision and visual the same pose and about the same extent.
+Source: geometry; boxes along the robot's axes around all collisions and all visuals of a link.
+"""
+
+import math
+
+from checker.model.boxes import Box
+from checker.model.components import Collision, Link, Visual
+from checker.model.placed import placed, union
+from checker.model.robot import Robot
+from checker.model.wheel_shape import stands_askew
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("GEO007", "collision-beside-visual", Severity.WARNING)
+def check(
+    robot: Robot,
+    *,
+    wheel_share: float = 0.25,
+    other_share: float = 0.5,
+    mass_share: float = 0.02,
+) -> Findings:
+    """Report boxes whose centres or sizes differ by that share of the larger diagonal.
+
+    Links of less than `mass_share` of the robot's mass, rotors, and wheels that stand askew
+    (GEO003) are passed over, as are links with a mesh that is not known.
+    """
+    wheels = {link.scoped_name for link in robot.wheels}
+    exempt = {rotor.link.scoped_name for rotor in robot.locomotion.rotors if rotor.link}
+    exempt |= {w.link.scoped_name for w in robot.locomotion.wheels if stands_askew(robot, w)}
+    least_mass = mass_share * robot.mass
+    for link in robot.links:
+        name = link.scoped_name
+        if name in exempt or (name not in wheels and not link.mass > least_mass):
+            continue
+        touched, seen = _box(robot, link, link.collisions), _box(robot, link, link.visuals)
+        if touched is None or seen is None:
+            continue
+        diagonal = max(touched.diagonal, seen.diagonal)
+        beside = math.dist(touched.centre, seen.centre)
+        larger = math.dist(_size(touched), _size(seen))
+        if max(beside, larger) > (wheel_share if name in wheels else other_share) * diagonal:
+            yield finding(link, _message(link, touched, seen))
+
+
+def _message(link: Link, touched: Box, seen: Box) -> str:
+    name = link.name.value
+    beside = math.dist(touched.centre, seen.centre)
+    if beside > math.dist(_size(touched), _size(seen)):
+        return f"the middle of collision and visual of {name!r} are {beside:.3g} m apart"
+    return f"{name!r} collides as {_text(touched)} and shows as {_text(seen)}"
+
+
+def _text(box: Box) -> str:
+    return " × ".join(f"{length:.3g}" for length in _size(box)) + " m"
+
+
+def _size(box: Box) -> list[float]:
+    return [high - low for low, high in zip(box.low, box.high, strict=True)]
+
+
+def _box(
+    robot: Robot, link: Link, shapes: tuple[Collision, ...] | tuple[Visual, ...]
+) -> Box | None:
+    """Return the box around all shapes; None when one of them is not known."""
+    with_shape = [shape for shape in shapes if shape.geometry.shape]
+    known = list(placed(robot, link, with_shape))
+    return union(each.box for each in known) if len(known) == len(with_shape) else None
+
+
+def _body(pose: str, size: str, mark: str = "", name: str = "body") -> str:
+    return f"""
+<link name="{name}">{mark}
+  <collision name="c"><geometry><box><size>1 0.5 0.2</size></box></geometry></collision>
+  <visual name="v">
+    <pose>{pose} 0 0 0</pose>
+    <geometry><box><size>{size}</size></box></geometry>
+  </visual>
+</link>
+"""
+
+
+_MARK = "  <!-- ^ GEO007 -->"
+GOOD = [
+    _body("0 0 0.1", "1 0.5 0.2"),
+    _body("0 0 0", "1.2 0.5 0.5"),
+    "<link name='ghost'><visual name='v'><geometry><box/></geometry></visual></link>",
+]
+BAD = [
+    _body("0 0 0.8", "1 0.5 0.2", _MARK),
+    _body("0 0 0", "0.1 0.05 0.02", _MARK),
+    _body("0 0 0", "1 0.5 0.6", _MARK, "front_wheel"),
+]

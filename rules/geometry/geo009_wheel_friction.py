@@ -1,0 +1,162 @@
+"""A wheel, track or foot without friction, or with more than anything has.
+
+Without friction it spins on the spot. Rubber on rock reaches about 1; a coefficient of 150 lets the
+robot climb walls that no robot climbs, and some engines jitter with it.
+Engines differ in what they assume where nothing is stated.
+
+Fix: state `<surface><friction><ode>` with `<mu>` and `<mu2>` of about 0.5 to 1.5 for each collision
+of each wheel.
+Source: SDFormat specification, surface/friction: coefficients of Coulomb friction, 1 by default.
+"""
+
+import enum
+from collections.abc import Iterator
+
+from checker.model.components import Collision, Link
+from checker.model.friction import Friction, FrictionReader
+from checker.model.placed import placed
+from checker.model.robot import Robot
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+
+@rule("GEO009", "wheel-friction", Severity.WARNING)
+def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Findings:
+    """Report coefficients of 0 or less and above `most`, and wheels that alone state none.
+
+    Feet of a legged robot are its moving parts within `foot_height` metres of the lowest point.
+    Where nothing of what it stands on states a friction, that is information.
+    """
+    reader = FrictionReader(robot)
+    across = _across(robot)
+    found = [(link, shape, reader.of(link, shape)) for link, shape in _ground(robot, foot_height)]
+    some_state = any(friction.first is not None for _, _, friction in found)
+    for link, shape, friction in found:
+        yield from _absurd(link, friction, most, across.get(link.scoped_name, _Across.AS_ALONG))
+        if friction.first is None:
+            yield _missing(link, shape, some_state)
+
+
+class _Across(enum.Enum):
+    AS_ALONG = enum.auto()
+    FREE = enum.auto()
+    """Of a Mecanum wheel, which rolls sideways on its rollers: 0 on purpose."""
+    HELD = enum.auto()
+    """Of a track, which must not slip sideways: Gazebo's own examples have 150."""
+
+
+def _across(robot: Robot) -> dict[str, _Across]:
+    """Say what `mu2` is meant to do, by the name of the link, where that is special."""
+    known = {track.link.scoped_name: _Across.HELD for track in robot.locomotion.tracks}
+    for drive in robot.locomotion.wheel_drives:
+        if drive.plugin.class_name == "MecanumDrive":
+            links = (link for wheel in drive.wheels for link in wheel.body)
+            known.update((link.scoped_name, _Across.FREE) for link in links)
+    return known
+
+
+def _absurd(link: Link, friction: Friction, most: float, across: _Across) -> Iterator[Finding]:
+    for number, name in ((friction.first, "mu"), (friction.second, "mu2")):
+        if number is None:
+            continue
+        free = name == "mu2" and across is _Across.FREE and number.value == 0
+        held = name == "mu2" and across is _Across.HELD and number.value > most
+        if not (0 < number.value <= most or free or held):
+            yield finding(
+                number,
+                f"{name} of {link.name.value!r} is {number.value:g}, expected more than 0 and at "
+                f"most {most:g}",
+                key=f"{name} {number.value:g}",
+            )
+
+
+def _missing(link: Link, shape: Collision, some_state: bool) -> Finding:
+    others = "; others of what the robot stands on state one" if some_state else ""
+    return finding(
+        shape,
+        f"collision {shape.name.value!r} of {link.name.value!r} states no friction{others}",
+        severity=Severity.WARNING if some_state else Severity.INFO,
+        key="missing",
+    )
+
+
+def _ground(robot: Robot, foot_height: float) -> Iterator[tuple[Link, Collision]]:
+    """Yield what the robot stands on: collisions of wheels, tracks and feet."""
+    links: dict[str, Link] = {}
+    for wheel in robot.locomotion.wheels:
+        links.update((link.scoped_name, link) for link in wheel.body)
+    links.update((track.link.scoped_name, track.link) for track in robot.locomotion.tracks)
+    if robot.locomotion.wheel_drives:
+        links.update((link.scoped_name, link) for link in robot.wheels)
+    yield from ((link, shape) for link in links.values() for shape in link.collisions)
+    if robot.locomotion.leg_joints:
+        yield from _feet(robot, foot_height)
+
+
+def _feet(robot: Robot, foot_height: float) -> Iterator[tuple[Link, Collision]]:
+    shapes = [
+        (shape, each)
+        for link in robot.links
+        for shape in link.collisions
+        for each in placed(robot, link, (shape,))
+    ]
+    ground = min((each.box.low[2] for _, each in shapes), default=0.0)
+    for shape, each in shapes:
+        moves = each.link.scoped_name in robot.tree.above
+        if moves and each.box.low[2] <= ground + foot_height:
+            yield each.link, shape
+
+
+def _rover(left: str, right: str, plugin: str = "DiffDrive", mark: str = "") -> str:
+    return f"""
+{_wheel("left", left)}
+{_wheel("right", right, mark)}
+<plugin filename="libp.so" name="ignition::gazebo::systems::{plugin}">
+  <left_joint>left_axle</left_joint>
+  <right_joint>right_axle</right_joint>
+  <front_left_joint>left_axle</front_left_joint>
+</plugin>
+"""
+
+
+def _wheel(name: str, friction: str, mark: str = "") -> str:
+    surface = f"<surface><friction><ode>{friction}\n</ode></friction></surface>"
+    return f"""
+<link name="{name}">
+  <collision name="c">{mark}
+    <geometry><sphere/></geometry>
+    {surface if friction else ""}
+  </collision>
+</link>
+<joint name="{name}_axle" type="revolute">
+  <parent>base_link</parent>
+  <child>{name}</child>
+  <axis><xyz>0 1 0</xyz></axis>
+</joint>
+"""
+
+
+def _track(friction: str) -> str:
+    return f"""
+{_wheel("track", friction)}
+<plugin filename="libp.so" name="ignition::gazebo::systems::TrackController">
+  <link>track</link>
+</plugin>
+"""
+
+
+_ONE = "<mu>1</mu><mu2>1</mu2>"
+_MARK = "  <!-- ^ GEO009 -->"
+GOOD = [
+    _rover(_ONE, _ONE),
+    _rover("<mu>0.5</mu>", "<mu>10</mu>"),
+    _rover("<mu>1</mu><mu2>0</mu2>", _ONE, "MecanumDrive"),
+    _rover("", "", "TrackedVehicle"),
+    _track("<mu>1</mu><mu2>150</mu2>"),
+]
+BAD = [
+    _rover(_ONE, f"<mu>0</mu>{_MARK}"),
+    _rover(_ONE, f"<mu>1</mu><mu2>150</mu2>{_MARK}"),
+    _rover(_ONE, f"<mu>-1</mu>{_MARK}"),
+    _rover(_ONE, "", mark=_MARK),
+    _track(f"<mu>150</mu>{_MARK}"),
+]

@@ -1,0 +1,90 @@
+"""The body of a robot reaches below its wheels or tracks.
+
+It lies on its belly: the wheels hang in the air, or push with what little load is left.
+No accepted package at hand shows it.
+
+Fix: raise or shrink the collision, or lower the wheels.
+Source: geometry of collisions in the pose that the robot starts in.
+"""
+
+from checker.model.placed import placed
+from checker.model.rigid import rigid_bodies
+from checker.model.robot import Robot
+from checker.model.rolling import carriers, on_one_axle, rolling_parts
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("GEO011", "body-below-wheels", Severity.ERROR)
+def check(robot: Robot, *, tolerance: float = 0.005) -> Findings:
+    """Report collisions of what carries the wheels that reach `tolerance` metres below them all.
+
+    Arms, legs and other moving parts may reach down. A robot on one axle needs something else to
+    stand on, such as a caster: it is passed over.
+    """
+    parts = rolling_parts(robot)
+    if not parts or on_one_axle(parts):
+        return
+    ground = min(part.box.low[2] for part in parts)
+    rolling = {link.scoped_name for part in parts for link in part.links}
+    bodies = rigid_bodies(robot)
+    carrying = {bodies.of_link[name] for name in carriers(robot, parts)}
+    for link in robot.tree.links.values():
+        name = link.scoped_name
+        if name in rolling or bodies.of_link[name] not in carrying:
+            continue
+        for each in placed(robot, link, link.collisions):
+            below = ground - each.box.low[2]
+            if below > tolerance:
+                yield finding(
+                    each.shape.pose,
+                    f"collision {each.shape.name.value!r} of {link.name.value!r} reaches "
+                    f"{below * 1e3:.3g} mm below the wheels",
+                )
+
+
+def _rover(z: float, mark: str = "", link: str = "base_link", rear: bool = True) -> str:
+    ends = (("front", 0.3), ("rear", -0.3)) if rear else (("front", 0.0),)
+    sides = (("left", 0.2), ("right", -0.2))
+    wheels = "".join(_wheel(f"{end}_{side}", x, y) for end, x in ends for side, y in sides)
+    joints = "".join(
+        f"<{side}_joint>{end}_{side}_axle</{side}_joint>" for end, _ in ends for side, _ in sides
+    )
+    body = f"""
+<link name="{link}">
+  <collision name="belly">
+    <pose>0 0 {z} 0 0 0</pose>{mark}
+    <geometry><box><size>0.2 0.2 0.1</size></box></geometry>
+  </collision>
+</link>
+"""
+    base = '<link name="base_link"/>' if link != "base_link" else ""
+    arm = """
+<joint name="shoulder" type="revolute"><parent>base_link</parent><child>arm</child></joint>
+"""
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">
+{base}{body}{wheels}{arm if link == "arm" else ""}
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">{joints}</plugin>
+</model>
+</sdf>
+"""
+
+
+def _wheel(name: str, x: float, y: float) -> str:
+    return f"""
+<link name="{name}">
+  <pose>{x} {y} 0 0 0 0</pose>
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+</link>
+<joint name="{name}_axle" type="revolute">
+  <parent>base_link</parent>
+  <child>{name}</child>
+  <axis><xyz>0 1 0</xyz></axis>
+</joint>
+"""
+
+
+_MARK = "  <!-- ^ GEO011 -->"
+GOOD = [_rover(0.0), _rover(-0.054), _rover(-0.2, link="arm"), _rover(-0.07, rear=False)]
+BAD = [_rover(-0.08, _MARK)]

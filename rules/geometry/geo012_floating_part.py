@@ -1,0 +1,92 @@
+"""A part floats: nothing is near it.
+
+A camera or an antenna in the air beside the robot is mostly a wrong pose: a decimal point, a sign,
+a unit, or the pose of another configuration.
+
+Fix: correct the pose of the shape or of its link; where there is a bracket in reality, show it.
+Source: geometry; boxes along the robot's axes around each collision and visual.
+"""
+
+from collections.abc import Sequence
+
+from checker.model.close_pairs import TooManyPairs, clusters
+from checker.model.components import Collision, Visual
+from checker.model.placed import Placed, placed, union
+from checker.model.robot import Robot
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+
+
+@rule("GEO012", "floating-part", Severity.WARNING)
+def check(robot: Robot, *, gap: float = 0.02) -> Findings:
+    """Report groups of shapes that are more than `gap` metres from all other shapes."""
+    shapes, unknown = _shapes(robot)
+    try:
+        groups = clusters([each.box for each in shapes], gap)
+    except TooManyPairs:
+        yield unchecked("too many shapes lie side by side to look for a floating one")
+        return
+    if len(groups) < 2:
+        return
+    if unknown or robot.missing_parts:
+        reason = robot.missing_parts or f"the extent of {unknown[0].name.value!r} is not known"
+        yield unchecked(f"{reason}, and what seems to float may hang on it")
+        return
+    members = [[shapes[number] for number in group] for group in groups]
+    body = max(members, key=_diagonal)
+    for group in members:
+        if group is not body:
+            yield _floating(group, gap)
+
+
+def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
+    """Return all shapes of a robot, and those whose extent or place is not known."""
+    known: list[Placed] = []
+    for link in robot.links:
+        known += placed(robot, link, (*link.collisions, *link.visuals))
+    found = {each.shape for each in known}
+    given = (shape for shape in robot.shapes() if shape.geometry.shape not in ("", "empty"))
+    return known, [shape for shape in given if shape not in found]
+
+
+def _diagonal(group: Sequence[Placed]) -> float:
+    box = union(each.box for each in group)
+    return box.diagonal if box is not None else 0.0
+
+
+def _floating(group: Sequence[Placed], gap: float) -> Finding:
+    first = group[0]
+    more = f" and {len(group) - 1} more" if len(group) > 1 else ""
+    x, y, z = first.box.centre
+    return finding(
+        first.shape,
+        f"{first.shape.name.value!r}{more} of {first.link.name.value!r} at ({x:.3g}, {y:.3g}, "
+        f"{z:.3g}) m: everything else is more than {gap * 1e3:g} mm away",
+    )
+
+
+def _camera(pose: str, mark: str = "", bracket: str = "") -> str:
+    return f"""
+<link name="body">
+  <visual name="v"><geometry><box><size>1 0.5 0.2</size></box></geometry></visual>
+  {bracket}
+</link>
+<link name="camera">
+  <pose>{pose} 0 0 0</pose>
+  <visual name="case">{mark}
+    <geometry><box><size>0.1 0.1 0.1</size></box></geometry>
+  </visual>
+</link>
+"""
+
+
+_MARK = "  <!-- ^ GEO012 -->"
+_BRACKET = """
+<collision name="c"><pose>0 0 0.25 0 0 0</pose>
+  <geometry><box><size>0.02 0.02 0.3</size></box></geometry>
+</collision>
+"""
+_UNKNOWN = """
+<visual name="m"><geometry><mesh><uri>meshes/wheel.dae</uri></mesh></geometry></visual>
+"""
+GOOD = [_camera("0.4 0 0.15"), _camera("0.4 0 0.165"), _camera("0 0 0.45", bracket=_BRACKET)]
+BAD = [_camera("0 0 0.45", _MARK), _camera("1.5 0 0", _MARK)]

@@ -1,0 +1,172 @@
+"""A wheel turns backwards, or left and right are swapped in the drive plugin.
+
+A joint turns about its axis by the right hand: wheels roll forward, to +x, when their axes point to
+the left, to +y. With one axis reversed the wheels work against each other; with all reversed the
+robot backs up when it is told to advance; with swapped sides it turns the wrong way.
+No accepted package at hand shows it.
+
+Fix: reverse the joint's `<xyz>`, or exchange `<left_joint>` and `<right_joint>`.
+Source: REP 103: x forward, y left; Gazebo's DiffDrive advances by positive rates on both sides.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.components import Joint
+from checker.model.locomotion import Side, Wheel, WheelDrive
+from checker.model.robot import Robot
+from checker.model.transform import Vector
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+
+_LEFT: Vector = (0.0, 1.0, 0.0)
+_UP: Vector = (0.0, 0.0, 1.0)
+
+
+@rule("GEO013", "wheel-turns-backwards", Severity.ERROR)
+def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25) -> Findings:
+    """Report axes that point the wrong way, and wheels on the other side than the plugin says.
+
+    An axis counts whose cosine to the direction it should have is `least_cosine` or more; a wheel
+    is on a side when it is `least_share` of half the wheels' distance off the middle.
+    """
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    for drive in robot.locomotion.wheel_drives:
+        left = _left_of(drive, least_cosine)
+        yield from _reversed(drive, left, least_cosine)
+        yield from _swapped(drive, left, least_share)
+        yield from _steering(robot, drive, least_cosine)
+
+
+def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[Finding]:
+    places = {joint: robot.pose_of_joint(joint) for joint, _ in drive.steering}
+    across = {joint: pose.translation[1] for joint, pose in places.items() if pose is not None}
+    middle = (min(across.values()) + max(across.values())) / 2 if across else 0.0
+    for joint, side in drive.steering:
+        name = joint.name.value
+        axis = robot.axis_in_model(joint, joint.axes[0]) if joint.axes else None
+        upwards = 1.0 if axis is None else _dot(axis, _UP)
+        if upwards < least_cosine:
+            down = "points down: it steers to the other side"
+            lies = "does not point up: it tilts its wheel, expected 0 0 1"
+            yield finding(
+                joint.axes[0].xyz[0],
+                f"axis of steering joint {name!r} {down if upwards <= -least_cosine else lies}",
+                key=f"steering {upwards <= -least_cosine}",
+            )
+        is_on = Side.LEFT if across.get(joint, middle) > middle else Side.RIGHT
+        if across.get(joint, middle) != middle and is_on is not side:
+            yield finding(
+                drive.plugin,
+                f"{drive.plugin.class_name} has steering joint {name!r} on the {side}; it is on "
+                f"the {is_on}",
+                key=f"{drive.plugin.element.path} steering",
+                related=[(joint, "the joint")],
+            )
+
+
+def _left_of(drive: WheelDrive, least_cosine: float) -> Vector:
+    """Return where left is: +y, or for wheels that do not turn about y, where most axes point."""
+    axes = [wheel.axis for wheel in drive.wheels if wheel.axis is not None]
+    if not axes or any(abs(_dot(axis, _LEFT)) >= least_cosine for axis in axes):
+        return _LEFT
+    first = axes[0]
+    backwards = sum(_dot(axis, first) < 0 for axis in axes)
+    return first if backwards * 2 <= len(axes) else (-first[0], -first[1], -first[2])
+
+
+def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[Finding]:
+    known = [wheel for wheel in drive.wheels if wheel.axis is not None]
+    wrong = [w for w in known if w.axis and _dot(w.axis, left) <= -least_cosine]
+    every = len(wrong) == len(known) > 1
+    joints: dict[Joint, Wheel] = {wheel.joint: wheel for wheel in wrong}
+    for joint in joints:
+        what = "like all others: the robot backs up" if every else "the others turn against it"
+        yield finding(
+            joint.axes[0].xyz[0],
+            f"axis of wheel joint {joint.name.value!r} points to the right, {what}",
+            key="all" if every else "",
+        )
+
+
+def _swapped(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Finding]:
+    placed = [(_dot(w.centre, left), w) for w in drive.wheels if w.centre is not None]
+    if len({wheel.side for _, wheel in placed}) < 2:
+        return
+    lowest, highest = min(at for at, _ in placed), max(at for at, _ in placed)
+    middle, half = (lowest + highest) / 2, (highest - lowest) / 2
+    for at, wheel in placed:
+        side = Side.LEFT if at > middle else Side.RIGHT
+        if side is not wheel.side and abs(at - middle) > least_share * half > 0:
+            yield finding(
+                wheel.name,
+                f"{drive.plugin.class_name} has {wheel.name.value!r} on the {wheel.side}; its "
+                f"wheel is {abs(at - middle):.3g} m {side} of the middle",
+                key=f"{drive.plugin.element.path} {wheel.side}",
+                related=[(wheel.joint, "the joint")],
+            )
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _rover(left: str, right: str, plugin: str = "", steering: str = "") -> str:
+    plugin = plugin or "<left_joint>left_axle</left_joint><right_joint>right_axle</right_joint>"
+    return f"""
+{_wheel("left", 0.2, left)}
+{_wheel("right", -0.2, right)}
+{steering}
+<plugin filename="libp.so" name="ignition::gazebo::systems::AckermannSteering">
+  {plugin}
+  <left_steering_joint>kingpin</left_steering_joint>
+</plugin>
+"""
+
+
+def _wheel(name: str, y: float, axis: str) -> str:
+    return f"""
+<link name="{name}"><pose>0 {y} 0 0.3 0 0</pose></link>
+<joint name="{name}_axle" type="revolute">
+  <pose>0 0 0 -0.3 0 0</pose>
+  <parent>base_link</parent>
+  <child>{name}</child>
+  <axis>
+    <xyz>{axis}
+  </axis>
+</joint>
+"""
+
+
+def _kingpin(axis: str) -> str:
+    return f"""
+<link name="knuckle"/>
+<joint name="kingpin" type="revolute">
+  <parent>base_link</parent>
+  <child>knuckle</child>
+  <axis>
+    <xyz>{axis}
+  </axis>
+</joint>
+"""
+
+
+_END = "</xyz>"
+_MARK = "  <!-- ^ GEO013 -->"
+_LEFTWARD, _RIGHTWARD = f"0 1 0{_END}", f"0 -1 0{_END}"
+GOOD = [
+    _rover(_LEFTWARD, _LEFTWARD, steering=_kingpin(f"0 0 1{_END}")),
+    _rover(f"1 0 0{_END}", f"1 0 0{_END}"),
+    _rover(_RIGHTWARD, "0 1 0</xyz>", "<topic>/cmd_vel</topic>"),
+]
+BAD = [
+    _rover(_LEFTWARD, f"{_RIGHTWARD}{_MARK}"),
+    _rover(f"{_RIGHTWARD}{_MARK}", f"{_RIGHTWARD}{_MARK}"),
+    _rover(_LEFTWARD, _LEFTWARD, steering=_kingpin(f"0 0 -1{_END}{_MARK}")),
+    _rover(_LEFTWARD, _LEFTWARD, steering=_kingpin(f"1 0 0{_END}{_MARK}")),
+    _rover(
+        _LEFTWARD,
+        _LEFTWARD,
+        f"""<left_joint>right_axle</left_joint>{_MARK}
+  <right_joint>left_axle</right_joint>{_MARK}""",
+    ),
+]

@@ -1,0 +1,69 @@
+"""The robot as a whole is tiny, huge, featherweight or too heavy.
+
+A robot of 400 m was drawn in millimetres, one of 4 mm had its scale applied twice; masses go wrong
+by grams for kilograms. Contacts and controllers are made for the sizes of real robots.
+No accepted package at hand shows it.
+
+Fix: write lengths in metres and masses in kilograms, and correct the `<scale>` of meshes.
+Source: SDFormat and URDF use SI units; ground and air robots of 5 cm to 10 m and 50 g to 5 t.
+"""
+
+from checker.model.placed import placed, union
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("GEO014", "robot-size", Severity.WARNING)
+def check(
+    robot: Robot,
+    *,
+    smallest: float = 0.05,
+    largest: float = 10.0,
+    lightest: float = 0.05,
+    heaviest: float = 5000.0,
+) -> Findings:
+    """Compare the longest side of the box around all shapes, metres, and the mass, kilograms."""
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
+    shapes = (
+        each.box
+        for link in robot.links
+        for each in placed(robot, link, (*link.collisions, *link.visuals))
+    )
+    box = union(shapes)
+    if box is not None:
+        side = max(high - low for low, high in zip(box.low, box.high, strict=True))
+        if not smallest <= side <= largest:
+            yield finding(
+                robot,
+                f"robot measures {side:.3g} m, expected {smallest:g} to {largest:g} m",
+            )
+    if box is not None and not lightest <= robot.mass <= heaviest:
+        yield finding(
+            robot,
+            f"robot weighs {robot.mass:.3g} kg, expected {lightest:g} to {heaviest:g} kg",
+        )
+
+
+def _robot(size: str, mass: str, mark: str = "") -> str:
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">{mark}
+<link name="base_link">
+  <inertial><mass>{mass}</mass></inertial>
+  <collision name="c"><geometry><box><size>{size}</size></box></geometry></collision>
+</link>
+</model>
+</sdf>
+"""
+
+
+_MARK = "  <!-- ^ GEO014 -->"
+GOOD = [_robot("0.5 0.3 0.01", "12"), "<frame name='no_shapes'/>"]
+BAD = [
+    _robot("500 300 10", "12", _MARK),
+    _robot("0.005 0.003 0.001", "12", _MARK),
+    _robot("0.5 0.3 0.1", "0.012", _MARK),
+    _robot("0.5 0.3 0.1", "12000", _MARK),
+]

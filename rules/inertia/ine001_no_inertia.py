@@ -1,0 +1,117 @@
+"""A link without inertia: the simulator takes 1 kg and 1 kg·m², whatever the link is.
+
+A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
+a kilogram nobody meant hides in the total. It counts for links that a fixed joint ties as well; a
+link that hangs on the world by fixed joints alone never moves, so its mass does not matter.
+In URDF a link without `<inertial>` weighs nothing (URD007), and one with a `<mass>` alone has no
+inertia.
+
+Fix: state mass, pose and inertia of the link, as CAD or the formulas for boxes and cylinders give
+them; of a mere frame, lump the link into its parent.
+Source: SDFormat specification, link/inertial: the defaults.
+"""
+
+from collections.abc import Iterator
+
+from checker.dynamics.mass_properties import MassProperties
+from checker.model.components import Link
+from checker.model.robot import Robot
+from checker.model.tree import WORLD
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+_MOMENTS = 6
+
+
+@rule("INE001", "no-inertia", Severity.ERROR)
+def check(masses: MassProperties) -> Findings:
+    """Report moving links without inertial, without mass, and without any moment of inertia."""
+    if masses.static:
+        return
+    held = _held(masses.robot)
+    for link in masses.robot.links:
+        if link.scoped_name not in held:
+            yield from _missing(link, sdf=masses.robot.format == "sdf")
+
+
+def _missing(link: Link, *, sdf: bool) -> Iterator[Finding]:
+    name = link.name.value
+    inertial = link.inertial
+    taken = "the simulator takes 1 kg·m² about each axis" if sdf else "it counts as zero"
+    if inertial is None:
+        if sdf:
+            yield finding(
+                link,
+                f"link {name!r} has no <inertial>: the simulator takes 1 kg and 1 kg·m²",
+                key="none",
+            )
+    elif _left_to_the_simulator(link):
+        return
+    elif not any(moment.stated for moment in inertial.moments[:_MOMENTS]):
+        yield finding(
+            inertial.mass,
+            f"link {name!r} states a mass and no <inertia>: {taken}",
+            key="no moments",
+        )
+    elif not inertial.mass.stated:
+        weight = "1 kg" if sdf else "no mass"
+        yield finding(
+            inertial, f"link {name!r} states no <mass>: the simulator takes {weight}", key="no mass"
+        )
+
+
+def _left_to_the_simulator(link: Link) -> bool:
+    """SDF 1.11 works inertia out of shapes and density where the model says so."""
+    element = link.element.child("inertial")
+    return element is not None and (element.get("auto") or "").strip().lower() in ("1", "true")
+
+
+def _held(robot: Robot) -> set[str]:
+    """Return the links that fixed joints tie to the world, directly or over others."""
+    fixed: dict[str, list[str]] = {}
+    for tie in robot.tree.ties:
+        if tie.joint.type.value == "fixed":
+            fixed.setdefault(tie.parent, []).append(tie.child)
+            fixed.setdefault(tie.child, []).append(tie.parent)
+    held = {WORLD}
+    waiting = [WORLD]
+    while waiting:
+        for name in fixed.get(waiting.pop(), []):
+            if name not in held:
+                held.add(name)
+                waiting.append(name)
+    return held
+
+
+_INERTIA = "<inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia>"
+
+
+def _arm(inertial: str, mark: str = "", above: str = "base_link", kind: str = "fixed") -> str:
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">
+<link name="base_link"><inertial><mass>5</mass>{_INERTIA}</inertial></link>
+<link name="arm">{mark}
+  {inertial}
+</link>
+<joint name="elbow" type="{kind}">
+  <parent>{above}</parent>
+  <child>arm</child>
+  <axis><xyz>0 0 1</xyz></axis>
+</joint>
+</model>
+</sdf>
+"""
+
+
+_MARK = "<!-- ^ INE001 -->"
+GOOD = [
+    _arm(f"<inertial><mass>2</mass>{_INERTIA}</inertial>"),
+    _arm("", above="world"),
+    "<static>true</static>",
+]
+BAD = [
+    _arm("", _MARK),
+    _arm("", _MARK, above="world", kind="revolute"),
+    _arm(f"<inertial>\n<mass>2</mass>{_MARK}</inertial>"),
+    _arm(f"<inertial>{_MARK}{_INERTIA}</inertial>"),
+]

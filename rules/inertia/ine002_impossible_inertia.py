@@ -1,0 +1,116 @@
+"""A mass or inertia that no body can have.
+
+Physics engines divide by them: the robot flies apart, drifts off by itself, or is not loaded at
+all. Of the three principal moments, two together must be at least the third: a plate reaches
+equality, nothing goes beyond. One number tells all of it, the smallest eigenvalue of the
+pseudo-inertia, which is the matrix of the second moments of mass: it must not be negative.
+
+Fix: take mass, centre of mass and inertia from CAD, all of them in kg and m and about the centre of
+mass; a moment that is too large by a factor of 1000 or a sign that is lost shows by itself.
+Source: Wensing, Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
+parameter identification", 2018; libsdformat 12 refuses negative masses and impossible moments,
+and takes a mass of zero.
+"""
+
+import math
+from collections.abc import Iterator
+
+from checker.dynamics.mass_properties import LinkInertia, MassProperties
+from checker.model.components import Inertial
+from checker.model.faults import FaultKind
+from checker.model.robot import Robot
+from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.source.text import Span
+
+
+@rule("INE002", "impossible-inertia", Severity.ERROR)
+def check(masses: MassProperties, context: Context, *, tolerance: float = 1e-13) -> Findings:
+    """Report masses that are not positive and finite, and moments that no body has.
+
+    A smallest eigenvalue of the pseudo-inertia down to -`tolerance` times the largest is rounding.
+    Where no simulator is aimed at, what libsdformat takes is a warning.
+    """
+    readable = Severity.ERROR if context.release else Severity.WARNING
+    misread = _misread(masses.robot)
+    for inertia in masses.links.values():
+        inertial = inertia.link.inertial
+        if inertial is None or _spans(inertial) & misread:
+            continue
+        yield from _mass(inertia, inertial, readable)
+        yield from _moments(inertia, inertial, readable, tolerance)
+
+
+def _spans(inertial: Inertial) -> set[Span]:
+    return {number.span for number in (inertial.mass, *inertial.moments)}
+
+
+def _misread(robot: Robot) -> set[Span]:
+    """Return where numbers do not read as such: the rules on syntax report these."""
+    if robot.format != "sdf":
+        return set()
+    return {fault.span for fault in robot.faults_of(FaultKind.VALUE)}
+
+
+def _mass(inertia: LinkInertia, inertial: Inertial, readable: Severity) -> Iterator[Finding]:
+    if not 0.0 < inertia.mass < math.inf:
+        yield finding(
+            inertial.mass,
+            f"link {inertia.link.name.value!r} has a mass of {inertia.mass:g} kg, expected a "
+            "positive number",
+            severity=Severity.ERROR if inertia.mass < 0.0 else readable,
+        )
+
+
+def _moments(
+    inertia: LinkInertia, inertial: Inertial, readable: Severity, tolerance: float
+) -> Iterator[Finding]:
+    name = inertia.link.name.value
+    if any(math.isnan(moment) for moment in inertia.principal):
+        wrong = next(each for each in inertial.moments if not math.isfinite(each.value))
+        yield finding(
+            wrong,
+            f"link {name!r} has a moment of inertia of {wrong.value:g} kg·m², expected a finite "
+            "number",
+            severity=readable,
+        )
+        return
+    # A negative mass makes the eigenvalue negative by itself; it is said already.
+    if inertia.mass < 0.0 or not inertia.pseudo_eigenvalue < -tolerance:
+        return
+    first, second, third = inertia.principal
+    said = ", ".join(f"{moment:.4g}" for moment in inertia.principal)
+    less = f"{first:.4g} + {second:.4g} is less than {third:.4g}"
+    why = f"{first:.4g} is negative" if first < 0.0 else less
+    yield finding(
+        inertia.moments_span,
+        f"link {name!r} has the principal moments {said} kg·m², which no body can have: {why}",
+    )
+
+
+def _link(mass: str, ixx: str, iyy: str, izz: str, ixy: str = "0", mark: str = "") -> str:
+    return f"""
+<inertial>
+  <mass>{mass}</mass>
+  <inertia>{mark}
+    <ixx>{ixx}</ixx>
+    <ixy>{ixy}</ixy>
+    <iyy>{iyy}</iyy>
+    <izz>{izz}</izz>
+  </inertia>
+</inertial>
+"""
+
+
+_MARK = "  <!-- ^ INE002 -->"
+GOOD = [
+    _link("2", "1", "1", "2"),
+    _link("2", "0.01", "0.02", "0.025", "0.004"),
+    _link("2", "0", "1", "1"),
+]
+BAD = [
+    _link("2", "1", "1", "3", mark=_MARK),
+    _link("2", "-1", "1", "1", mark=_MARK),
+    _link("2", "1", "1", "1", "2", mark=_MARK),
+    _link(f"0</mass>{_MARK}<mass>5", "1", "1", "1"),
+    _link(f"-2</mass>{_MARK}<mass>5", "1", "1", "1"),
+]

@@ -1,0 +1,73 @@
+"""A principal moment of inertia is zero: nothing resists a turn about that axis.
+
+MuJoCo refuses such a body, other engines divide by it. Only a line without width has a moment of
+zero, and only a point has three. A part that is fixed to others with inertia is harmless: they
+move as one body; then this is information.
+
+Fix: state the moments of the part as it is, or of a small box of its size: m/12·(b² + c²).
+Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must be positive.
+"""
+
+from checker.dynamics.mass_properties import LinkInertia, MassProperties
+from checker.model.rigid import rigid_bodies
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("INE003", "zero-moment", Severity.ERROR)
+def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-9) -> Findings:
+    """Report possible inertias with a principal moment of zero.
+
+    That is one below `least` kg·m² or `relative` times the largest.
+    """
+    if masses.static:
+        return
+    body = rigid_bodies(masses.robot).of_link
+    sound = {body[name] for name, link in masses.links.items() if not _zero(link, least, relative)}
+    for name, inertia in masses.links.items():
+        if inertia.link.inertial is None or not _possible(inertia):
+            continue
+        if not _zero(inertia, least, relative):
+            continue
+        said = ", ".join(f"{abs(moment):.4g}" for moment in inertia.principal)
+        alone = body[name] not in sound
+        tied = "" if alone else "; it is fixed to links that have inertia"
+        yield finding(
+            inertia.moments_span,
+            f"link {inertia.link.name.value!r} has the principal moments {said} kg·m², expected "
+            f"none of zero{tied}",
+            severity=Severity.ERROR if alone else Severity.INFO,
+        )
+
+
+def _possible(inertia: LinkInertia, tolerance: float = 1e-12) -> bool:
+    """Leave what no body can have to INE002."""
+    return inertia.mass > 0.0 and inertia.pseudo_eigenvalue >= -tolerance
+
+
+def _zero(inertia: LinkInertia, least: float, relative: float) -> bool:
+    return inertia.principal[0] <= max(least, relative * inertia.principal[2])
+
+
+def _link(name: str, moments: tuple[float, float, float], mark: str = "") -> str:
+    xx, yy, zz = moments
+    return f"""
+<link name="{name}">
+  <inertial>
+    <mass>1</mass>
+    <inertia>{mark}<ixx>{xx}</ixx><iyy>{yy}</iyy><izz>{zz}</izz></inertia>
+  </inertial>
+</link>
+"""
+
+
+_FIXED = """
+<joint name="weld" type="fixed"><parent>body</parent><child>antenna</child></joint>
+"""
+_MARK = "  <!-- ^ INE003 -->"
+_BODY, _ROD = (0.1, 0.1, 0.1), (0.1, 0.1, 0.0)
+GOOD = [_link("body", _BODY), _link("body", (1e-7, 1e-7, 1e-7))]
+BAD = [
+    _link("antenna", _ROD, _MARK),
+    _link("antenna", (0.0, 0.0, 0.0), _MARK),
+    _link("body", _BODY) + _link("antenna", _ROD, _MARK) + _FIXED,
+]

@@ -1,0 +1,66 @@
+"""A centre of mass outside the link's own shapes.
+
+The link swings about a point beside itself, and the robot leans to a side where nothing is. Mostly
+the pose of `<inertial>` is that of another frame, or in millimetres. For the centre of a body to
+be outside a box around it is impossible.
+
+Fix: give the pose of `<inertial>` relative to the link's own frame, in metres; check that shapes
+and inertia belong to the same part.
+Source: definition of the centre of mass; SDFormat specification, inertial/pose.
+"""
+
+import math
+
+from checker.dynamics.link_geometry import known_box, not_looked_at
+from checker.dynamics.mass_properties import MassProperties
+from checker.model.boxes import Box
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("INE005", "centre-of-mass-outside-link", Severity.ERROR)
+def check(
+    masses: MassProperties,
+    *,
+    error_above: float = 0.5,
+    warning_above: float = 0.05,
+    share: float = 0.02,
+) -> Findings:
+    """Report centres of mass outside the box around a link's shapes, relative to its diagonal.
+
+    Links with less than `share` of the robot's mass may be placeholders and are passed over.
+    """
+    for name, inertia in masses.links.items():
+        inertial, centre = inertia.link.inertial, inertia.centre
+        if inertial is None or centre is None or not masses.share(name) > share:
+            continue
+        box = known_box(masses.robot, inertia.link)
+        outside = math.inf if box is None else box.gap(Box(centre, centre))
+        if box is not None and outside <= warning_above * box.diagonal:
+            continue
+        unknown = not_looked_at(masses.robot, inertia.link)
+        if unknown:
+            yield unchecked(unknown)
+        elif box is not None and box.diagonal > 0.0:
+            grave = outside > error_above * box.diagonal
+            yield finding(
+                inertial.pose,
+                f"the centre of mass of link {inertia.link.name.value!r} is {outside:.3g} m "
+                f"outside its shapes, which measure {box.diagonal:.3g} m from corner to corner",
+                severity=Severity.ERROR if grave else Severity.WARNING,
+            )
+
+
+def _body(x: float, mark: str = "") -> str:
+    return f"""
+<inertial>
+  <pose>{x} 0 0 0 0 0</pose>{mark}
+  <mass>2</mass>
+  <inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia>
+</inertial>
+<collision name="c"><geometry><box><size>0.6 0.4 0.2</size></box></geometry></collision>
+"""
+
+
+_MARK = "  <!-- ^ INE005 -->"
+GOOD = [_body(0), _body(0.29), _body(0.31)]
+BAD = [_body(0.4, _MARK), _body(0.9, _MARK)]

@@ -1,0 +1,109 @@
+"""A mass that does not fit the size of the link: lighter than foam, or heavier than lead.
+
+Mostly a unit is wrong (grams, millimetres, pounds), or a mass is copied from another part. A robot
+that is a hundred times too heavy drives in simulation as the right one does, but pushes everything
+out of its way.
+
+Shapes may lie in one another, so the least volume that they can fill together counts against a
+light link and the greatest against a heavy one. A collision may cover a part of the link only:
+against a heavy link the visuals count as well. A mesh that is not closed counts by its convex hull.
+
+Fix: correct the mass in kg, or the size of the shapes in m.
+Source: densities of materials: foams from 15 kg/m³ on, aluminium 2 700, steel 7 850, lead 11 340.
+"""
+
+from collections.abc import Iterator
+
+from checker.dynamics.link_geometry import not_looked_at, volume_bounds
+from checker.dynamics.mass_properties import LinkInertia, MassProperties
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+
+
+@rule("INE006", "implausible-density", Severity.WARNING)
+def check(
+    masses: MassProperties,
+    *,
+    lightest: float = 10.0,
+    heaviest: float = 8000.0,
+    impossible: float = 25000.0,
+    share: float = 0.02,
+    volume_share: float = 0.25,
+) -> Findings:
+    """Report links of less than `lightest` or more than `heaviest` kg/m³.
+
+    Above `impossible`, more than any metal, it is an error. Links with less than `share` of the
+    robot's mass may be placeholders and are passed over, unless they fill more than
+    `volume_share` of its collisions' volume.
+    """
+    large = _large(masses, volume_share)
+    for name, inertia in masses.links.items():
+        link = inertia.link
+        counts = masses.share(name) > share or name in large
+        if link.inertial is None or not link.collisions or not counts:
+            continue
+        unknown = not_looked_at(masses.robot, link)
+        if unknown:
+            yield unchecked(unknown)
+            continue
+        collisions = volume_bounds(masses.robot, link.collisions)
+        visuals = volume_bounds(masses.robot, link.visuals)
+        if collisions is None or (visuals is None and link.visuals):
+            continue
+        most = max(collisions[1], visuals[1] if visuals is not None else 0.0)
+        if most > 0.0 and inertia.mass / most > heaviest:
+            grave = inertia.mass / most > impossible
+            severity = Severity.ERROR if grave else Severity.WARNING
+            yield from _say(inertia, most, f"at most {heaviest:g}", severity)
+        elif collisions[0] > 0.0 and inertia.mass / collisions[0] < lightest:
+            yield from _say(inertia, collisions[0], f"at least {lightest:g}", Severity.WARNING)
+
+
+def _large(masses: MassProperties, share: float) -> set[str]:
+    """Return the links that fill more than a share of the collisions' volume."""
+    bounds = {
+        name: volume_bounds(masses.robot, inertia.link.collisions)
+        for name, inertia in masses.links.items()
+    }
+    least = {name: known[0] for name, known in bounds.items() if known is not None}
+    total = sum(least.values())
+    return {name for name, volume in least.items() if volume > share * total}
+
+
+def _say(
+    inertia: LinkInertia, volume: float, expected: str, severity: Severity
+) -> Iterator[Finding]:
+    if inertia.link.inertial is not None:
+        yield finding(
+            inertia.link.inertial.mass,
+            f"link {inertia.link.name.value!r} weighs {inertia.mass:.4g} kg in "
+            f"{1000 * volume:.3g} litres: {inertia.mass / volume:.3g} kg/m³, expected {expected}",
+            severity=severity,
+        )
+
+
+def _box(mass: float, mark: str = "", size: str = "0.1 0.1 0.1", more: str = "") -> str:
+    return f"""
+<inertial>
+  <mass>{mass}</mass>{mark}
+  <inertia><ixx>0.001</ixx><iyy>0.001</iyy><izz>0.001</izz></inertia>
+</inertial>
+<collision name="c"><geometry><box><size>{size}</size></box></geometry></collision>
+{more}
+"""
+
+
+_MARK = "  <!-- ^ INE006 -->"
+_HOUSING = '<visual name="v"><geometry><box><size>0.1 0.1 0.1</size></box></geometry></visual>'
+GOOD = [_box(2), _box(7.8), _box(2, size="0.1 0.1 0.001", more=_HOUSING)]
+_BESIDE = """
+<link name="ballast">
+  <inertial><mass>4</mass></inertial>
+  <collision name="c"><geometry><box><size>0.1 0.1 0.1</size></box></geometry></collision>
+</link>
+"""
+BAD = [
+    _box(9, _MARK),
+    _box(100, _MARK),
+    _box(0.005, _MARK),
+    f"<link name='foam'>{_box(0.005, _MARK)}</link>{_BESIDE}",
+]

@@ -1,0 +1,110 @@
+"""Moments of inertia that stand for a link until somebody works them out.
+
+The unit tensor is the default of exporters: a hand-sized part with 1 kg·m² turns as if it weighed
+a ton. One tensor for links of different mass or size is copied, and right for one of them at most.
+
+Fix: work out the moments of each link, from CAD or by the formula of the nearest solid.
+Source: Model Migration Guide; review of exported models.
+"""
+
+from collections.abc import Iterator, Sequence
+
+from checker.dynamics.mass_properties import LinkInertia, MassProperties
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+_UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+
+
+@rule("INE007", "placeholder-inertia", Severity.WARNING)
+def check(
+    masses: MassProperties, *, links: int = 3, share: float = 0.02, alike: float = 0.1
+) -> Findings:
+    """Report unit tensors, and one tensor on `links` links or more that are not alike.
+
+    Links are alike when their masses differ by less than `alike` of the larger, and so do the
+    diagonals of the boxes around them. Links below `share` of the robot's mass are passed over
+    when tensors are compared: frames of sensors are placeholders all alike.
+    """
+    by_tensor: dict[tuple[float, ...], list[LinkInertia]] = {}
+    for name, inertia in masses.links.items():
+        tensor = _stated(inertia)
+        if tensor == _UNIT:
+            yield from _unit(inertia)
+        elif any(tensor) and masses.share(name) > share:
+            by_tensor.setdefault(tensor, []).append(inertia)
+    for tensor, group in by_tensor.items():
+        if len(group) >= links and not _alike(masses, group, alike):
+            yield from _repeated(group, tensor)
+
+
+def _stated(inertia: LinkInertia) -> tuple[float, ...]:
+    """Return the moments that the file states; nothing for those that it leaves out."""
+    inertial = inertia.link.inertial
+    if inertial is None or not any(moment.stated for moment in inertial.moments):
+        return ()
+    return tuple(moment.value for moment in inertial.moments)
+
+
+def _unit(inertia: LinkInertia) -> Iterator[Finding]:
+    if inertia.link.inertial is not None:
+        yield finding(
+            inertia.moments_span,
+            f"link {inertia.link.name.value!r} of {inertia.mass:.4g} kg has the unit tensor, "
+            "1 kg·m² about each axis",
+            key="unit",
+        )
+
+
+def _alike(masses: MassProperties, group: Sequence[LinkInertia], tolerance: float) -> bool:
+    weights = [inertia.mass for inertia in group]
+    boxes = [masses.robot.box_of(inertia.link) for inertia in group]
+    sizes = [box.diagonal for box in boxes if box is not None]
+    return _near(weights, tolerance) and _near(sizes, tolerance)
+
+
+def _near(values: Sequence[float], tolerance: float) -> bool:
+    return not values or max(values) - min(values) <= tolerance * max(values)
+
+
+def _repeated(group: Sequence[LinkInertia], tensor: Sequence[float]) -> Iterator[Finding]:
+    said = ", ".join(f"{tensor[i]:.4g}" for i in (0, 3, 5))
+    first = group[0].link.name.value
+    for inertia in group:
+        if inertia.link.inertial is not None:
+            yield finding(
+                inertia.moments_span,
+                f"link {inertia.link.name.value!r} and {len(group) - 1} more of other mass or "
+                f"size have one inertia tensor (ixx, iyy, izz = {said} kg·m²)",
+                key=f"copied {first}",
+            )
+
+
+def _links(*parts: tuple[str, float, float], moments: str, marked: bool = False) -> str:
+    mark = "  <!-- ^ INE007 -->" if marked else ""
+    return "".join(
+        f"""
+<link name="{name}">
+  <inertial>
+    <mass>{mass}</mass>
+    <inertia>{mark}
+      <ixx>{moments}</ixx>
+      <iyy>{moments}</iyy><izz>{moments}</izz>
+    </inertia>
+  </inertial>
+  <collision name="c"><geometry><sphere><radius>{radius}</radius></sphere></geometry></collision>
+</link>
+"""
+        for name, mass, radius in parts
+    )
+
+
+_WHEELS = (("left", 2.0, 0.1), ("right", 2.0, 0.1), ("rear", 2.0, 0.1))
+GOOD = [
+    _links(*_WHEELS, moments="0.008"),
+    _links(("body", 2.0, 0.1), ("camera", 0.01, 0.02), ("lidar", 0.02, 0.05), moments="0.01"),
+]
+BAD = [
+    _links(("body", 2.0, 0.1), moments="1", marked=True),
+    _links(("body", 9.0, 0.3), *_WHEELS, moments="0.008", marked=True),
+    _links(("body", 2.0, 0.3), *_WHEELS, moments="0.008", marked=True),
+]

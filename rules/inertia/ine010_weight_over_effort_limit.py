@@ -1,0 +1,83 @@
+"""A joint that cannot hold the weight of what hangs on it.
+
+In the pose that the robot starts in, gravity asks for more torque than the joint's effort limit:
+the gimbal or arm sags as soon as the simulation runs, whatever its controller does. Joints above
+something that stands on the ground are left out, for the ground carries their part of the weight.
+
+Fix: write the motor's stall torque (behind its gear) as the effort limit, or correct the masses
+and centres of mass of what hangs on the joint.
+Source: statics; SDFormat specification, axis/limit/effort.
+"""
+
+import math
+from collections.abc import Iterator
+
+from checker.dynamics.mass_properties import MassProperties
+from checker.model.components import Joint
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("INE010", "weight-over-effort-limit", Severity.WARNING)
+def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
+    """Report driven joints that hold more than `factor` times their effort limit.
+
+    In URDF, where transmissions drive joints, all joints with a limit count.
+    """
+    robot = masses.robot
+    unknown = robot.missing_parts or masses.support_unknown or robot.unread_plugins
+    if masses.static:
+        return
+    if unknown:
+        yield unchecked(unknown)
+        return
+    for joint, torque, limit in _held(masses):
+        driven = robot.format == "urdf" or joint.scoped_name in robot.driven_joints
+        if driven and abs(torque) > factor * limit:
+            unit = "N" if joint.type.value == "prismatic" else "N·m"
+            yield finding(
+                joint.axes[0].effort,
+                f"joint {joint.name.value!r} has to hold {abs(torque):.3g} {unit} against gravity, "
+                f"its effort limit is {limit:.3g} {unit}",
+            )
+
+
+def _held(masses: MassProperties) -> Iterator[tuple[Joint, float, float]]:
+    """Yield joints with an effort limit: the joint, what it holds, and the limit."""
+    for joint, torque in masses.gravity_torques.items():
+        limit = joint.axes[0].effort.value if joint.axes else math.inf
+        if 0.0 <= limit < math.inf:
+            yield joint, torque, limit
+
+
+def _arm(effort: str, mark: str = "", plugin: str = "JointPositionController") -> str:
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">
+<link name="base_link">
+  <inertial><mass>20</mass></inertial>
+  <collision name="c"><geometry><box><size>1 1 0.2</size></box></geometry></collision>
+</link>
+<link name="arm">
+  <pose>0 0 0.5 0 0 0</pose>
+  <inertial><pose>0.5 0 0 0 0 0</pose><mass>2</mass></inertial>
+</link>
+<joint name="shoulder" type="revolute">
+  <parent>base_link</parent>
+  <child>arm</child>
+  <axis>
+    <xyz>0 1 0</xyz>
+    <limit><lower>-1</lower><upper>1</upper>
+      <effort>{effort}</effort>{mark}
+    </limit>
+  </axis>
+</joint>
+<plugin filename="libp.so" name="ignition::gazebo::systems::{plugin}">
+  <joint_name>shoulder</joint_name>
+</plugin>
+</model>
+</sdf>
+"""
+
+
+GOOD = [_arm("12"), _arm("-1"), _arm("1", plugin="JointStatePublisher")]
+BAD = [_arm("8", "  <!-- ^ INE010 -->")]

@@ -1,0 +1,82 @@
+"""A link of almost no mass between heavy parts of the robot.
+
+Solvers that work joint by joint carry the weight of one side to the other through the light link,
+and lose as many digits as the masses differ: the joint gives way, trembles, or needs very small
+time steps. Links that fixed joints tie count as one body; a light link at the end of a chain is
+harmless.
+
+Fix: give the link the mass of the bearing or motor that it stands for, or fix it to a neighbour.
+Source: general experience with iterative contact solvers; the ratio is a starting point.
+"""
+
+from collections.abc import Iterator
+
+from checker.dynamics.hanging import Hanging, hang
+from checker.dynamics.mass_properties import MassProperties
+from checker.model.rigid import rigid_bodies
+from checker.model.tree import WORLD, Tie
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+
+@rule("INE012", "light-link-between-heavy-ones", Severity.INFO)
+def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -> Findings:
+    """Report joints across which masses differ by more than `ratio`.
+
+    Of the robot's mass, more than `share` must be on either side of the joint, all that hangs
+    there counted.
+    """
+    hanging = hang(masses.robot)
+    body = rigid_bodies(masses.robot).of_link
+    weight = dict.fromkeys(body.values(), 0.0)
+    for name, inertia in masses.links.items():
+        weight[body[name]] += max(inertia.mass, 0.0)
+    below = _below(masses, hanging)
+    total = sum(weight.values())
+    for name, tie in hanging.by.items():
+        if tie.parent == WORLD or body[tie.parent] == body[name]:
+            continue
+        if min(below[name], total - below[name]) > share * total:
+            yield from _across(tie, weight[body[name]], weight[body[tie.parent]], ratio)
+
+
+def _below(masses: MassProperties, hanging: Hanging) -> dict[str, float]:
+    """Return the mass of each link with all that hangs on it, kg."""
+    below = {name: max(masses.links[name].mass, 0.0) for name in hanging.order}
+    for name in reversed(hanging.order):
+        tie = hanging.by.get(name)
+        if tie is not None and tie.parent != WORLD:
+            below[tie.parent] += below[name]
+    return below
+
+
+def _across(tie: Tie, child: float, parent: float, ratio: float) -> Iterator[Finding]:
+    light, heavy = sorted((child, parent))
+    if light > 0.0 and heavy > ratio * light:
+        yield finding(
+            tie.joint,
+            f"joint {tie.joint.name.value!r} ties {tie.parent!r} of {parent:.3g} kg and "
+            f"{tie.child!r} of {child:.3g} kg, and heavy parts hang on both sides of it",
+        )
+
+
+def _chain(middle: float, mark: str = "", last: float = 5.0) -> str:
+    def link(name: str, mass: float) -> str:
+        return f'<link name="{name}"><inertial><mass>{mass}</mass></inertial></link>\n'
+
+    def joint(parent: str, child: str) -> str:
+        heavier = mark if parent == "base_link" or last * 1e4 > middle else ""
+        return f"""
+<joint name="{child}_joint" type="revolute">{heavier}
+  <parent>{parent}</parent>
+  <child>{child}</child>
+  <axis><xyz>0 1 0</xyz></axis>
+</joint>
+"""
+
+    links = link("base_link", 20) + link("hinge", middle) + link("arm", last)
+    parts = links + joint("base_link", "hinge") + joint("hinge", "arm")
+    return f'<sdf version="1.6"><model name="acme_rover_sensor_config_1">{parts}</model></sdf>'
+
+
+GOOD = [_chain(0.05), _chain(1e-5, last=1e-4)]
+BAD = [_chain(1e-5, "  <!-- ^ INE012 -->")]

@@ -1,0 +1,1 @@
+"""MSH: mesh files."""

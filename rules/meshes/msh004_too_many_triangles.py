@@ -1,0 +1,80 @@
+"""A mesh with more triangles than a simulation can afford.
+
+Collision meshes are tested against each other at every step; visual meshes are drawn once more
+for each camera and each lidar of the robot.
+
+Fix: reduce the mesh (Blender: Decimate); let collisions be boxes, cylinders and spheres.
+Source: Model Migration Guide and review findings; the figures are ten times what the accepted
+packages at hand need.
+"""
+
+from checker.model.mesh import Mesh
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("MSH004", "too-many-triangles", Severity.WARNING)
+def check(
+    robot: Robot, *, collision: int = 20_000, visual: int = 200_000, together: int = 1_000_000
+) -> Findings:
+    """Report meshes above the number for their use, and a robot whose meshes sum up to more.
+
+    A mesh that is used several times counts as often.
+    """
+    for reason in robot.unseen_meshes:
+        yield unchecked(reason)
+    total = 0
+    for use in robot.mesh_uses:
+        triangles = use.file.triangles if isinstance(use.file, Mesh) else 0
+        total += triangles
+        most = collision if use.is_collision else visual
+        if triangles > most:
+            kind = "collision" if use.is_collision else "visual"
+            yield finding(
+                use.uri,
+                f"{kind} mesh {use.uri.value} has {triangles:,} triangles, "
+                f"expected at most {most:,}",
+            )
+    if total > together:
+        yield finding(
+            robot,
+            f"the meshes of the robot have {total:,} triangles together, "
+            f"expected at most {together:,}",
+        )
+
+
+def _link(parts: str, mark: str = "") -> str:
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">{mark}
+<link name="base_link">{parts}</link>
+</model>
+</sdf>
+"""
+
+
+def _mesh(kind: str, mark: str = "", name: str = "a") -> str:
+    return f"""
+<{kind} name="{name}"><geometry><mesh>
+  <uri>meshes/part.obj</uri>{mark}
+</mesh></geometry></{kind}>
+"""
+
+
+def _strip(triangles: int) -> str:
+    """Return an OBJ file of one triangle, many times."""
+    return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "f 1 2 3\n" * triangles
+
+
+_MARK = "  <!-- ^ MSH004 -->"
+_MANY = "".join(_mesh("visual", name=str(number)) for number in range(6))
+
+GOOD = [
+    {"@fragment": _link(_mesh("collision")), "meshes/part.obj": _strip(19_000)},
+    {"@fragment": _link(_mesh("visual")), "meshes/part.obj": _strip(190_000)},
+]
+BAD = [
+    {"@fragment": _link(_mesh("collision", _MARK)), "meshes/part.obj": _strip(21_000)},
+    {"@fragment": _link(_mesh("visual", _MARK)), "meshes/part.obj": _strip(201_000)},
+    {"@fragment": _link(_MANY, _MARK), "meshes/part.obj": _strip(190_000)},
+]

@@ -1,0 +1,89 @@
+r"""A texture that a mesh file names and that is not there.
+
+The part is plain grey. Gazebo looks in the mesh's folder, then in `materials/textures` beside it;
+a path such as `C:\Users\me\paint.png` holds on one machine alone.
+
+Fix: put the picture where the mesh file says, or correct the path inside the mesh file.
+Source: Model Migration Guide, step 7; gz-common, `Material::SetTextureImage`, which tries
+`<folder of the mesh>/<name>` and `<folder of the mesh>/../materials/textures/<name>`.
+"""
+
+import posixpath
+import re
+from collections.abc import Iterator
+from urllib.parse import unquote
+
+from checker.model.components import Visual
+from checker.model.mesh import Mesh, MeshUse
+from checker.model.robot import Robot
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+_ABSOLUTE = re.compile(r"/|[A-Za-z]:[\\/]|file:|\\\\", re.IGNORECASE)
+_ON_A_SERVER = re.compile(r"https?:", re.IGNORECASE)
+
+
+@rule("MSH006", "mesh-texture-missing", Severity.WARNING)
+def check(package: Package, robot: Robot) -> Findings:
+    """Report files that the meshes of visuals name, where the model gives no texture itself."""
+    for reason in robot.unseen_meshes:
+        yield unchecked(reason)
+    for use in robot.mesh_uses:
+        if not isinstance(use.file, Mesh) or use.is_collision or _has_own_texture(use):
+            continue
+        for name in (*use.file.materials, *use.file.textures):
+            if _ON_A_SERVER.match(name) or any(map(package.exists, _paths(use.file, name))):
+                continue
+            absolute = "an absolute path" if _ABSOLUTE.match(name) else "which does not exist"
+            kind = "material file" if name in use.file.materials else "texture"
+            yield finding(use.uri, f"{use.uri.value} names the {kind} {name}, {absolute}")
+
+
+def _paths(mesh: Mesh, name: str) -> Iterator[str]:
+    """Yield where Gazebo looks for a picture; `%20` is read as a space as well."""
+    if _ABSOLUTE.match(name):
+        return
+    folder = posixpath.dirname(mesh.path)
+    for written in (name, unquote(name)):
+        yield posixpath.normpath(posixpath.join(folder, written))
+        yield posixpath.normpath(posixpath.join(folder, "../materials/textures", written))
+
+
+def _has_own_texture(use: MeshUse) -> bool:
+    material = use.shape.material if isinstance(use.shape, Visual) else None
+    return material is not None and bool(material.textures)
+
+
+def _visual(mark: str = "", material: str = "") -> str:
+    return f"""
+<visual name="v"><geometry><mesh>
+  <uri>meshes/part.obj</uri>{mark}
+</mesh></geometry>{material}</visual>
+"""
+
+
+def _textured(picture: str) -> dict[str, str]:
+    return {
+        "meshes/part.obj": "mtllib part.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "meshes/part.mtl": f"newmtl paint\nmap_Kd {picture}\n",
+    }
+
+
+_MARK = "  <!-- ^ MSH006 -->"
+_PBR = "<material><pbr><metal><albedo_map>b.png</albedo_map></metal></pbr></material>"
+
+GOOD = [
+    {"@fragment": _visual(), **_textured("a.png"), "meshes/a.png": ""},
+    {"@fragment": _visual(), **_textured("-s 1 1 a b.png"), "materials/textures/a b.png": ""},
+    {"@fragment": _visual(material=_PBR), **_textured("a.png")},
+]
+BAD = [
+    {"@fragment": _visual(_MARK), **_textured("a.png")},
+    {"@fragment": _visual(_MARK), **_textured("C:\\pictures\\a.png"), "meshes/a.png": ""},
+    {
+        "@fragment": _visual(_MARK),
+        **_textured("a.png"),
+        "meshes/a.png": "",
+        "meshes/part.mtl": None,
+    },
+]

@@ -1,0 +1,67 @@
+"""A collision mesh that is no closed surface.
+
+What is inside and what outside is undefined: contact normals flip, things get stuck in it or fall
+through a hole. Mostly a visual mesh was reused as it is.
+
+Fix: use boxes, cylinders and spheres; or close the holes, recalculate the normals outwards and
+remove degenerate faces (Blender: Merge by Distance, Fill Holes, Recalculate Outside).
+Source: geometry; engines such as ODE, Bullet and DART collide triangles from their outside.
+"""
+
+import math
+from collections.abc import Iterator
+
+from checker.model.mesh import Mesh, MeshUse
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("MSH010", "open-collision-mesh", Severity.WARNING)
+def check(robot: Robot) -> Findings:
+    """Report collision meshes with holes, inside out, or with triangles without area."""
+    for reason in robot.unseen_meshes:
+        yield unchecked(reason)
+    for use in robot.mesh_uses:
+        mesh = use.mesh
+        if mesh is not None and use.is_collision and (faults := list(_faults(use, mesh))):
+            yield finding(use.uri, f"collision mesh {use.uri.value} {', '.join(faults)}")
+
+
+def _faults(use: MeshUse, mesh: Mesh) -> Iterator[str]:
+    if not mesh.watertight:
+        yield "is not watertight"
+    elif mesh.volume is None:
+        yield "has triangles that face in and others that face out"
+    # A scale that mirrors the mesh turns its triangles over.
+    elif mesh.volume * math.prod(use.scale) < 0:
+        yield "is inside out"
+    if mesh.degenerate:
+        yield f"has {mesh.degenerate:,} of {mesh.triangles:,} triangles without area"
+
+
+def _collision(mark: str = "", scale: str = "1 1 1") -> str:
+    return f"""
+<collision name="c"><geometry><mesh>
+  <uri>meshes/part.obj</uri>{mark}
+  <scale>{scale}</scale>
+</mesh></geometry></collision>
+"""
+
+
+_CORNERS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+_CLOSED = _CORNERS + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+_INSIDE_OUT = _CORNERS + "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n"
+_OPEN = _CORNERS + "f 1 3 2\nf 1 2 4\nf 2 3 4\n"
+_MARK = "  <!-- ^ MSH010 -->"
+
+GOOD = [
+    {"@fragment": _collision(), "meshes/part.obj": _CLOSED},
+    {"@fragment": _collision(scale="-1 1 1"), "meshes/part.obj": _INSIDE_OUT},
+    {"@fragment": _collision().replace("collision", "visual"), "meshes/part.obj": _OPEN},
+]
+BAD = [
+    {"@fragment": _collision(_MARK), "meshes/part.obj": _OPEN},
+    {"@fragment": _collision(_MARK), "meshes/part.obj": _INSIDE_OUT},
+    {"@fragment": _collision(_MARK, "-1 1 1"), "meshes/part.obj": _CLOSED},
+    {"@fragment": _collision(_MARK), "meshes/part.obj": _CLOSED + "f 1 1 2\n"},
+]

@@ -1,0 +1,1 @@
+"""TRI: the trial drive in MuJoCo."""

@@ -1,0 +1,77 @@
+"""A joint that needs more torque than its effort limit allows.
+
+The trial's servos are as strong as they have to be; the simulated motor stops at its limit: the
+robot starts slower, does not reach its speed, or drops what it holds.
+
+Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
+Source: the largest torque in the trial after the robot has settled, against `<effort>`.
+"""
+
+from checker.rule import Findings, Severity, finding, rule
+from checker.trial.robot_trial import RobotTrial
+
+
+@rule("TRI009", "effort-limit-exceeded", Severity.WARNING)
+def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
+    """Report joints that need more than `warning_above` times their limit."""
+    limits = {each.part: each.value for each in driven.trial.all("torque_limit")}
+    for torque in driven.trial.all("torque"):
+        limit = limits.get(torque.part)
+        if limit is not None and abs(torque.value) > warning_above * limit:
+            unit = _unit(driven, torque.part)
+            yield finding(
+                driven.part(torque.part),
+                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit}, its effort limit is "
+                f"{limit:.3g} {unit}",
+                key="torque",
+            )
+
+
+def _unit(driven: RobotTrial, name: str) -> str:
+    joint = driven.robot.joints_by_name.get(name)
+    return "N" if joint is not None and joint.type.value == "prismatic" else "N·m"
+
+
+_WHEEL = """
+<link name="{name}">
+  <pose>{x} {y} 0.1 0 0 0</pose>
+  <inertial><mass>1</mass><inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>4e-3</izz></inertia></inertial>
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+</link>
+<joint name="{name}_joint" type="revolute">{mark}
+  <parent>base_link</parent><child>{name}</child>
+  <axis><xyz>0 1 0</xyz><limit><effort>{effort}</effort></limit></axis>
+</joint>
+"""
+_PLACES = {"fl": (0.2, 0.2), "rl": (-0.2, 0.2), "fr": (0.2, -0.2), "rr": (-0.2, -0.2)}
+
+
+def _rover(effort: float, mark: str = "") -> str:
+    wheels = "".join(
+        _WHEEL.format(name=name, x=x, y=y, effort=effort, mark=mark)
+        for name, (x, y) in _PLACES.items()
+    )
+    return f"""
+<sdf version="1.6">
+<model name="acme_rover_sensor_config_1">
+<link name="base_link">
+  <pose>0 0 0.15 0 0 0</pose>
+  <inertial><mass>10</mass><inertia><ixx>0.2</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>0.4 0.3 0.1</size></box></geometry></collision>
+</link>
+{wheels}
+<plugin filename="libdiff-drive.so" name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>fl_joint</left_joint><left_joint>rl_joint</left_joint>
+  <right_joint>fr_joint</right_joint><right_joint>rr_joint</right_joint>
+  <wheel_separation>0.4</wheel_separation>
+  <wheel_radius>0.1</wheel_radius>
+  <max_velocity>1</max_velocity><min_velocity>-1</min_velocity>
+  <max_acceleration>2</max_acceleration><min_acceleration>-2</min_acceleration>
+</plugin>
+</model>
+</sdf>
+"""
+
+
+GOOD = [_rover(50.0), _rover(-1.0)]
+BAD = [_rover(0.1, "  <!-- ^ TRI009 -->")]

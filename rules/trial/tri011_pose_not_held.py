@@ -1,0 +1,89 @@
+"""A legged robot or an arm that does not hold the pose it starts in.
+
+With its joints held where they start, it sinks, tips or gives way: it is not made to stand like
+this, or its joints start where they cannot stay. Nothing here says that it walks.
+
+Fix: look at the pose it starts in, at the feet's collisions, and at where its centre of mass is.
+Source: experience; each joint is held by a controller for position and velocity.
+"""
+
+import math
+
+from checker.rule import Findings, Severity, finding, rule
+from checker.trial.robot_trial import RobotTrial
+
+
+@rule("TRI011", "pose-not-held", Severity.WARNING)
+def check(
+    driven: RobotTrial,
+    *,
+    hold_sag_above: float = 0.1,
+    hold_sink_above: float = 0.05,
+    hold_tilt_above: float = 0.17,
+) -> Findings:
+    """Report joints that give way (rad or m), and a robot that sinks (m) or tilts (rad)."""
+    for sag in driven.trial.all("hold_sag"):
+        if abs(sag.value) > hold_sag_above:
+            who = f"joint {sag.part!r}" if sag.part else "a joint"
+            yield finding(
+                driven.part(sag.part),
+                f"{who} gives way by {_amount(driven, sag.part, sag.value)} while the robot holds "
+                "its pose",
+                key="hold_sag",
+            )
+    said = {}
+    sink, tilt = driven.trial.value("hold_sink"), driven.trial.value("hold_tilt")
+    if sink is not None and sink > hold_sink_above:
+        said["hold_sink"] = f"sinks by {sink:.2g} m (at most {hold_sink_above:g} m)"
+    if tilt is not None and tilt > hold_tilt_above:
+        limit = math.degrees(hold_tilt_above)
+        said["hold_tilt"] = f"tilts by {math.degrees(tilt):.0f}° (at most {limit:.0f}°)"
+    if said:
+        yield finding(
+            driven.robot,
+            f"with its joints held where they start, it {' and '.join(said.values())}",
+            key=" ".join(said),
+        )
+
+
+def _amount(driven: RobotTrial, name: str, value: float) -> str:
+    joint = driven.robot.joints_by_name.get(name)
+    slides = joint is not None and joint.type.value == "prismatic"
+    return f"{abs(value):.2g} m" if slides else f"{math.degrees(abs(value)):.0f}°"
+
+
+def _stool(lean: float, mark: str = "") -> str:
+    """A body on two stiff, jointed legs that stand `lean` metres behind its centre of mass."""
+    legs = "".join(
+        f"""
+<link name="{side}_leg">
+  <pose>{-lean} {y} 0.15 0 0 0</pose>
+  <inertial><mass>0.5</mass>
+    <inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>1e-3</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>0.3 0.05 0.3</size></box></geometry></collision>
+</link>
+<joint name="{side}_hip" type="revolute">
+  <pose>0 0 0.15 0 0 0</pose>
+  <parent>base_link</parent><child>{side}_leg</child>
+  <axis><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>
+</joint>
+"""
+        for side, y in (("left", 0.15), ("right", -0.15))
+    )
+    return f"""
+<sdf version="1.6">
+<model name="acme_walker_sensor_config_1">{mark}
+<link name="base_link">
+  <pose>0 0 0.35 0 0 0</pose>
+  <inertial><mass>5</mass>
+    <inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>0.4 0.2 0.1</size></box></geometry></collision>
+</link>
+{legs}
+</model>
+</sdf>
+"""
+
+
+GOOD = [_stool(0.0)]
+BAD = [_stool(0.3, "  <!-- ^ TRI011 -->")]

@@ -1,0 +1,60 @@
+"""Parts that pass through each other when a joint moves through its range.
+
+The real arm would hit its own robot. Gazebo lets it pass, so that a plan which works in the
+simulation breaks the machine.
+
+Fix: narrow the joint's limits, or shrink the collision shapes.
+Source: a collision query in steps through the range of each joint, one at a time.
+"""
+
+from checker.rule import Findings, Severity, finding, rule
+from checker.trial.robot_trial import RobotTrial
+
+
+@rule("TRI015", "parts-meet-in-motion", Severity.WARNING)
+def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
+    """Report parts that come further into each other than this, in metres."""
+    for each in driven.trial.all("sweep_overlap"):
+        if each.value > warning_above:
+            yield finding(
+                driven.part(each.part),
+                f"{each.part!r} comes {each.value * 1000:.0f} mm into {each.other!r} when their "
+                "joints move through their ranges",
+                key="sweep_overlap",
+                related=[(driven.part(each.other), f"{each.other!r}")],
+            )
+
+
+def _arm(upper: float, mark: str = "") -> str:
+    return f"""
+<sdf version="1.6">
+<model name="acme_arm_sensor_config_1">
+<link name="base_link">
+  <inertial><mass>20</mass><inertia><ixx>0.5</ixx><iyy>0.5</iyy><izz>0.5</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>0.6 0.6 0.2</size></box></geometry></collision>
+</link>
+<link name="post">
+  <pose>0 0 0.4 0 0 0</pose>
+  <inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>
+</link>
+<link name="arm">{mark}
+  <pose>0.2 0 0.4 0 0 0</pose>
+  <inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>0.5 0.05 0.05</size></box></geometry></collision>
+</link>
+<joint name="turn" type="revolute">
+  <parent>base_link</parent><child>post</child>
+  <axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>
+</joint>
+<joint name="shoulder" type="revolute">
+  <pose>-0.2 0 0 0 0 0</pose>
+  <parent>post</parent><child>arm</child>
+  <axis><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>{upper}</upper></limit></axis>
+</joint>
+</model>
+</sdf>
+"""
+
+
+GOOD = [_arm(0.1)]
+BAD = [_arm(1.5, "  <!-- ^ TRI015 -->")]

@@ -1,0 +1,154 @@
+"""Files that are cut off, corrupt or hostile become faults that say what is wrong."""
+
+from __future__ import annotations
+
+import struct
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from checker.mesh.reader import read_mesh
+from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from tests.mesh.files import binary_stl, box, dae, obj, text_stl
+
+CUBE = box(1, 1, 1)
+NOWHERE = [((0.0, 0.0, 0.0), (1.0, 0.0, float("nan")), (0.0, 1.0, 0.0))]
+FAR = [((0.0, 0.0, 0.0), (1e300, 0.0, 0.0), (0.0, 1.0, 0.0))]
+
+
+def fault(data: bytes, name: str, trouble: MeshTrouble = MeshTrouble.UNREADABLE) -> str:
+    read = read_mesh(data, name)
+    assert isinstance(read, MeshFault), read
+    assert read.trouble is trouble
+    return read.reason
+
+
+@pytest.mark.parametrize("suffix", ["stl", "dae", "obj", "STL"])
+def test_empty(suffix: str) -> None:
+    assert fault(b"", f"a.{suffix}") == "is empty"
+    assert fault(b" \n", f"a.{suffix}") == "is empty"
+
+
+def test_a_billion_triangles_in_84_bytes() -> None:
+    data = binary_stl([], declared=1_000_000_000).replace(b"solid", b"-----")
+    reason = fault(data, "a.stl")
+    assert reason == "is cut off: it declares 1,000,000,000 triangles, its 84 bytes hold 0"
+
+
+def test_a_binary_stl_cut_off() -> None:
+    assert "declares 12 triangles" in fault(binary_stl(CUBE)[:-1], "a.stl")
+
+
+def test_a_binary_stl_with_more_behind_is_read() -> None:
+    read = read_mesh(binary_stl(CUBE) + b"\0" * 7, "a.stl")
+    assert isinstance(read, Mesh)
+    assert read.defects == ("7 bytes follow its last triangle.",)
+
+
+def test_an_stl_as_text_cut_off() -> None:
+    data = text_stl(CUBE)
+    assert "3 for each triangle" in fault(data[: data.rindex(b"vertex")], "a.stl")
+    read = read_mesh(data[: data.rindex(b"endsolid")], "a.stl")
+    assert isinstance(read, Mesh)
+    assert read.defects == ("It does not end in `endsolid`.",)
+
+
+def test_words_for_numbers() -> None:
+    assert "no number" in fault(text_stl(CUBE).replace(b"0.5", b"half", 1), "a.stl")
+
+
+@pytest.mark.parametrize("write", [binary_stl, text_stl])
+def test_a_corner_that_is_no_number(write: object) -> None:
+    assert "nowhere: triangle 1" in fault(write(NOWHERE), "a.stl")  # type: ignore[operator]
+
+
+def test_a_corner_out_of_all_bounds() -> None:
+    assert "1e+300" in fault(obj(FAR), "a.obj")
+    assert "nowhere" in fault(dae(FAR), "a.dae")
+
+
+@pytest.mark.parametrize("data", [b"solid nothing\nendsolid\n", binary_stl([])])
+def test_no_triangles(data: bytes) -> None:
+    assert fault(data, "a.stl") == "holds no triangles"
+
+
+def test_faces_of_corners_that_are_not_there() -> None:
+    assert fault(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "a.obj").startswith("is corrupt")
+    data = dae(CUBE).replace(b"<p>0 1 2 ", b"<p>0 1 99 ")
+    read_mesh(data, "a.dae")
+    assert "below 0" in fault(dae(CUBE).replace(b"<p>0 1 2 ", b"<p>0 1 -2 "), "a.dae")
+
+
+def test_another_format_of_that_name() -> None:
+    assert "no COLLADA" in fault(b"<robot/>", "a.dae")
+    assert "not well-formed" in fault(binary_stl(CUBE), "a.dae")
+    assert "Git LFS" in fault(b"version https://git-lfs.github.com/spec/v1\noid sha256:0", "a.dae")
+
+
+def test_a_format_that_is_not_read() -> None:
+    assert ".glb" in fault(b"glTF", "a.glb", MeshTrouble.UNSUPPORTED)
+
+
+def test_brackets_in_an_id_are_a_defect() -> None:
+    read = read_mesh(dae(CUBE, name="<STL_BINARY>"), "a.dae")
+    assert isinstance(read, Mesh)
+    assert read.volume == pytest.approx(1.0)
+    assert '"<STL_BINARY>"' in read.defects[0]
+
+
+BOMB = '<!DOCTYPE COLLADA [<!ENTITY a "ha">' + "".join(
+    f'<!ENTITY {chr(98 + k)} "{f"&{chr(97 + k)};" * 10}">' for k in range(12)
+)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_entities_are_not_expanded(encoding: str) -> None:
+    text = dae(CUBE, more="<extra>&m;</extra>").decode()
+    text = text.replace('<?xml version="1.0"?>', f'<?xml version="1.0"?>{BOMB}]>')
+    text = text.replace('"1.0"?>', f'"1.0" encoding="{encoding}"?>')
+    assert "document type" in fault(text.encode(encoding), "a.dae", MeshTrouble.NOT_LOOKED_AT)
+
+
+def test_looks_that_are_broken_do_not_hide_the_surface() -> None:
+    more = '<library_effects><effect id="e"><profile_COMMON/></effect></library_effects>'
+    data = dae(CUBE, more=more).replace(
+        b'url="#part"/>',
+        b'url="#part"><bind_material><technique_common><instance_material symbol="s"'
+        b' target="#gone"/></technique_common></bind_material></instance_geometry>',
+    )
+    assert isinstance(read_mesh(data, "a.dae"), Mesh)
+
+
+def test_textures_are_those_that_an_effect_uses() -> None:
+    more = (
+        '<library_images><image id="a"><init_from>a.png</init_from></image>'
+        '<image id="b"><init_from>b.png</init_from></image></library_images>'
+        "<library_effects><effect><profile_COMMON><newparam><surface><init_from>a</init_from>"
+        "</surface></newparam></profile_COMMON></effect></library_effects>"
+    )
+    read = read_mesh(dae(CUBE, more=more), "a.dae")
+    assert isinstance(read, Mesh)
+    assert read.textures == ("a.png",)
+
+
+WHOLE = {"stl": binary_stl(CUBE), "obj": obj(CUBE), "dae": dae(CUBE)}
+
+
+@pytest.mark.parametrize("suffix", WHOLE)
+@settings(max_examples=100, deadline=None)
+@given(data=st.data())
+def test_a_file_with_bytes_changed_never_raises(suffix: str, data: st.DataObject) -> None:
+    content = bytearray(WHOLE[suffix])
+    places = st.integers(0, len(content) - 1)
+    for at, byte in data.draw(st.lists(st.tuples(places, st.integers(0, 255)), max_size=8)):
+        content[at] = byte
+    read_mesh(bytes(content[: data.draw(places) + 1]), f"a.{suffix}")
+
+
+@pytest.mark.parametrize("suffix", WHOLE)
+@settings(max_examples=50, deadline=None)
+@given(content=st.binary(max_size=400))
+@example(b"solid" + struct.pack("<I", 7))
+def test_random_bytes_never_raise(suffix: str, content: bytes) -> None:
+    assert isinstance(read_mesh(content, f"a.{suffix}"), Mesh | MeshFault)

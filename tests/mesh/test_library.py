@@ -1,0 +1,226 @@
+"""A robot's meshes: found by their URIs, read once, kept on disk, each file on its own."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from checker.cache import NO_CACHE, Cache
+from checker.confined import Died
+from checker.mesh import library
+from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from checker.model.robot import Robot
+from checker.package.opening import open_input
+from checker.subject import Subject
+from tests.examples import NAME, write_example
+from tests.mesh.files import binary_stl, box, dae, obj
+
+CUBE = binary_stl(box(1, 1, 1))
+
+
+def fragment(*uris: str) -> str:
+    return "".join(
+        f'<visual name="v{n}"><geometry><mesh><uri>{uri}</uri></mesh></geometry></visual>'
+        for n, uri in enumerate(uris)
+    )
+
+
+def robot_of(files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_CACHE) -> Robot:
+    """Write a package whose model shows all that `files` holds below meshes/."""
+    uris = [path for path in files if path.startswith("meshes/") and not path.endswith(".mtl")]
+    changes = {"@fragment": f'<link name="a">{fragment(*uris)}</link>', **files}
+    with open_input(write_example(changes, folder)) as opened:
+        robots = Subject(opened.packages[0], cache).robots
+        assert isinstance(robots, tuple)
+        _ = robots[0].mesh_uses
+        return robots[0]
+
+
+def read(files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_CACHE) -> list[object]:
+    return [use.file for use in robot_of(files, folder, cache).mesh_uses]
+
+
+@pytest.mark.parametrize(
+    ("uri", "trouble"),
+    [
+        ("meshes/a.stl", None),
+        ("./meshes/../meshes/a.stl", None),
+        (f"model://{NAME}/meshes/a.stl", None),
+        (f"model://{NAME.upper()}/meshes/a.stl", None),
+        (f"package://{NAME}/meshes/a.stl", None),
+        ("meshes/A.stl", MeshTrouble.MISSING),
+        ("meshes", MeshTrouble.MISSING),
+        ("../other/meshes/a.stl", MeshTrouble.NOT_LOOKED_AT),
+        ("../../../../etc/passwd.stl", MeshTrouble.NOT_LOOKED_AT),
+        ("model://other/meshes/a.stl", MeshTrouble.NOT_LOOKED_AT),
+        ("file:///etc/passwd.stl", MeshTrouble.NOT_LOOKED_AT),
+        ("/etc/passwd.stl", MeshTrouble.NOT_LOOKED_AT),
+        ("https://fuel.example.org/a.stl", MeshTrouble.NOT_LOOKED_AT),
+    ],
+)
+def test_where_a_uri_leads(uri: str, trouble: MeshTrouble | None, tmp_path: Path) -> None:
+    example = {"@fragment": fragment(uri), "meshes/a.stl": CUBE}
+    with open_input(write_example(example, tmp_path)) as opened:
+        robots = Subject(opened.packages[0]).robots
+        assert isinstance(robots, tuple)
+        found = robots[0].mesh_uses[0].file
+    if trouble is None:
+        assert isinstance(found, Mesh)
+        assert found.path == "meshes/a.stl"
+    else:
+        assert isinstance(found, MeshFault)
+        assert found.trouble is trouble
+
+
+def test_a_lone_file_finds_the_mesh_beside_it(tmp_path: Path) -> None:
+    (tmp_path / "a.stl").write_bytes(CUBE)
+    link = f'<link name="l">{fragment("a.stl")}</link>'
+    model = tmp_path / "lone.sdf"
+    model.write_text(f'<sdf version="1.6"><model name="m">{link}</model></sdf>')
+    with open_input(model) as opened:
+        robots = Subject(opened.packages[0]).robots
+        assert isinstance(robots, tuple)
+        assert isinstance(robots[0].mesh_uses[0].file, Mesh)
+
+
+def test_one_content_under_two_names_is_read_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    ask_for = library._asked
+    monkeypatch.setattr(library, "_asked", lambda files: asked.append(len(files)) or ask_for(files))
+    one, other = read({"meshes/a.stl": CUBE, "meshes/b.stl": CUBE}, tmp_path)
+    assert asked == [1]
+    assert isinstance(one, Mesh)
+    assert isinstance(other, Mesh)
+    assert (one.path, other.path) == ("meshes/a.stl", "meshes/b.stl")
+    assert one.volume == other.volume
+
+
+def test_textures_come_from_the_material_file_beside_an_obj(tmp_path: Path) -> None:
+    cache = Cache(tmp_path / "cache")
+    mesh = b"mtllib a.mtl\n" + obj(box(1, 1, 1))
+    (first,) = read({"meshes/a.obj": mesh, "meshes/a.mtl": "map_Kd red.png\n"}, tmp_path, cache)
+    (second,) = read({"meshes/a.obj": mesh, "meshes/a.mtl": "map_Kd blue.png\n"}, tmp_path, cache)
+    assert isinstance(first, Mesh)
+    assert isinstance(second, Mesh)
+    assert (first.textures, second.textures) == (("red.png",), ("blue.png",))
+
+
+def test_faults_of_one_file_leave_the_others(tmp_path: Path) -> None:
+    good, bad, odd = read(
+        {"meshes/a.stl": CUBE, "meshes/b.stl": CUBE[:-1], "meshes/c.glb": b"glTF"}, tmp_path
+    )
+    assert isinstance(good, Mesh)
+    assert isinstance(bad, MeshFault)
+    assert isinstance(odd, MeshFault)
+    assert (bad.trouble, odd.trouble) == (MeshTrouble.UNREADABLE, MeshTrouble.UNSUPPORTED)
+
+
+def test_a_file_that_brings_its_reader_down_takes_no_other_with_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(library, "SECONDS_FOR_ONE", 2)
+    # Nodes that show others ten times each, nine levels deep: a billion cubes.
+    levels = "".join(
+        f'<node id="n{level}">' + f'<instance_node url="#n{level - 1}"/>' * 10 + "</node>"
+        for level in range(1, 10)
+    )
+    nodes = f'<node id="n0"><instance_geometry url="#part"/></node>{levels}'
+    bomb = dae(box(1, 1, 1), more=f"<library_nodes>{nodes}</library_nodes>")
+    bomb = bomb.replace(b'<instance_geometry url="#part"/>\n', b'<instance_node url="#n9"/>\n')
+    first, killer, last = read(
+        {
+            "meshes/a.stl": CUBE,
+            "meshes/b.dae": bomb,
+            "meshes/c.obj": obj(box(1, 2, 3)),
+        },
+        tmp_path,
+    )
+    assert isinstance(first, Mesh)
+    assert isinstance(last, Mesh)
+    assert isinstance(killer, MeshFault)
+    assert killer.trouble is MeshTrouble.NOT_LOOKED_AT
+
+
+_DIES = {
+    "no result": "raise ValueError",
+    "memory": "raise MemoryError",
+    "crash": "os.kill(os.getpid(), 11)",
+    "processor time": "[0 for _ in iter(int, 1)]",
+}
+
+
+@pytest.mark.parametrize("how", _DIES)
+def test_work_apart_may_die(how: str) -> None:
+    """In an interpreter of its own: a fork wants a process without threads."""
+    script = (
+        "import os\nfrom checker.mesh.apart import apart\n"
+        f"def work():\n    {_DIES[how]}\n"
+        "print(type(apart(work, 1)).__name__, apart(lambda: b'well', 1))"
+    )
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "Ended b'well'\n"
+
+
+def test_results_are_kept_and_no_library_is_loaded_for_them(tmp_path: Path) -> None:
+    cache = Cache(tmp_path / "cache")
+    files = {"meshes/a.stl": CUBE, "meshes/b.stl": CUBE[:-1]}
+    before = read(files, tmp_path, cache)
+    script = f"""
+import sys
+from pathlib import Path
+from checker import confined
+from checker.cache import Cache
+from checker.package.opening import open_input
+from checker.subject import Subject
+confined.Child = None
+with open_input(Path({str(tmp_path / NAME)!r})) as opened:
+    robot, = Subject(opened.packages[0], Cache(Path({str(tmp_path / "cache")!r}))).robots
+    print([use.file for use in robot.mesh_uses])
+print(sorted({{"numpy", "scipy", "trimesh", "collada"}} & set(sys.modules)))
+"""
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == f"{before}\n[]\n"
+
+
+def test_a_foreign_entry_in_the_cache_is_read_anew(tmp_path: Path) -> None:
+    cache = Cache(tmp_path / "cache")
+    before = read({"meshes/a.stl": CUBE}, tmp_path, cache)
+    for entry in (tmp_path / "cache").rglob("*.json"):
+        entry.write_text('{"mesh": {"path": 1}}')
+    assert read({"meshes/a.stl": CUBE}, tmp_path, cache) == before
+
+
+def test_what_was_given_up_is_tried_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    cache = Cache(tmp_path / "cache")
+    gave_up = MeshFault(MeshTrouble.NOT_LOOKED_AT, "took too long")
+    with monkeypatch.context() as patch:
+        patch.setattr(library, "_asked", lambda files: [gave_up] * len(files))
+        assert read({"meshes/a.stl": CUBE}, tmp_path, cache) == [gave_up]
+    assert isinstance(read({"meshes/a.stl": CUBE}, tmp_path, cache)[0], Mesh)
+
+
+@pytest.mark.parametrize("answer", [b"nonsense", b"[]", b"[1]", Died("crashed")])
+def test_no_proper_answer(
+    answer: bytes | Died, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(library, "ask", lambda *_: answer)
+    (found,) = read({"meshes/a.stl": CUBE}, tmp_path)
+    assert isinstance(found, MeshFault)
+    assert found.trouble is MeshTrouble.NOT_LOOKED_AT
+
+
+def test_a_file_that_is_too_large_is_not_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(library, "SIZE_LIMIT", 100)
+    (found,) = read({"meshes/a.stl": CUBE}, tmp_path)
+    assert isinstance(found, MeshFault)
+    assert found.trouble is MeshTrouble.NOT_LOOKED_AT

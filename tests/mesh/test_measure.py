@@ -1,0 +1,137 @@
+"""Volume, hull and box of meshes against closed formulas, in every format and unit."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from checker.mesh.reader import read_mesh
+from checker.model.mesh import Mesh
+from tests.mesh.files import Triangle, binary_stl, box, cylinder, dae, obj, text_stl
+
+lengths = st.floats(0.01, 10.0)
+WRITERS = {"stl": binary_stl, "obj": obj, "dae": dae}
+
+
+def mesh(data: bytes, name: str) -> Mesh:
+    read = read_mesh(data, name)
+    assert isinstance(read, Mesh), read
+    return read
+
+
+def ball(subdivisions: int) -> list[Triangle]:
+    import trimesh
+
+    sphere = trimesh.creation.icosphere(subdivisions=subdivisions, radius=0.5)
+    return [tuple(tuple(map(float, point)) for point in each) for each in sphere.triangles]
+
+
+@pytest.mark.parametrize("suffix", WRITERS)
+@settings(max_examples=25, deadline=None)
+@given(x=lengths, y=lengths, z=lengths, far=st.floats(-50, 50))
+def test_a_box(suffix: str, x: float, y: float, z: float, far: float) -> None:
+    read = mesh(WRITERS[suffix](box(x, y, z, (far, 0.0, -far))), f"a.{suffix}")
+    assert read.watertight
+    assert read.triangles == 12
+    assert read.volume == pytest.approx(x * y * z, rel=1e-2)
+    assert read.hull_volume == pytest.approx(x * y * z, rel=1e-2)
+    assert len(read.hull) == 8
+    assert read.low == pytest.approx((far - x / 2, -y / 2, -far - z / 2), abs=1e-4)
+    assert read.high == pytest.approx((far + x / 2, y / 2, -far + z / 2), abs=1e-4)
+
+
+@settings(max_examples=25, deadline=None)
+@given(radius=lengths, length=lengths, sides=st.integers(3, 60))
+def test_a_cylinder(radius: float, length: float, sides: int) -> None:
+    read = mesh(text_stl(cylinder(radius, length, sides)), "a.stl")
+    volume = sides / 2 * radius**2 * math.sin(2 * math.pi / sides) * length
+    assert read.volume == pytest.approx(volume, rel=1e-6)
+    assert read.hull_volume == pytest.approx(volume, rel=1e-6)
+    assert len(read.hull) == 2 * sides
+    assert read.degenerate == 0
+
+
+def test_a_sphere() -> None:
+    read = mesh(binary_stl(ball(4)), "a.stl")
+    assert read.volume == pytest.approx(math.pi / 6, rel=5e-3)
+    assert read.volume == pytest.approx(read.hull_volume, rel=1e-6)
+
+
+def test_a_hull_of_many_corners_keeps_its_box_and_nearly_its_shape() -> None:
+    read = mesh(binary_stl(ball(5)), "a.stl")
+    assert len(read.hull) <= 2000
+    for axis in range(3):
+        assert max(corner[axis] for corner in read.hull) == read.high[axis]
+        assert min(corner[axis] for corner in read.hull) == read.low[axis]
+    way = [1 / math.sqrt(3)] * 3
+    reach = max(sum(a * b for a, b in zip(way, corner, strict=True)) for corner in read.hull)
+    assert reach == pytest.approx(0.5, rel=2e-3)
+
+
+def test_inside_out_has_a_negative_volume() -> None:
+    turned = [(a, c, b) for a, b, c in box(1, 1, 1)]
+    assert mesh(binary_stl(turned), "a.stl").volume == pytest.approx(-1.0)
+
+
+def test_triangles_of_both_senses_have_no_volume() -> None:
+    (a, b, c), *others = box(1, 1, 1)
+    read = mesh(binary_stl([(a, c, b), *others]), "a.stl")
+    assert read.watertight
+    assert read.volume is None
+
+
+def test_a_hole() -> None:
+    read = mesh(binary_stl(box(1, 1, 1)[1:]), "a.stl")
+    assert not read.watertight
+    assert read.volume is None
+    assert read.hull_volume == pytest.approx(1.0)
+
+
+def test_triangles_without_area_leave_no_hole() -> None:
+    a, b = (0.5, 0.5, 0.5), (0.5, 0.5, -0.5)
+    read = mesh(binary_stl([*box(1, 1, 1), (a, a, b)]), "a.stl")
+    assert read.degenerate == 1
+    assert read.watertight
+    assert read.volume == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    "flat", [[((0, 0, 0), (1, 0, 0), (0, 1, 0))], [((0, 0, 0), (1, 1, 1), (2, 2, 2))] * 3]
+)
+def test_a_flat_mesh_has_no_hull_but_a_box(flat: list[Triangle]) -> None:
+    read = mesh(obj(flat), "a.obj")
+    assert (read.hull, read.hull_volume, read.volume) == ((), 0.0, None)
+    assert len(read.corners) == 8
+
+
+@pytest.mark.parametrize(
+    ("unit", "metres"),
+    [("inch", 0.0254), ("millimeter", 0.001), ("centimeter", 0.01), ("meter", 1.0)],
+)
+def test_the_unit_of_a_collada_file(unit: str, metres: float) -> None:
+    data = dae(
+        box(1 / metres, 2 / metres, 3 / metres),
+        asset=f'<unit name="{unit}" meter="{metres}"/><up_axis>Y_UP</up_axis>',
+    )
+    read = mesh(data, "a.dae")
+    assert read.metres_per_unit == metres
+    assert read.volume == pytest.approx(6.0)
+    assert read.high == pytest.approx((0.5, 1.0, 1.5))
+
+
+def test_nodes_place_the_geometry_and_name_the_parts() -> None:
+    node = "<translate>5 0 0</translate><scale>2 2 2</scale>"
+    read = mesh(dae(box(1, 1, 1), node=node), "a.dae")
+    assert read.low == pytest.approx((4, -1, -1))
+    assert read.volume == pytest.approx(8.0)
+    assert read.parts == ("body",)
+
+
+@pytest.mark.parametrize("meter", ["0", "-1", "nan", "inf", "one"])
+def test_a_unit_that_is_none_counts_as_a_metre(meter: str) -> None:
+    read = mesh(dae(box(1, 1, 1), asset=f'<unit meter="{meter}"/>'), "a.dae")
+    assert read.volume == pytest.approx(1.0)
+    assert meter in read.defects[0]

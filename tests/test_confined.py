@@ -1,0 +1,61 @@
+"""A child process with limits: it answers, or its parent knows why it did not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.confined import Child, Died, Limits, ask
+
+LIMITS = Limits(seconds=5, memory=1_000_000_000)
+
+
+def ask_for(body: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limits: Limits) -> object:
+    """Let a child run the body of an `answer`."""
+    (tmp_path / "some_work.py").write_text(f"def answer(request):\n    {body}\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    return ask("some_work", b"ping", limits)
+
+
+def test_an_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    body = "print('noise'); return request + b' pong'"
+    assert ask_for(body, tmp_path, monkeypatch, LIMITS) == b"ping pong"
+
+
+@pytest.mark.parametrize(
+    ("body", "reason"),
+    [
+        ("raise ValueError", "failed"),
+        ("raise SystemExit(0)", "ended without an answer"),
+        ("import os; os._exit(0)", "ended without an answer"),
+        ("return b''", "ended without an answer"),
+        ("return b'x' * 2_000_000_000", "needs more than 1000 MB of memory"),
+        ("import os; os.kill(os.getpid(), 11)", "ended in a crash (signal SIGSEGV)"),
+    ],
+)
+def test_a_child_that_dies(
+    body: str, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    died = ask_for(body, tmp_path, monkeypatch, LIMITS)
+    assert isinstance(died, Died)
+    assert died.reason.startswith(reason)
+
+
+def test_an_answer_that_is_too_long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("checker.confined.ANSWER_LIMIT", 10)
+    assert isinstance(ask_for("return b'x' * 11", tmp_path, monkeypatch, LIMITS), Died)
+    assert ask_for("return b'x' * 10", tmp_path, monkeypatch, LIMITS) == b"x" * 10
+
+
+def test_a_child_that_never_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    died = ask_for("[0 for _ in iter(int, 1)]", tmp_path, monkeypatch, Limits(seconds=1))
+    assert died == Died("needs more than 1 s of processor time")
+
+
+def test_a_child_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "some_work.py").write_text("import time\ndef answer(r):\n    time.sleep(600)\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    child = Child("some_work", b"", LIMITS)
+    child.deadline = 0.0
+    assert isinstance(child.answer(), Died)

@@ -1,0 +1,207 @@
+"""Which figures of a trial the rules object to, how gravely, and in which words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from checker.discovery import all_rules
+from checker.rule import Severity, Unchecked
+from checker.trial.measures import MEASURES
+from checker.trial.robot_trial import RepeatedTrial, RobotTrial
+from checker.trial.trial import Leg, Measurement, Repair
+from tests.model.robots import sdf
+from tests.trial.driven import rover, said_by, trial_of
+
+RULES = {rule.id: rule for rule in all_rules() if rule.group == "TRI"}
+ERROR, WARNING = Severity.ERROR, Severity.WARNING
+
+JUDGED: list[tuple[str, dict[str, float], Severity | None]] = [
+    ("TRI002", {"settle_drop": 0.012, "settle_tilt": 0.01, "rest_penetration": 3e-4}, None),
+    ("TRI002", {"settle_drop": 0.4}, ERROR),
+    ("TRI002", {"settle_tilt": 0.5}, ERROR),
+    ("TRI002", {"settle_speed": 0.2}, ERROR),
+    ("TRI003", {"speed_ratio": 0.98}, None),
+    ("TRI003", {"speed_ratio": 1.07}, WARNING),
+    ("TRI003", {"speed_ratio": 0.5}, ERROR),
+    ("TRI003", {"speed_ratio": 0.0}, ERROR),
+    ("TRI003", {"speed_ratio": -1.0}, None),  # TRI005
+    ("TRI004", {"speed_ratio": 1.0, "path_sideways": 1e-4, "path_heading": 0.001}, None),
+    ("TRI004", {"speed_ratio": 1.0, "path_sideways": -0.05}, WARNING),
+    ("TRI004", {"speed_ratio": 1.0, "path_sideways": 0.05, "path_heading": 0.2}, ERROR),
+    ("TRI004", {"speed_ratio": 0.01, "path_sideways": 3.0}, None),  # it has gone nowhere
+    ("TRI005", {"speed_ratio": 1.0, "yaw_ratio": 0.2}, None),
+    ("TRI005", {"speed_ratio": -0.01, "yaw_ratio": -0.01}, None),
+    ("TRI005", {"speed_ratio": -0.9}, ERROR),
+    ("TRI005", {"yaw_ratio": -0.3}, ERROR),
+    ("TRI006", {"yaw_rate": 0.15, "yaw_ratio": 0.15, "yaw_of_predicted": 0.9}, None),
+    (
+        "TRI006",
+        {"yaw_rate": 0.15, "yaw_ratio": 0.15, "yaw_of_predicted": 0.4, "yaw_predicted": 0.4},
+        WARNING,
+    ),
+    ("TRI006", {"yaw_rate": 0.0, "yaw_ratio": 0.0}, ERROR),
+    ("TRI006", {"yaw_rate": -0.5, "yaw_ratio": -0.5}, None),  # TRI005
+    ("TRI008", {"stop_speed": 0.001}, None),
+    ("TRI008", {"stop_speed": 0.3}, ERROR),
+    ("TRI010", {"hover_effort": 0.4, "hover_sink": 0.01, "climbed": 1.0}, None),
+    ("TRI010", {"hover_effort": 1.3}, ERROR),
+    ("TRI010", {"hover_effort": 0.4, "climbed": 0.1}, ERROR),
+    ("TRI011", {"hold_sink": 0.01, "hold_tilt": 0.02}, None),
+    ("TRI011", {"hold_tilt": 0.6}, WARNING),
+    ("TRI013", {"rest_penetration": 0.004}, None),
+    ("TRI013", {"rest_penetration": 0.02}, WARNING),
+    ("TRI013", {"rest_penetration": 0.2}, None),  # TRI002
+    ("TRI014", {"full_speed": 1.0, "full_speed_limit": 1.0}, None),
+    ("TRI014", {"full_speed": 1.2, "full_speed_limit": 1.0}, WARNING),
+    ("TRI014", {"full_acceleration": 4.0, "full_acceleration_limit": 2.0}, WARNING),
+    ("TRI014", {"full_speed": 3.0}, None),  # no limit stated
+    ("TRI017", {"energy_gain": 0.001}, None),
+    ("TRI017", {"energy_gain": 0.5}, WARNING),
+    ("TRI018", {"turn_drift": 0.3}, None),
+    ("TRI018", {"turn_drift": 1.2}, WARNING),
+]
+
+
+@pytest.mark.parametrize(("id", "figures", "severity"), JUDGED)
+def test_figure_is_judged(id: str, figures: dict[str, float], severity: Severity | None) -> None:
+    rule = RULES[id]
+    found = said_by(rule, trial_of(**figures))
+    assert [each.severity or rule.severity for each in found] == ([severity] if severity else [])
+    for each in found:
+        assert set(each.key.split()) <= MEASURES.keys()
+
+
+PARTS: list[tuple[str, list[Measurement], list[Severity]]] = [
+    ("TRI007", [Measurement("load_share", 1.02, "left_front")], []),
+    ("TRI007", [Measurement("load_share", 0.03, "left_front")], [WARNING]),
+    ("TRI007", [Measurement("load_share", 0.0, "left_front")], [ERROR]),
+    ("TRI009", [Measurement("torque", 9.0, "left_front_joint")], []),
+    (
+        "TRI009",
+        [
+            Measurement("torque", 9.0, "left_front_joint"),
+            Measurement("torque_limit", 5.0, "left_front_joint"),
+        ],
+        [WARNING],
+    ),
+    ("TRI011", [Measurement("hold_sag", 0.3, "left_front_joint")], [WARNING]),
+    ("TRI015", [Measurement("sweep_overlap", 0.004, "left_front", "base_link")], []),
+    ("TRI015", [Measurement("sweep_overlap", 0.03, "left_front", "base_link")], [WARNING]),
+]
+
+
+@pytest.mark.parametrize(("id", "figures", "severities"), PARTS)
+def test_figure_of_a_part_is_judged_there(
+    id: str, figures: list[Measurement], severities: list[Severity]
+) -> None:
+    robot, rule = rover(), RULES[id]
+    found = said_by(rule, trial_of(*figures), robot)
+    assert [each.severity or rule.severity for each in found] == severities
+    for each in found:
+        part = RobotTrial(robot, trial_of()).part(figures[0].part)
+        assert each.places[0] == part.span.place()
+        assert repr(figures[0].part) in each.message
+
+
+def message(id: str, **said: Any) -> str:
+    robot = said.pop("robot", None)
+    (found,) = said_by(RULES[id], trial_of(**said), robot)
+    return found.message
+
+
+def test_speed_that_the_wheel_radius_explains() -> None:
+    said = message("TRI003", speed_ratio=0.5)
+    assert said.startswith("told to drive at 0.5 m/s, it reaches 0.25 m/s: off by 50%")
+    assert "wheel_radius" not in said
+    said = message("TRI003", speed_ratio=0.5, robot=rover(wheel_radius=0.2))
+    assert said.endswith("; wheel_radius is 0.2 m, the wheels' own is 0.1 m")
+
+
+@pytest.mark.parametrize(
+    ("robot", "figures", "words"),
+    [
+        (rover(axis=-1), {"speed_ratio": -1.0, "yaw_ratio": -0.3}, "the wheels' axes are reversed"),
+        (
+            rover(left="right", right="left"),
+            {"speed_ratio": 1.0, "yaw_ratio": -0.3},
+            "left and right are swapped",
+        ),
+        (rover(), {"speed_ratio": -1.0, "yaw_ratio": 0.3}, "it faces backward"),
+    ],
+)
+def test_the_wrong_way_names_its_cause(robot: Any, figures: dict[str, float], words: str) -> None:
+    (found,) = said_by(RULES["TRI005"], trial_of(**figures), robot)
+    assert words in found.message
+    suspects = [place.note for place in found.places[1:]]
+    assert bool(suspects) is ("faces" not in words)
+
+
+@pytest.mark.parametrize(
+    ("explained", "side", "front", "words"),
+    [
+        (
+            1.1,
+            0.055,
+            0.0,
+            "the centre of mass 55 mm left of the middle of the wheels explains 1.1 m",
+        ),
+        (1.0, -0.03, 0.02, "30 mm right of and 20 mm before the middle of the wheels"),
+        (0.1, 0.01, 0.0, "its centre of mass explains 0.1 m of it, something else the rest"),
+    ],
+)
+def test_drift_says_what_the_centre_of_mass_explains(
+    explained: float, side: float, front: float, words: str
+) -> None:
+    said = message(
+        "TRI018",
+        turn_drift=1.2,
+        turn_drift_explained=explained,
+        com_offset_side=side,
+        com_offset_front=front,
+    )
+    assert said.startswith("drifts 1.2 m while turning in place, expected at most 0.5 m: ")
+    assert words in said
+
+
+REPAIRS = (
+    Repair("left_front_joint", "has an axis of length 0 and is held fixed", serious=True),
+    Repair("left_front", "has a zero principal moment, 1e-7 kg·m² taken", serious=True),
+    Repair("left_rear", "has a negative mass, 0.001 kg taken", serious=True),
+    Repair("right_rear", "has a pose that is not known, the origin taken"),
+)
+
+
+def test_repairs_are_said_where_no_rule_about_inertia_says_them() -> None:
+    found = said_by(RULES["TRI001"], trial_of(repairs=REPAIRS))
+    assert ["'left_front_joint' has an axis of length 0" in each.message for each in found] == [
+        True
+    ]
+
+
+def test_a_model_that_is_refused_is_said_to_be_and_nothing_else() -> None:
+    trial = trial_of(refused="'left_front' is no body", refused_part="left_front", legs=())
+    said = {id: said_by(rule, trial) for id, rule in RULES.items() if id != "TRI016"}
+    assert [id for id, found in said.items() if found] == ["TRI001"]
+    assert "'left_front' is no body" in said["TRI001"][0].message
+
+
+def test_trouble_of_the_solver_is_an_error() -> None:
+    assert "grows without bound" in message("TRI012", trouble=("grows without bound",))
+
+
+def test_a_drive_that_may_stand_in_an_unread_spawner_is_not_passed() -> None:
+    robot = replace(sdf("<link name='base_link'/>"), unread_plugins="the spawner calls system")
+    trial = trial_of(drive="none found", legs=(Leg("settle", 0.0, 2.0),))
+    (said,) = RULES["TRI003"].check(RobotTrial(robot, trial))
+    assert said == Unchecked("the spawner calls system")
+
+
+def test_a_figure_that_moves_with_the_time_step_is_named() -> None:
+    once, again = trial_of(speed_ratio=1.0, turn_drift=0.1), trial_of(speed_ratio=0.8)
+    (found,) = RULES["TRI016"].check(RepeatedTrial(rover(), once, again))
+    assert not isinstance(found, Unchecked)
+    assert "speed reached / commanded is 1 and then 0.8" in found.message
+    assert not list(RULES["TRI016"].check(RepeatedTrial(rover(), once, once)))

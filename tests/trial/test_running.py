@@ -1,0 +1,83 @@
+"""The child: hostile robots end as results or reasons, never as exceptions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.cache import NO_CACHE, Cache
+from checker.model.robot import Robot
+from checker.trial.running import start_trial
+from checker.trial.trial import Trial
+from tests.model.robots import sdf
+from tests.trial.machines import chassis, four_wheels, wheel
+
+
+def chain(count: int) -> Robot:
+    links = "".join(
+        f'<link name="l{number}"><pose>0 0 {0.01 * number} 0 0 0</pose><collision name="c">'
+        "<geometry><sphere><radius>0.01</radius></sphere></geometry></collision></link>"
+        for number in range(count)
+    )
+    joints = "".join(
+        f'<joint name="j{number}" type="revolute"><parent>l{number}</parent>'
+        f"<child>l{number + 1}</child><axis><xyz>0 1 0</xyz></axis></joint>"
+        for number in range(count - 1)
+    )
+    return sdf(links + joints)
+
+
+LOOP = "".join(
+    f'<link name="{name}"><collision name="c"><geometry><box><size>1 1 1</size></box></geometry>'
+    f'</collision></link><joint name="{name}{to}" type="revolute"><parent>{name}</parent>'
+    f"<child>{to}</child><axis><xyz>0 0 1</xyz></axis></joint>"
+    for name, to in (("a", "b"), ("b", "c"), ("c", "a"))
+)
+
+
+@pytest.mark.parametrize(
+    "robot",
+    [
+        sdf(LOOP),
+        four_wheels(mass=1e300),
+        four_wheels(mass=1e-300),
+        four_wheels(plugin_radius=1e-300),
+        four_wheels(plugin_separation=1e300),
+        four_wheels(limits="<max_velocity>1e300</max_velocity>"),
+        four_wheels(limits="<max_velocity>nan</max_velocity>"),
+        four_wheels(radius=1e5),
+        sdf(chassis() + wheel("w", 1e300, 0)),
+        chain(60),
+    ],
+    ids=lambda _: "robot",
+)
+def test_a_hostile_robot_ends_as_a_trial_or_a_reason(robot: Robot) -> None:
+    assert isinstance(start_trial(robot, NO_CACHE).result(), Trial | str)
+
+
+def test_five_thousand_links_end_within_the_limits() -> None:
+    assert isinstance(start_trial(chain(5000), NO_CACHE).result(), Trial | str)
+
+
+def test_a_robot_without_collisions_is_no_trial() -> None:
+    outcome = start_trial(sdf('<link name="base_link"/>'), NO_CACHE).result()
+    assert isinstance(outcome, str)
+
+
+def test_a_trial_is_kept(tmp_path: Path) -> None:
+    cache, robot = Cache(tmp_path), four_wheels()
+    first = start_trial(robot, cache).result()
+    again = start_trial(robot, cache)
+    assert again.known
+    assert again.result() == first
+    assert not start_trial(robot, cache, thorough=True).known
+    assert not start_trial(four_wheels(mass=21), cache).known
+
+
+def test_an_entry_that_is_no_trial_is_driven_again(tmp_path: Path) -> None:
+    cache, robot = Cache(tmp_path), four_wheels()
+    first = start_trial(robot, cache).result()
+    (entry,) = tmp_path.glob("trial/*/*")
+    entry.write_text('{"drive": 1}')
+    assert start_trial(robot, cache).result() == first

@@ -1,0 +1,69 @@
+"""Every accepted robot drives as it should: what fails here is a fault of ours."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.cache import NO_CACHE
+from checker.package.opening import open_input
+from checker.subject import Subject
+from checker.trial.running import start_trial
+from checker.trial.trial import Trial
+from tests.trial.machines import value
+
+
+@pytest.fixture(scope="module")
+def trials(corpus: Path) -> dict[str, Trial]:
+    found = {}
+    with open_input(corpus) as opened:
+        for package in opened.packages:
+            robots = Subject(package).robots
+            if isinstance(robots, tuple):
+                trial = start_trial(robots[0], NO_CACHE).result()
+                assert isinstance(trial, Trial), f"{package.name}: {trial}"
+                found[package.name] = trial
+    return found
+
+
+def of_kind(trials: dict[str, Trial], *words: str) -> dict[str, Trial]:
+    return {n: trial for n, trial in trials.items() if any(word in trial.drive for word in words)}
+
+
+def test_mujoco_takes_every_robot_and_settles_it(trials: dict[str, Trial]) -> None:
+    assert trials
+    for name, trial in trials.items():
+        assert not trial.refused, name
+        assert not trial.trouble, name
+        assert value(trial, "settle_speed") < 0.01, name
+        assert value(trial, "settle_tilt") < 0.05, name
+        assert value(trial, "settle_drop") < 0.03, name
+        assert value(trial, "energy_gain") < 0.1, name
+
+
+def test_wheels_and_tracks_drive_straight_at_the_commanded_speed(trials: dict[str, Trial]) -> None:
+    for name, trial in of_kind(trials, "drive", "Ackermann", "tracks").items():
+        assert 0.97 < value(trial, "speed_ratio") < 1.03, name
+        assert abs(value(trial, "path_sideways")) < 0.02, name
+        assert value(trial, "stop_speed") < 0.01, name
+
+
+def test_turns_are_what_the_contact_loads_predict(trials: dict[str, Trial]) -> None:
+    for name, trial in of_kind(trials, "drive", "Ackermann", "tracks").items():
+        assert 0.8 < value(trial, "yaw_of_predicted") < 1.2, name
+        assert (trial.value("turn_drift") or 0.0) < 0.5, name
+
+
+def test_copters_hover_and_climb(trials: dict[str, Trial]) -> None:
+    for name, trial in of_kind(trials, "multicopter").items():
+        assert value(trial, "hover_effort") < 1.0, name
+        assert abs(value(trial, "hover_sink")) < 0.02, name
+        assert value(trial, "climbed") == pytest.approx(1.0, abs=0.05), name
+
+
+def test_legs_stand(trials: dict[str, Trial]) -> None:
+    for name, trial in of_kind(trials, "legs").items():
+        assert value(trial, "hold_sag") < 0.01, name
+        assert abs(value(trial, "hold_sink")) < 0.01, name
+        assert value(trial, "hold_tilt") < 0.02, name

@@ -1,0 +1,121 @@
+"""Robots on wheels: what drives well drives straight, and each cause shows in its figure."""
+
+from __future__ import annotations
+
+from checker.cache import NO_CACHE
+from checker.trial.running import start_trial
+from checker.trial.trial import Trial
+from tests.model.robots import sdf
+from tests.trial.machines import (
+    LEFT,
+    RIGHT,
+    chassis,
+    diff_drive,
+    four_wheels,
+    sound,
+    trial_of,
+    value,
+    wheel,
+)
+
+
+def test_a_sound_robot_drives_as_told() -> None:
+    trial = sound(four_wheels())
+    assert 0.97 < value(trial, "speed_ratio") < 1.03
+    assert abs(value(trial, "path_sideways")) < 1e-3
+    assert abs(value(trial, "path_heading")) < 1e-3
+    assert value(trial, "stop_speed") < 1e-3
+    assert value(trial, "settle_speed") < 1e-3
+    assert 0.009 < value(trial, "settle_drop") < 0.02
+    assert value(trial, "rest_penetration") < 3e-4
+    assert value(trial, "energy_gain") < 0.1
+    assert value(trial, "turn_drift") < 0.02
+
+
+def test_full_speed_keeps_the_limits_of_the_plugin() -> None:
+    trial = sound(four_wheels())
+    assert abs(value(trial, "full_speed") - value(trial, "full_speed_limit")) < 0.01
+    assert value(trial, "full_acceleration") < 1.05 * value(trial, "full_acceleration_limit")
+
+
+def test_the_turn_is_what_the_contact_loads_predict() -> None:
+    for base in (0.2, 0.4, 0.6):
+        trial = sound(four_wheels(base=base))
+        assert 0.8 < value(trial, "yaw_of_predicted") < 1.2
+        assert value(trial, "yaw_ratio") < 0.9
+
+
+def test_two_runs_are_the_same_to_the_bit() -> None:
+    robot = four_wheels(com="0.02 0.01 0")
+    assert trial_of(robot) == trial_of(robot)
+
+
+def test_the_child_measures_what_this_process_measures() -> None:
+    robot = four_wheels()
+    trial = start_trial(robot, NO_CACHE).result()
+    assert isinstance(trial, Trial)
+    assert trial == Trial.from_json(trial_of(robot).as_json())
+
+
+def test_a_reversed_axis_drives_backwards() -> None:
+    trial = sound(four_wheels(axis="0 -1 0"))
+    assert -1.03 < value(trial, "speed_ratio") < -0.97
+    assert value(trial, "yaw_ratio") < 0
+
+
+def test_exchanged_sides_turn_the_wrong_way() -> None:
+    wheels = "".join(
+        wheel(name, 0.2 if name[0] == "f" else -0.2, 0.25 if name in LEFT else -0.25)
+        for name in (*LEFT, *RIGHT)
+    )
+    trial = sound(sdf(chassis() + wheels + diff_drive(RIGHT, LEFT)))
+    assert 0.97 < value(trial, "speed_ratio") < 1.03
+    assert value(trial, "yaw_ratio") < -0.1
+
+
+def test_two_wheels_and_a_ball_turn_as_told() -> None:
+    ball = """
+<link name="ball"><pose>-0.2 0 0.05 0 0 0</pose><inertial><mass>0.5</mass></inertial>
+  <collision name="c"><geometry><sphere><radius>0.05</radius></sphere></geometry>
+  <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision></link>
+<joint name="ball_joint" type="fixed"><parent>base_link</parent><child>ball</child></joint>"""
+    wheels = wheel("l", 0, 0.25) + wheel("r", 0, -0.25)
+    trial = sound(sdf(chassis(com="-0.05 0 0") + ball + wheels + diff_drive(("l",), ("r",))))
+    assert 0.97 < value(trial, "yaw_ratio") < 1.03
+    assert 0.9 < value(trial, "yaw_of_predicted") < 1.1
+
+
+def test_a_wheel_off_the_ground_carries_nothing() -> None:
+    lifted = wheel("fl", 0.2, 0.25).replace("0.2 0.25 0.1 0 0 0", "0.2 0.25 0.15 0 0 0")
+    rest = wheel("fr", 0.2, -0.25) + wheel("rl", -0.2, 0.25) + wheel("rr", -0.2, -0.25)
+    trial = sound(sdf(chassis(com="-0.1 -0.05 0") + lifted + rest + diff_drive(LEFT, RIGHT)))
+    assert value(trial, "load_share", "fl_joint") < 0.05
+    assert value(trial, "load_share", "rr_joint") > 0.5
+
+
+def test_joints_named_twice_or_not_at_all_are_no_obstacle() -> None:
+    wheels = "".join(
+        wheel(name, 0.2 if name[0] == "f" else -0.2, 0.25 if name in LEFT else -0.25)
+        for name in (*LEFT, *RIGHT)
+    )
+    drive = diff_drive((*LEFT, "fl", "nowhere"), RIGHT) + diff_drive(LEFT, RIGHT)
+    trial = sound(sdf(chassis() + wheels + drive))
+    assert 0.97 < value(trial, "speed_ratio") < 1.03
+
+
+def test_two_halves_with_a_free_joint_between_drive_together() -> None:
+    rear = chassis().replace("base_link", "rear").replace("<pose>0 0 0.15", "<pose>-0.6 0 0.15", 1)
+    hinge = """
+<joint name="bend" type="revolute"><parent>base_link</parent><child>rear</child>
+  <axis><xyz>0 0 1</xyz></axis></joint>"""
+    front = wheel("fl", 0, 0.25) + wheel("fr", 0, -0.25)
+    back = wheel("rl", -0.6, 0.25, parent="rear") + wheel("rr", -0.6, -0.25, parent="rear")
+    nose = """
+<link name="nose"><pose>0.25 0 0.05 0 0 0</pose><inertial><mass>0.5</mass></inertial>
+  <collision name="c"><geometry><sphere><radius>0.05</radius></sphere></geometry>
+  <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision></link>
+<joint name="nose_joint" type="fixed"><parent>base_link</parent><child>nose</child></joint>"""
+    drive = diff_drive(("fl",), ("fr",)) + diff_drive(("rl",), ("rr",))
+    trial = sound(sdf(chassis(com="0.1 0 0") + rear + hinge + front + back + nose + drive))
+    assert 0.97 < value(trial, "speed_ratio") < 1.03
+    assert abs(value(trial, "path_sideways")) < 0.02
