@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from checker.model.close_pairs import TooManyPairs, close_pairs
+from checker.model.close_pairs import close_pairs
 from checker.model.mesh import Mesh
 from checker.model.overlap import face_directions, overlap_depth
 from checker.model.placed import Placed, placed
@@ -75,44 +75,6 @@ def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
             yield Inside(larger, smaller, deep)
             if len(found) >= DEEP_PAIRS:
                 return
-
-
-def sunken_wheels(robot: Robot, share: float) -> Iterator[Inside]:
-    """Yield driven wheels that start deeper in the part that carries them than a share of radius.
-
-    Raises:
-        TooManyPairs: There are more collisions than are compared.
-    """
-    carrier = {tie.joint: tie.parent for tie in robot.tree.ties}
-    around: dict[str, list[Placed]] = {}
-    compared = 0
-    for wheel in robot.locomotion.wheels:
-        parent = robot.tree.links.get(carrier.get(wheel.joint, ""))
-        if parent is None or wheel.radius is None or not wheel.radius > 0.0:
-            continue
-        if parent.scoped_name not in around:
-            bodies = placed(robot, parent, parent.collisions)
-            around[parent.scoped_name] = [each for each in bodies if _is_convex(robot, each)]
-        tyres = list(placed(robot, wheel.link, wheel.link.collisions))
-        compared += len(tyres) * len(around[parent.scoped_name])
-        if compared > _WHEEL_PAIRS:
-            raise TooManyPairs
-        deepest = _deepest(robot, tyres, around[parent.scoped_name], share * wheel.radius)
-        if deepest is not None:
-            yield deepest
-
-
-_WHEEL_PAIRS = 20_000
-
-
-def _deepest(
-    robot: Robot, tyres: Sequence[Placed], bodies: Sequence[Placed], enough: float
-) -> Inside | None:
-    """Return the pair that is deepest inside each other, if that is deeper than `enough`."""
-    touching = [(a, b) for b in tyres for a in bodies if a.box.gap(b.box) == 0.0]
-    pairs = (Inside(a, b, _depth(robot, a, b, enough)) for a, b in touching)
-    deepest = max(pairs, key=lambda inside: inside.depth, default=None)
-    return deepest if deepest is not None and deepest.depth > enough else None
 
 
 def _bulk(shape: Placed) -> float:

@@ -1,23 +1,25 @@
-"""The body of a robot reaches below its wheels or tracks.
+"""The body of a robot reaches below its wheels or tracks, or nearly down to the ground.
 
-It lies on its belly: the wheels hang in the air, or push with what little load is left.
-No accepted package at hand shows it.
+It lies on its belly: the wheels hang in the air, or push with what little load is left. With little
+room below, the first bump stops it: mostly the wheels are too high in the body.
+No accepted package at hand shows it: the lowest has half a wheel's radius below it.
 
 Fix: raise or shrink the collision, or lower the wheels.
 Source: geometry of collisions in the pose that the robot starts in.
 """
 
-from checker.model.placed import placed
+from checker.model.placed import Placed, placed
 from checker.model.rigid import rigid_bodies
 from checker.model.robot import Robot
 from checker.model.rolling import carriers, on_one_axle, rolling_parts
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Finding, Findings, Severity, finding, rule
 
 
 @rule("GEO011", "body-below-wheels", Severity.ERROR)
-def check(robot: Robot, *, tolerance: float = 0.005) -> Findings:
+def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.25) -> Findings:
     """Report collisions of what carries the wheels that reach `tolerance` metres below them all.
 
+    A warning for those that leave less than `least_clearance` of the wheels' radius to the ground.
     Arms, legs and other moving parts may reach down. A robot on one axle needs something else to
     stand on, such as a caster: it is passed over.
     """
@@ -25,6 +27,7 @@ def check(robot: Robot, *, tolerance: float = 0.005) -> Findings:
     if not parts or on_one_axle(parts):
         return
     ground = min(part.box.low[2] for part in parts)
+    radius = max(part.box.high[2] - part.box.low[2] for part in parts) / 2
     rolling = {link.scoped_name for part in parts for link in part.links}
     bodies = rigid_bodies(robot)
     carrying = {bodies.of_link[name] for name in carriers(robot, parts)}
@@ -33,13 +36,22 @@ def check(robot: Robot, *, tolerance: float = 0.005) -> Findings:
         if name in rolling or bodies.of_link[name] not in carrying:
             continue
         for each in placed(robot, link, link.collisions):
-            below = ground - each.box.low[2]
-            if below > tolerance:
-                yield finding(
-                    each.shape.pose,
-                    f"collision {each.shape.name.value!r} of {link.name.value!r} reaches "
-                    f"{below * 1e3:.3g} mm below the wheels",
-                )
+            clearance = each.box.low[2] - ground
+            if clearance < max(-tolerance, least_clearance * radius):
+                yield _finding(each, clearance, least_clearance * radius, tolerance)
+
+
+def _finding(each: Placed, clearance: float, expected: float, tolerance: float) -> Finding:
+    what = f"collision {each.shape.name.value!r} of {each.link.name.value!r}"
+    if clearance < -tolerance:
+        said = f"{what} reaches {-clearance * 1e3:.3g} mm below the wheels"
+        return finding(each.shape.pose, said)
+    return finding(
+        each.shape.pose,
+        f"{what} leaves {max(clearance, 0.0) * 1e3:.3g} mm to the ground that the wheels stand on, "
+        f"expected {expected * 1e3:.3g} mm or more",
+        severity=Severity.WARNING,
+    )
 
 
 def _rover(z: float, mark: str = "", link: str = "base_link", rear: bool = True) -> str:
@@ -86,5 +98,5 @@ def _wheel(name: str, x: float, y: float) -> str:
 
 
 _MARK = "  <!-- ^ GEO011 -->"
-GOOD = [_rover(0.0), _rover(-0.054), _rover(-0.2, link="arm"), _rover(-0.07, rear=False)]
-BAD = [_rover(-0.08, _MARK)]
+GOOD = [_rover(0.0), _rover(-0.02), _rover(-0.2, link="arm"), _rover(-0.07, rear=False)]
+BAD = [_rover(-0.08, _MARK), _rover(-0.04, _MARK)]

@@ -50,7 +50,8 @@ def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[
             lies = "does not point up: it tilts its wheel, expected 0 0 1"
             yield finding(
                 joint.axes[0].xyz[0],
-                f"axis of steering joint {name!r} {down if upwards <= -least_cosine else lies}",
+                f"axis {_written(joint)} of steering joint {name!r} "
+                f"{down if upwards <= -least_cosine else lies}",
                 key=f"steering {upwards <= -least_cosine}",
             )
         is_on = Side.LEFT if across.get(joint, middle) > middle else Side.RIGHT
@@ -83,7 +84,8 @@ def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[
         what = "like all others: the robot backs up" if every else "the others turn against it"
         yield finding(
             joint.axes[0].xyz[0],
-            f"axis of wheel joint {joint.name.value!r} points to the right, {what}",
+            f"axis {_written(joint)} of wheel joint {joint.name.value!r} points to the right, "
+            f"{what}",
             key="all" if every else "",
         )
 
@@ -104,6 +106,10 @@ def _swapped(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Fi
                 key=f"{drive.plugin.element.path} {wheel.side}",
                 related=[(wheel.joint, "the joint")],
             )
+
+
+def _written(joint: Joint) -> str:
+    return " ".join(f"{number.value:g}" for number in joint.axes[0].xyz)
 
 
 def _dot(a: Vector, b: Vector) -> float:

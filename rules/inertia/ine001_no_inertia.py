@@ -49,7 +49,7 @@ def _missing(link: Link, *, sdf: bool) -> Iterator[Finding]:
     elif not any(moment.stated for moment in inertial.moments[:_MOMENTS]):
         yield finding(
             inertial.mass,
-            f"link {name!r} states a mass and no <inertia>: {taken}",
+            f"link {name!r} states a mass of {inertial.mass.value:g} kg and no <inertia>: {taken}",
             key="no moments",
         )
     elif not inertial.mass.stated:

@@ -83,7 +83,8 @@ def _moments(
     why = f"{first:.4g} is negative" if first < 0.0 else less
     yield finding(
         inertia.moments_span,
-        f"link {name!r} has the principal moments {said} kg·m², which no body can have: {why}",
+        f"link {name!r} has principal moments of inertia of {said} kg·m², which no body can have: "
+        f"{why}",
     )
 
 

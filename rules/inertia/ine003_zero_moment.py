@@ -33,8 +33,8 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
         tied = "" if alone else "; it is fixed to links that have inertia"
         yield finding(
             inertia.moments_span,
-            f"link {inertia.link.name.value!r} has the principal moments {said} kg·m², expected "
-            f"none of zero{tied}",
+            f"link {inertia.link.name.value!r} has principal moments of inertia of {said} kg·m², "
+            f"expected none of zero{tied}",
             severity=Severity.ERROR if alone else Severity.INFO,
         )
 

@@ -49,8 +49,8 @@ def _unit(inertia: LinkInertia) -> Iterator[Finding]:
     if inertia.link.inertial is not None:
         yield finding(
             inertia.moments_span,
-            f"link {inertia.link.name.value!r} of {inertia.mass:.4g} kg has the unit tensor, "
-            "1 kg·m² about each axis",
+            f"link {inertia.link.name.value!r} of {inertia.mass:.4g} kg has the unit tensor "
+            "of inertia, 1 kg·m² about each axis",
             key="unit",
         )
 
