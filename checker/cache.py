@@ -19,6 +19,8 @@ from typing import Any
 
 SIZE_LIMIT = 300_000_000
 """Bytes on disk; the entries that were used least recently go first."""
+_PRUNING = "00"
+"""How keys begin that have the size looked at: one in 256."""
 
 
 def cache_folder() -> Path:
@@ -92,6 +94,8 @@ class Cache:
             with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
                 file.write(json.dumps(result, separators=(",", ":")).encode())
             Path(file.name).replace(path)
+        if key.startswith(_PRUNING):
+            self.prune()
 
     def _path(self, kind: str, key: str) -> Path:
         if self.folder is None:

@@ -10,29 +10,17 @@ from time import perf_counter
 from typing import Any
 
 from checker.cache import NO_CACHE, Cache, cache_folder
-from checker.collection import collection_put_off
-from checker.discovery import all_rules
-from checker.engine import crashed, needed_parts, run_rules
 from checker.errors import UnreadableInput
-from checker.facts import facts_of
-from checker.measured import measured
-from checker.options import check_against_rules
 from checker.package.opening import open_input
 from checker.package.package import Package
-from checker.profiles import profile
 from checker.recall import memory_key, recalled, remember
 from checker.report.report import (
-    Cause,
-    InheritedPart,
-    NotChecked,
     NotOpened,
     PackageReport,
     Report,
 )
+from checker.saying import Say, say_nothing
 from checker.settings import Settings, find_settings, folders_above
-from checker.stages import Say, Stages, say_nothing
-from checker.subject import Subject
-from checker.trial.robot_trial import RobotTrial
 from checker.versions import versions
 
 
@@ -140,72 +128,27 @@ def _check_input(task: _Task) -> Iterator[PackageReport | NotOpened]:
         opening = perf_counter() - started
         for package in opened.packages:
             if task.only in ("", package.name):
-                settings = task.settings_for(package)
-                check_against_rules(settings, all_rules())
-                report = _check_isolated(package, task.shown(package), settings, task.say)
+                report = _recalled_or_judged(package, task)
                 yield replace(report, timings={"open": opening, **report.timings})
         for each in opened.skipped:
             yield NotOpened(str(task.path / each.name), each.reason, failed=False)
 
 
-def _check_isolated(package: Package, shown: str, settings: Settings, say: Say) -> PackageReport:
-    """Check one package; what goes wrong with it is reported, and the others are checked."""
-    try:
-        with collection_put_off():
-            return _check_or_recall(package, shown, settings, say)
-    except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
-        broken = (crashed("check", error),)
-        return PackageReport(package.name, shown, "unknown", (), broken)
-
-
-def _check_or_recall(package: Package, shown: str, settings: Settings, say: Say) -> PackageReport:
-    """Check a package, or take the report of it from the cache while it is the same."""
+def _recalled_or_judged(package: Package, task: _Task) -> PackageReport:
+    """Take the report of a package from the cache while nothing has changed, else check it."""
     started = perf_counter()
+    settings, shown = task.settings_for(package), task.shown(package)
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
     key = memory_key(package, settings) if settings.cache else ""
     known = recalled(cache, key, shown)
     if known is not None:
         return replace(known, timings={"recall": perf_counter() - started})
-    stages = Stages(lambda words: say(f"{package.name}: {words}"))
-    report = _check_one(Subject(package, cache, stages), shown, settings)
+    # Readers, engines and rules are loaded only when there is something to judge.
+    from checker.judging import judged
+
+    report = judged(package, shown, settings, cache, task.say)
     remember(cache, key, report)
     return report
-
-
-def _check_one(subject: Subject, shown: str, settings: Settings) -> PackageReport:
-    package, judge = subject.package, profile(settings.profile)
-    with subject.stages.stage("rules", "rules"):
-        subject.start(needed_parts(all_rules(), judge, settings))
-        outcome = run_rules(all_rules(), subject, judge, settings)
-    blind = [
-        NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
-        for fault in package.index.faults
-    ]
-    facts, trouble = _facts(subject)
-    driven = subject.provided(RobotTrial)
-    return PackageReport(
-        package.name,
-        shown,
-        str(package.kind),
-        outcome.findings,
-        (*outcome.not_checked, *blind, *trouble),
-        tuple(
-            InheritedPart(each.part, each.package_name, each.at_hand) for each in package.inherited
-        ),
-        facts,
-        dict(subject.stages.seconds),
-        settings.profile,
-        settings.fail_on,
-        settings.description,
-        measured(driven[0], outcome) if driven else None,
-    )
-
-
-def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]:
-    try:
-        return facts_of(subject), ()
-    except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
-        return {}, (crashed("facts", error),)
 
 
 def _report(done: Sequence[_Checked]) -> Report:

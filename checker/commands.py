@@ -30,7 +30,7 @@ from checker.report.report import Report
 from checker.report.text_report import to_text
 from checker.report.wording import plain, shortened
 from checker.rule import Rule
-from checker.stages import say_nothing
+from checker.saying import say_nothing
 
 
 def check(options: argparse.Namespace) -> int:

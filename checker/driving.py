@@ -41,6 +41,13 @@ class Driving:
             if self.obstacle is None:
                 _ = self._first, twice and self._first_again
 
+    def stop(self) -> None:
+        """End the trials that nobody has waited for."""
+        for name in ("_first", "_first_again"):
+            pending = self.__dict__.get(name)
+            if pending is not None:
+                pending.stop()
+
     @cached_property
     def once(self) -> tuple[RobotTrial, ...] | NotAtHand:
         """The robots and what their trials measured."""

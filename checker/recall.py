@@ -52,8 +52,8 @@ def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
 
 
 def remember(cache: Cache, key: str, report: PackageReport) -> None:
-    """Keep a report, unless something went wrong that may go well the next time."""
-    if key and not report.crashed:
+    """Keep a report, unless something could not be looked at: it may be there the next time."""
+    if key and not report.blind_spots:
         cache.put(KIND, key, to_stored(report))
 
 

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 
-from checker.model.mesh import Mesh, Meshes, MeshFault
+from checker.mesh.library import PackageMeshes
+from checker.model.mesh import Mesh, MeshFault
+from checker.saying import Say, say_nothing
 from checker.source.text import Located
-
-Say = Callable[[str], None]
-
-
-def say_nothing(_: str) -> None:
-    """Keep progress to oneself, as where nobody looks on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,10 +55,19 @@ class TimedMeshes:
         read: Whether they have been asked for, so that asking again costs nothing.
     """
 
-    meshes: Meshes
+    meshes: PackageMeshes
     number: int
     stages: Stages
     read: bool = False
+
+    def begin(self) -> None:
+        """Begin to read them, while the caller does something else."""
+        with self.stages.stage("meshes"):
+            self.meshes.begin()
+
+    def stop(self) -> None:
+        """End the reading, if nobody has waited for it."""
+        self.meshes.stop()
 
     def of(self, uri: Located[str]) -> Mesh | MeshFault:
         """Return what the file behind a URI holds."""

@@ -81,8 +81,23 @@ class Subject:
     def start(self, kinds: Collection[type]) -> None:
         """Begin with parts that take long, so that they come about while the rules run."""
         twice = RepeatedTrial in kinds
-        if (twice or RobotTrial in kinds) and not isinstance(self.driving, NotAtHand):
+        driven = twice or RobotTrial in kinds
+        if (driven or MassProperties in kinds) and isinstance(self.robots, tuple):
+            meshes = self.robots[0].meshes
+            if isinstance(meshes, TimedMeshes):
+                meshes.begin()
+        if driven and not isinstance(self.driving, NotAtHand):
             self.driving.begin(twice=twice)
+
+    def close(self) -> None:
+        """End what was begun and nobody asked for."""
+        robots = self.__dict__.get("robots")
+        for robot in robots if isinstance(robots, tuple) else ():
+            if isinstance(robot.meshes, TimedMeshes):
+                robot.meshes.stop()
+        driving = self.__dict__.get("driving")
+        if isinstance(driving, Driving):
+            driving.stop()
 
     @cached_property
     def paperwork(self) -> Paperwork:

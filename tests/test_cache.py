@@ -85,3 +85,15 @@ def test_where_results_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("SUBT_CHECK_CACHE")
     monkeypatch.setenv("XDG_CACHE_HOME", "/two")
     assert cache_folder() == Path("/two/subt-check")
+
+
+def test_the_size_is_looked_at_now_and_then(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pruned: list[str] = []
+    monkeypatch.setattr(Cache, "prune", lambda self: pruned.append(str(self.folder)))
+    cache = Cache(tmp_path)
+    cache.put("kind", "01" + "0" * 62, 1)
+    assert not pruned
+    cache.put("kind", "00" + "0" * 62, 1)
+    assert pruned == [str(tmp_path)]

@@ -14,7 +14,7 @@ ROOT = Path(__file__).parent.parent
 
 LAYERS = (
     {"cache", "collection", "confined", "errors", "finding", "page", "parts"},
-    {"resources", "versions"},
+    {"resources", "saying", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
     {"checklist", "discovery", "dynamics", "mesh", "paperwork", "profiles", "spawning"},
@@ -23,6 +23,7 @@ LAYERS = (
     {"options", "subject"},
     {"engine", "facts", "recall"},
     {"measured"},
+    {"judging"},
     {"check"},
     {"commands"},
     {"cli"},

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import posixpath
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib.metadata import version
 
 from checker.cache import NO_CACHE, Cache, code_hash, key_of
-from checker.confined import Died, Limits, ask
+from checker.confined import Child, Died, Limits
 from checker.mesh.limits import MEMORY, SECONDS_FOR_ALL, SECONDS_FOR_ONE, SIZE_LIMIT
 from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
 from checker.mesh.materials import textures_in
@@ -27,6 +27,25 @@ _LIBRARIES = ("numpy", "pycollada", "scipy", "trimesh")
 _UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is no mesh of this robot")
 
 _Read = Mesh | MeshFault
+
+
+@dataclass(frozen=True, eq=False)
+class _Reading:
+    """Meshes that are known, and a child that reads the others.
+
+    Attributes:
+        places: The file, or why there is none, by folder and URI as written.
+        keys: Each file's key in the cache, or why it has none.
+        known: By key.
+        unread: Keys of what the child reads, in its order.
+        child: None when there is nothing to read.
+    """
+
+    places: Mapping[tuple[str, str], MeshFile | MeshFault]
+    keys: Sequence[tuple[MeshFile, str | MeshFault]]
+    known: Mapping[str, _Read]
+    unread: Sequence[str]
+    child: Child | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,38 +66,52 @@ class PackageMeshes:
         """Return what the file behind a URI holds; the first call reads all files."""
         return self._by_address.get(_address(uri), _UNKNOWN)
 
+    def begin(self) -> None:
+        """Begin to read what is not known yet; `of` waits for it."""
+        _ = self._reading
+
+    def stop(self) -> None:
+        """End the reading, if nobody has waited for it."""
+        if "_reading" in self.__dict__ and self._reading.child is not None:
+            self._reading.child.stop()
+
     @cached_property
     def _by_address(self) -> dict[tuple[str, str], _Read]:
         """What is known, by folder and URI as written."""
-        places = {at: file_behind(self.package, *at) for at in map(_address, self.uris)}
-        files = {place.path: place for place in places.values() if isinstance(place, MeshFile)}
-        read = dict(zip(files, self._all(files.values()), strict=True))
+        reading = self._reading
+        read = {**reading.known, **self._now(reading)}
+        files = {
+            file.path: key if isinstance(key, MeshFault) else self._placed(read[key], file)
+            for file, key in reading.keys
+        }
         return {
-            at: read[place.path] if isinstance(place, MeshFile) else place
-            for at, place in places.items()
+            at: files[place.path] if isinstance(place, MeshFile) else place
+            for at, place in reading.places.items()
         }
 
-    def _all(self, files: Iterable[MeshFile]) -> list[_Read]:
-        """Return what files hold; those of one content are read once."""
-        keys = [(file, _key(file)) for file in files]
-        read: dict[str, _Read] = {}
+    @cached_property
+    def _reading(self) -> _Reading:
+        """What is known already, and the child that reads the rest; one content is read once."""
+        places = {at: file_behind(self.package, *at) for at in map(_address, self.uris)}
+        files = {place.path: place for place in places.values() if isinstance(place, MeshFile)}
+        keys = [(file, _key(file)) for file in files.values()]
+        known: dict[str, _Read] = {}
         unread: dict[str, MeshFile] = {}
         for file, key in keys:
-            if isinstance(key, str) and key not in read:
-                known = _known(self.cache, key)
-                if known is None:
+            if isinstance(key, str) and key not in known and key not in unread:
+                found = _known(self.cache, key)
+                if found is None:
                     unread[key] = file
                 else:
-                    read[key] = known
-        read |= self._now(unread)
-        return [
-            key if isinstance(key, MeshFault) else self._placed(read[key], file)
-            for file, key in keys
-        ]
+                    known[key] = found
+        child = _started([*unread.values()]) if unread else None
+        return _Reading(places, keys, known, [*unread], child)
 
-    def _now(self, files: Mapping[str, MeshFile]) -> dict[str, _Read]:
-        """Read files in a child process and keep what holds next time as well."""
-        read = dict(zip(files, _asked([*files.values()]), strict=True)) if files else {}
+    def _now(self, reading: _Reading) -> dict[str, _Read]:
+        """Wait for the child, and keep what holds next time as well."""
+        if reading.child is None:
+            return {}
+        read = dict(zip(reading.unread, _answered(reading.child, len(reading.unread)), strict=True))
         for key, found in read.items():
             # Another day, or another machine, may have the time or the memory.
             if isinstance(found, Mesh) or found.trouble is not MeshTrouble.NOT_LOOKED_AT:
@@ -126,16 +159,21 @@ def _known(cache: Cache, key: str) -> _Read | None:
         return None
 
 
-def _asked(files: list[MeshFile]) -> list[_Read]:
-    """Return what a child process reads."""
+def _started(files: list[MeshFile]) -> Child:
+    """Start the child process that reads files."""
     locations = [str(file.location) for file in files]
     request = json.dumps({"files": locations, "seconds": SECONDS_FOR_ONE}).encode()
-    answer = ask("checker.mesh.worker", request, Limits(SECONDS_FOR_ALL, MEMORY))
+    return Child("checker.mesh.worker", request, Limits(SECONDS_FOR_ALL, MEMORY))
+
+
+def _answered(child: Child, number: int) -> list[_Read]:
+    """Wait for what a child has read, as many files as it was given."""
+    answer = child.answer()
     try:
         read = [] if isinstance(answer, Died) else [from_json(each) for each in json.loads(answer)]
     except ValueError:
         read = []
-    if len(read) == len(files):
+    if len(read) == number:
         return read
     reason = answer.reason if isinstance(answer, Died) else "answered with nonsense"
-    return [MeshFault(MeshTrouble.NOT_LOOKED_AT, f"was not read: its reader {reason}")] * len(files)
+    return [MeshFault(MeshTrouble.NOT_LOOKED_AT, f"was not read: its reader {reason}")] * number

@@ -36,6 +36,11 @@ class Pending:
         """Whether nothing needs to be waited for."""
         return self._child is None
 
+    def stop(self) -> None:
+        """End the trial, if nobody has waited for it."""
+        if self._child is not None:
+            self._child.stop()
+
     def result(self) -> Trial | str:
         """Wait for the trial; else return why there is none, as the end of a sentence."""
         if self._child is not None:

@@ -112,16 +112,17 @@ def test_a_stored_report_is_the_same(name: str) -> None:
 
 def test_what_is_remembered_is_recalled_under_the_path_of_now(tmp_path: Path) -> None:
     cache = Cache(tmp_path)
-    report = static_report(BROKEN)
+    report = replace(static_report(BROKEN), not_checked=())
     remember(cache, "key", report)
     assert recalled(cache, "key", "other/path") == replace(report, path="other/path")
     assert recalled(cache, "another", "other/path") is None
     assert recalled(cache, "", "other/path") is None
 
 
-def test_a_crash_is_not_remembered(tmp_path: Path) -> None:
-    crash = NotChecked("PKG001", "could not run", Cause.CRASHED)
-    remember(Cache(tmp_path), "key", replace(static_report(GOOD), not_checked=(crash,)))
+@pytest.mark.parametrize("cause", [Cause.CRASHED, Cause.NOT_AT_HAND])
+def test_what_could_not_be_looked_at_is_looked_for_again(tmp_path: Path, cause: Cause) -> None:
+    unseen = NotChecked("PKG001", "could not run", cause)
+    remember(Cache(tmp_path), "key", replace(static_report(GOOD), not_checked=(unseen,)))
     assert recalled(Cache(tmp_path), "key", "path") is None
 
 

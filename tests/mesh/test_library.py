@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 
 from checker.cache import NO_CACHE, Cache
-from checker.confined import Died
+from checker.confined import Child, Died
 from checker.mesh import library
+from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.package.opening import open_input
@@ -91,8 +92,8 @@ def test_one_content_under_two_names_is_read_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[int] = []
-    ask_for = library._asked
-    monkeypatch.setattr(library, "_asked", lambda files: asked.append(len(files)) or ask_for(files))
+    start = library._started
+    monkeypatch.setattr(library, "_started", lambda files: asked.append(len(files)) or start(files))
     one, other = read({"meshes/a.stl": CUBE, "meshes/b.stl": CUBE}, tmp_path)
     assert asked == [1]
     assert isinstance(one, Mesh)
@@ -202,7 +203,7 @@ def test_what_was_given_up_is_tried_again(tmp_path: Path, monkeypatch: pytest.Mo
     cache = Cache(tmp_path / "cache")
     gave_up = MeshFault(MeshTrouble.NOT_LOOKED_AT, "took too long")
     with monkeypatch.context() as patch:
-        patch.setattr(library, "_asked", lambda files: [gave_up] * len(files))
+        patch.setattr(library, "_answered", lambda _, number: [gave_up] * number)
         assert read({"meshes/a.stl": CUBE}, tmp_path, cache) == [gave_up]
     assert isinstance(read({"meshes/a.stl": CUBE}, tmp_path, cache)[0], Mesh)
 
@@ -211,10 +212,17 @@ def test_what_was_given_up_is_tried_again(tmp_path: Path, monkeypatch: pytest.Mo
 def test_no_proper_answer(
     answer: bytes | Died, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(library, "ask", lambda *_: answer)
+    monkeypatch.setattr(Child, "answer", lambda _: answer)
     (found,) = read({"meshes/a.stl": CUBE}, tmp_path)
     assert isinstance(found, MeshFault)
     assert found.trouble is MeshTrouble.NOT_LOOKED_AT
+
+
+def test_a_reading_that_was_begun_can_be_ended(tmp_path: Path) -> None:
+    (tmp_path / "a.stl").write_bytes(CUBE)
+    started = library._started([MeshFile("a.stl", tmp_path / "a.stl")])
+    started.stop()
+    assert isinstance(library._answered(started, 1)[0], MeshFault)
 
 
 def test_a_file_that_is_too_large_is_not_read(

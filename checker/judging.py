@@ -1,0 +1,86 @@
+"""Judges one package: its parts, the rules over them, and what is known at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from checker.cache import Cache
+from checker.collection import collection_put_off
+from checker.discovery import all_rules
+from checker.engine import crashed, needed_parts, run_rules
+from checker.facts import facts_of
+from checker.measured import measured
+from checker.options import check_against_rules
+from checker.package.package import Package
+from checker.profiles import profile
+from checker.report.report import Cause, InheritedPart, NotChecked, PackageReport
+from checker.saying import Say
+from checker.settings import Settings
+from checker.stages import Stages
+from checker.subject import Subject
+from checker.trial.robot_trial import RobotTrial
+
+
+def judged(
+    package: Package, shown: str, settings: Settings, cache: Cache, say: Say
+) -> PackageReport:
+    """Return the report of a package; what goes wrong with it is in it, and nothing is raised.
+
+    Args:
+        package: What to judge.
+        shown: Its path as the user gave it.
+        settings: By which rules, and how strictly.
+        cache: Where results that take long are kept.
+        say: Told what takes long when it begins.
+
+    Raises:
+        InvalidSettings: The settings name a rule or option that does not exist.
+    """
+    check_against_rules(settings, all_rules())
+    stages = Stages(lambda words: say(f"{package.name}: {words}"))
+    subject = Subject(package, cache, stages)
+    try:
+        with collection_put_off():
+            return _report(subject, shown, settings)
+    except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
+        broken = (crashed("check", error),)
+        return PackageReport(package.name, shown, "unknown", (), broken)
+    finally:
+        subject.close()
+
+
+def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
+    package, judge = subject.package, profile(settings.profile)
+    with subject.stages.stage("rules", "rules"):
+        subject.start(needed_parts(all_rules(), judge, settings))
+        outcome = run_rules(all_rules(), subject, judge, settings)
+    blind = [
+        NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
+        for fault in package.index.faults
+    ]
+    facts, trouble = _facts(subject)
+    driven = subject.provided(RobotTrial)
+    return PackageReport(
+        package.name,
+        shown,
+        str(package.kind),
+        outcome.findings,
+        (*outcome.not_checked, *blind, *trouble),
+        tuple(
+            InheritedPart(each.part, each.package_name, each.at_hand) for each in package.inherited
+        ),
+        facts,
+        dict(subject.stages.seconds),
+        settings.profile,
+        settings.fail_on,
+        settings.description,
+        measured(driven[0], outcome) if driven else None,
+    )
+
+
+def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]:
+    try:
+        return facts_of(subject), ()
+    except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
+        return {}, (crashed("facts", error),)
