@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import tempfile
 from collections.abc import Iterable
 from contextlib import suppress
@@ -19,6 +20,7 @@ from typing import Any
 
 SIZE_LIMIT = 300_000_000
 """Bytes on disk; the entries that were used least recently go first."""
+_ENTRY = re.compile(r"[0-9a-f]{64}\.json")
 _PRUNING = "00"
 """How keys begin that have the size looked at: one in 256."""
 
@@ -79,9 +81,10 @@ class Cache:
         path = self._path(kind, key)
         try:
             found = json.loads(path.read_bytes())
-            os.utime(path)
         except (OSError, ValueError, RecursionError):
             return None
+        with suppress(OSError):
+            os.utime(path)
         return found
 
     def put(self, kind: str, key: str, result: Any) -> None:
@@ -107,8 +110,11 @@ class Cache:
         if self.folder is None:
             return
         entries = []
-        for path in self.folder.glob("*/*/*"):
+        for path in self.folder.glob("*/[0-9a-f][0-9a-f]/*.json"):
+            # The folder may hold what others keep.
             with suppress(OSError):
+                if not _ENTRY.fullmatch(path.name):
+                    continue
                 found = path.stat()
                 entries.append((found.st_mtime, found.st_size, path))
         room = limit

@@ -139,7 +139,9 @@ def _recalled_or_judged(package: Package, task: _Task) -> PackageReport:
     started = perf_counter()
     settings, shown = task.settings_for(package), task.shown(package)
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
-    key = memory_key(package, settings) if settings.cache else ""
+    # An archive is unpacked into another folder each time.
+    is_archive = not task.path.is_dir()
+    key = memory_key(package, settings) if settings.cache and not is_archive else ""
     known = recalled(cache, key, shown)
     if known is not None:
         return replace(known, timings={"recall": perf_counter() - started})

@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from io import TextIOWrapper
 
 from checker.output import EXIT_CLEAN, EXIT_CRASH, EXIT_USAGE
@@ -84,6 +85,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words and words[0] not in (*COMMANDS, "-h", "--help", "--version"):
         words.insert(0, "check")
+    _end_in_good_order()
     parser = build_parser()
     options = parser.parse_args(words)
     if options.version:
@@ -95,6 +97,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return EXIT_USAGE
     return _guarded(options)
+
+
+def _end_in_good_order() -> None:
+    """Let a request to terminate unwind, so that children and temporary folders go as well."""
+    import signal
+
+    with suppress(ValueError):  # not the main thread: whoever runs it handles signals
+        signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
 
 
 def _guarded(options: argparse.Namespace) -> int:

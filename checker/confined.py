@@ -10,6 +10,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
@@ -110,7 +111,9 @@ _COMMAND = (sys.executable, "-P", "-m", "checker.confined")
 def _environment() -> dict[str, str]:
     here = str(Path(__file__).parent.parent)
     path = os.pathsep.join(filter(None, (here, os.environ.get("PYTHONPATH"))))
-    return {**os.environ, **dict.fromkeys(_OWN_THREADS, "1"), "PYTHONPATH": path}
+    # Nothing is drawn here, and MuJoCo refuses to load where its renderer does not.
+    own = {name: value for name, value in os.environ.items() if name != "MUJOCO_GL"}
+    return {**own, **dict.fromkeys(_OWN_THREADS, "1"), "PYTHONPATH": path}
 
 
 def ask(module: str, request: bytes, limits: Limits) -> bytes | Died:
@@ -127,11 +130,25 @@ def _cause(code: int, limits: Limits) -> str:
 
     if code == _OUT_OF_MEMORY:
         return f"needs more than {limits.memory / 1e6:.0f} MB of memory"
-    if code in (-signal.SIGXCPU, -signal.SIGKILL):
+    if code == -signal.SIGXCPU:
         return f"needs more than {limits.seconds:g} s of processor time"
+    if code == -signal.SIGKILL:
+        return "was killed: it needs too much time or memory"
     if code < 0:
         return f"ended in a crash (signal {signal.Signals(-code).name})"
     return "failed in its process"
+
+
+def end_with_parent() -> None:
+    """Have this process killed when its parent ends, where the system can (Linux: prctl)."""
+    import ctypes
+    import signal
+
+    with suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+_PR_SET_PDEATHSIG = 1
 
 
 def _work(module: str, seconds: int, memory: int) -> int:
@@ -139,6 +156,7 @@ def _work(module: str, seconds: int, memory: int) -> int:
     import resource
     from importlib import import_module
 
+    end_with_parent()
     resource.setrlimit(resource.RLIMIT_CPU, (max(seconds, 1), max(seconds, 1) + 1))
     resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

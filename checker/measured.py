@@ -12,9 +12,8 @@ from checker.trial.measures import MEASURES, Measure
 from checker.trial.robot_trial import RobotTrial
 from checker.trial.trial import Measurement, Trial
 
-GROUP = "TRI"
-"""Letters of the rules that judge trials. They key each finding with the figures it is about."""
 _JUDGES = frozenset(measure.rule for measure in MEASURES.values())
+"""Rules that judge figures. They key each finding with the figures it is about."""
 
 NOT_JUDGED = "not judged"
 _SERIES_DIGITS = 6
@@ -65,7 +64,7 @@ _Verdicts = dict[str, list[tuple[Severity, frozenset[tuple[str, int, int]]]]]
 def _verdicts(outcome: Outcome) -> _Verdicts:
     verdicts: _Verdicts = {}
     for found in outcome.findings:
-        if found.rule in _JUDGES:
+        if found.rule in _JUDGES or found.rule.startswith("TRI"):
             places = frozenset(map(_start, found.places))
             for name in found.key.split():
                 verdicts.setdefault(name, []).append((found.severity, places))
@@ -77,18 +76,14 @@ def _start(place: Place) -> tuple[str, int, int]:
 
 
 def _verdict(each: Measurement, driven: RobotTrial, verdicts: _Verdicts, looked: bool) -> str:
-    """Return the gravest that was said about a figure; `ok` when its rule looked and said nothing.
-
-    A rule about something else than trials judges some figures among other things: its silence
-    says nothing about the figure.
-    """
+    """Return the gravest that was said about a figure; `ok` when its rule looked and was silent."""
     said = verdicts.get(each.name, [])
     if each.part:
         start = _start(driven.part(each.part).span.place())
         said = [(severity, places) for severity, places in said if start in places]
     if said:
         return str(min((severity for severity, _ in said), key=lambda severity: severity.rank))
-    return "ok" if looked and MEASURES[each.name].rule.startswith(GROUP) else NOT_JUDGED
+    return "ok" if looked and MEASURES[each.name].silence_is_ok else NOT_JUDGED
 
 
 def _limits(name: str, options: Mapping[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import os
 import stat
 from collections.abc import Iterator
 from contextlib import suppress
-from importlib.metadata import entry_points
+from importlib.metadata import PackageNotFoundError, entry_points, version
 from itertools import islice
 from pathlib import Path
 
@@ -22,9 +22,12 @@ from checker.package.walk import SKIPPED_FOLDERS
 from checker.report.report import PackageReport
 from checker.report.stored import from_stored, to_stored
 from checker.settings import Settings
-from checker.versions import versions
 
 KIND = "report"
+_LIBRARIES = (
+    *("lxml", "markdown-it-py", "mujoco", "numpy", "pin", "pycollada", "pyelftools", "pyyaml"),
+    *("scipy", "subt-check", "tree-sitter", "tree-sitter-ruby", "trimesh", "yourdfpy"),
+)
 ENTRIES_LIMIT = 100_000
 """Files beside a package; with more of them, looking at all takes longer than checking."""
 
@@ -33,7 +36,7 @@ def memory_key(package: Package, settings: Settings) -> str:
     """Return the key of a package's report; empty when it is not worth remembering."""
     if package.only:
         return ""
-    parts: list[bytes | str] = [code_hash("", "../rules"), repr(sorted(versions().items()))]
+    parts: list[bytes | str] = [code_hash("", "../rules"), *map(_version, _LIBRARIES)]
     parts += [repr(settings), *sorted(_rules_of_others()), str(package.root)]
     parts += _content(package)
     beside = list(islice(_beside(package), ENTRIES_LIMIT))
@@ -55,6 +58,13 @@ def remember(cache: Cache, key: str, report: PackageReport) -> None:
     """Keep a report, unless something could not be looked at: it may be there the next time."""
     if key and not report.blind_spots:
         cache.put(KIND, key, to_stored(report))
+
+
+def _version(library: str) -> str:
+    try:
+        return version(library)
+    except PackageNotFoundError:
+        return "none"
 
 
 def _rules_of_others() -> Iterator[str]:
@@ -91,7 +101,7 @@ def _below(folder: Path) -> Iterator[str]:
     while waiting:
         with suppress(OSError), os.scandir(waiting.pop()) as items:
             for item in sorted(items, key=lambda item: item.name):
-                found = item.stat(follow_symlinks=False)
+                found = item.stat(follow_symlinks=item.is_symlink() and item.is_file())
                 yield f"{item.path} {found.st_mode} {found.st_size} {found.st_mtime_ns}"
                 if stat.S_ISDIR(found.st_mode) and item.name not in SKIPPED_FOLDERS:
                     waiting.append(Path(item.path))

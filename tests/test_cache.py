@@ -47,13 +47,14 @@ def test_a_folder_that_cannot_be_written_is_no_fault(tmp_path: Path) -> None:
 
 def test_what_was_used_least_recently_goes_first(tmp_path: Path) -> None:
     cache = Cache(tmp_path)
-    for age, key in enumerate(("aa1", "bb2", "cc3")):
+    keys = [start.ljust(64, "0") for start in ("aa1", "bb2", "cc3")]
+    for age, key in enumerate(keys):
         cache.put("mesh", key, "x" * 100)
         (entry,) = tmp_path.rglob(f"{key}.json")
         os.utime(entry, (1_000_000 - age, 1_000_000 - age))
-    assert cache.get("mesh", "cc3")  # the oldest, now used
+    assert cache.get("mesh", keys[2])  # the oldest, now used
     cache.prune(limit=250)
-    assert [cache.get("mesh", key) is not None for key in ("aa1", "bb2", "cc3")] == [
+    assert [cache.get("mesh", key) is not None for key in keys] == [
         True,
         False,
         True,
@@ -97,3 +98,11 @@ def test_the_size_is_looked_at_now_and_then(
     assert not pruned
     cache.put("kind", "00" + "0" * 62, 1)
     assert pruned == [str(tmp_path)]
+
+
+def test_what_others_keep_in_the_folder_stays(tmp_path: Path) -> None:
+    for name in ("photos/2024/family.jpg", "kind/ab/notes.json"):
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).write_bytes(b"x" * 100)
+    Cache(tmp_path).prune(limit=0)
+    assert len([path for path in tmp_path.rglob("*") if path.is_file()]) == 2

@@ -8,6 +8,8 @@ import signal
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from checker.confined import end_with_parent
+
 _OUT_OF_MEMORY, _FAILED = 71, 70
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
 
@@ -40,6 +42,7 @@ def apart(work: Callable[[], bytes], seconds: int) -> bytes | Ended:
 
 def _work(work: Callable[[], bytes], seconds: int, result_to: int) -> int:
     """Be the fork; return its exit code."""
+    end_with_parent()
     try:
         hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, hard))

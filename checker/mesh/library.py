@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib.metadata import version
+from itertools import islice
 
 from checker.cache import NO_CACHE, Cache, code_hash, key_of
 from checker.confined import Child, Died, Limits
@@ -23,7 +24,9 @@ from checker.package.reading import NotReadable, read_bytes
 from checker.source.text import Located
 
 _KIND = "mesh"
-_LIBRARIES = ("numpy", "pycollada", "scipy", "trimesh")
+_LIBRARIES = ("lxml", "numpy", "pycollada", "scipy", "trimesh")
+_MATERIAL_FILES = 20
+"""Of one mesh; they are read anew in each check."""
 _UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is no mesh of this robot")
 
 _Read = Mesh | MeshFault
@@ -124,8 +127,8 @@ class PackageMeshes:
             return read
         folder = posixpath.dirname(file.path)
         textures = list(read.textures)
-        for name in read.materials:
-            path = posixpath.normpath(posixpath.join(folder, name))
+        paths = (posixpath.normpath(posixpath.join(folder, name)) for name in read.materials)
+        for path in islice(dict.fromkeys(paths), _MATERIAL_FILES):
             content = self.package.read_bytes(path, MATERIAL_LIMIT)
             textures += textures_in(content) if isinstance(content, bytes) else ()
         return replace(read, path=file.path, textures=tuple(dict.fromkeys(textures)))
@@ -161,8 +164,8 @@ def _known(cache: Cache, key: str) -> _Read | None:
 
 def _started(files: list[MeshFile]) -> Child:
     """Start the child process that reads files."""
-    locations = [str(file.location) for file in files]
-    request = json.dumps({"files": locations, "seconds": SECONDS_FOR_ONE}).encode()
+    named = [(str(file.location), posixpath.basename(file.path)) for file in files]
+    request = json.dumps({"files": named, "seconds": SECONDS_FOR_ONE}).encode()
     return Child("checker.mesh.worker", request, Limits(SECONDS_FOR_ALL, MEMORY))
 
 

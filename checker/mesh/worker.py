@@ -19,8 +19,8 @@ def answer(request: bytes) -> bytes:
     """Read files.
 
     Args:
-        request: JSON: `files`, their absolute paths, links resolved, and `seconds` of processor
-            time for each.
+        request: JSON: `files`, pairs of an absolute path, links resolved, and the name by which the
+            model knows the file (its ending says the format); and `seconds` of processor time each.
 
     Returns:
         JSON: what each file holds, in the same order.
@@ -29,7 +29,8 @@ def answer(request: bytes) -> bytes:
     until = monotonic() + SECONDS_FOR_ALL
     asked = json.loads(request)
     seconds = asked["seconds"]
-    return json.dumps([_read_apart(Path(each), seconds, until) for each in asked["files"]]).encode()
+    read = [_read_apart(Path(at), name, seconds, until) for at, name in asked["files"]]
+    return json.dumps(read).encode()
 
 
 def _load_libraries() -> None:
@@ -41,20 +42,20 @@ def _load_libraries() -> None:
     _ = collada, scipy, trimesh
 
 
-def _read_apart(location: Path, seconds: int, until: float) -> Any:
+def _read_apart(location: Path, name: str, seconds: int, until: float) -> Any:
     """Read one file in a process of its own: it takes no other file with it."""
     seconds = min(seconds, int(until - monotonic()))
     if seconds < 1:
         reason = f"was not read: the others took {SECONDS_FOR_ALL:g} s"
         return to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, reason))
-    read = apart(lambda: json.dumps(to_json(_read(location))).encode(), seconds)
+    read = apart(lambda: json.dumps(to_json(_read(location, name))).encode(), seconds)
     if isinstance(read, Ended):
         return to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, read.reason))
     return json.loads(read)
 
 
-def _read(location: Path) -> Mesh | MeshFault:
-    data = read_bytes(location, location.name, SIZE_LIMIT)
+def _read(location: Path, name: str) -> Mesh | MeshFault:
+    data = read_bytes(location, name, SIZE_LIMIT)
     if isinstance(data, NotReadable):
         return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
-    return read_mesh(data, location.name)
+    return read_mesh(data, name)

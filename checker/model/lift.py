@@ -10,19 +10,13 @@ from checker.model.locomotion import Rotor
 GRAVITY = 9.8
 """m/s², of Gazebo's worlds."""
 
-# Defaults of the gz-sim system MulticopterMotorModel.
-_MOTOR_CONSTANT = 8.54858e-06
-_MAX_VELOCITY = 838.0
-
 _LEAST_PIVOT = 1e-3
 """Share of a rotor's own effect from where on effects count as independent: poses are rounded."""
 
 
 def greatest_thrust(rotor: Rotor) -> float:
     """Return the thrust at full speed, N: motor constant · ω²."""
-    constant = rotor.motor_constant.value if rotor.motor_constant else _MOTOR_CONSTANT
-    speed = rotor.max_velocity.value if rotor.max_velocity else _MAX_VELOCITY
-    return constant * speed * speed
+    return rotor.motor_constant.value * rotor.max_velocity.value * rotor.max_velocity.value
 
 
 def thrust_to_weight(rotors: Sequence[Rotor], mass: float) -> float | None:
@@ -49,10 +43,10 @@ def yaw_imbalance(rotors: Sequence[Rotor]) -> float | None:
     """
     torques = []
     for rotor in rotors:
-        if not rotor.direction or rotor.moment_constant is None:
+        if not rotor.direction:
             return None
-        constant = rotor.motor_constant.value if rotor.motor_constant else _MOTOR_CONSTANT
-        torques.append(rotor.direction * rotor.moment_constant.value * constant)
+        constants = rotor.moment_constant.value * rotor.motor_constant.value
+        torques.append(rotor.direction * constants)
     total = sum(map(abs, torques))
     return abs(sum(torques)) / total if 0 < total < math.inf else None
 

@@ -163,9 +163,10 @@ class Rotor:
         link: None if it does not exist.
         number: `motorNumber`; None if not stated.
         direction: 1 for counter-clockwise (`ccw`), −1 for clockwise; 0 if not stated or unknown.
-        motor_constant: Thrust = motor_constant · ω², N·s²; None if not stated.
-        moment_constant: Torque about the axis = moment_constant · thrust, metres.
-        max_velocity: Greatest rotor speed, rad/s.
+        motor_constant: Thrust = motor_constant · ω², N·s²; the plugin's default (`stated` false)
+            where it says none.
+        moment_constant: Torque about the axis = moment_constant · thrust, metres; likewise.
+        max_velocity: Greatest rotor speed, rad/s; likewise.
         centre: Of the rotor in the robot's frame, metres.
         axis: Of its joint in the robot's frame, of length 1.
     """
@@ -176,9 +177,9 @@ class Rotor:
     link: Link | None
     number: Located[float] | None
     direction: int
-    motor_constant: Located[float] | None
-    moment_constant: Located[float] | None
-    max_velocity: Located[float] | None
+    motor_constant: Located[float]
+    moment_constant: Located[float]
+    max_velocity: Located[float]
     centre: Vector | None
     axis: Vector | None
 

@@ -17,6 +17,11 @@ if TYPE_CHECKING:
 
 _DIRECTIONS = {"ccw": 1, "cw": -1}
 
+# Defaults of the gz-sim system MulticopterMotorModel.
+_MOTOR_CONSTANT = 8.54858e-06
+_MOMENT_CONSTANT = 0.016
+_MAX_VELOCITY = 838.0
+
 
 def read_rotor(robot: Robot, plugin: Plugin) -> Rotor:
     """Read a MulticopterMotorModel."""
@@ -37,9 +42,9 @@ def read_rotor(robot: Robot, plugin: Plugin) -> Rotor:
         link,
         plugin.number("motorNumber"),
         _DIRECTIONS.get(_text(plugin, "turningDirection").value.lower(), 0),
-        plugin.number("motorConstant"),
-        plugin.number("momentConstant"),
-        plugin.number("maxRotVelocity"),
+        _number_or(plugin, "motorConstant", _MOTOR_CONSTANT),
+        _number_or(plugin, "momentConstant", _MOMENT_CONSTANT),
+        _number_or(plugin, "maxRotVelocity", _MAX_VELOCITY),
         centre,
         axis,
     )
@@ -91,6 +96,10 @@ def _number(element: Element, tag: str) -> Located[float] | None:
     child = element.child(tag)
     value = parse_number(child.text.value) if child is not None else None
     return None if child is None or value is None else Located(value, child.text.span)
+
+
+def _number_or(plugin: Plugin, path: str, default: float) -> Located[float]:
+    return plugin.number(path) or Located(default, plugin.span, stated=False)
 
 
 def _text(plugin: Plugin, tag: str) -> Located[str]:

@@ -52,16 +52,22 @@ def full_speed(limits: Limits) -> float:
     return min(limits.fastest if math.isfinite(limits.fastest) else _USUAL_SPEED, _FASTEST)
 
 
-def driving_legs(linear: Limits, turn: tuple[float, float]) -> tuple[Leg, ...]:
+_NO_LIMITS = Limits()
+
+
+def driving_legs(
+    linear: Limits, turn: tuple[float, float], angular: Limits = _NO_LIMITS
+) -> tuple[Leg, ...]:
     """Return the legs of a robot on wheels or tracks.
 
     Args:
         linear: Limits of the forward motion.
         turn: Forward speed (m/s) and turn rate (rad/s) of the turn.
+        angular: Limits of the turning.
     """
     speed = gentle_speed(linear.fastest)
     ramp = _ramp_seconds(speed, linear)
-    turn_ramp = max(_ramp_seconds(turn[0], linear), abs(turn[1]) / _GENTLE)
+    turn_ramp = max(_ramp_seconds(turn[0], linear), _ramp_seconds(abs(turn[1]), angular))
     plan = (
         (SETTLE, SETTLE_SECONDS, 0.0, 0.0),
         (DRIVE, max(DRIVE_SECONDS, ramp + _STEADY_SECONDS), speed, 0.0),

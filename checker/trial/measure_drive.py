@@ -48,9 +48,14 @@ def _stops(motion: Motion) -> Iterator[Measurement]:
     import numpy as np
 
     stops = [leg for leg in map(motion.leg, (STOP_DRIVE, STOP_TURN)) if leg is not None]
-    ends = [np.linalg.norm(motion.velocity[motion.last(leg, 0.1)], axis=1) for leg in stops]
-    if ends:
-        yield Measurement("stop_speed", float(max(end.mean() for end in ends)))
+    left = [
+        float(np.linalg.norm(motion.velocity[motion.last(leg, 0.1)], axis=1).mean())
+        # A plugin that may brake but gently still commands a speed.
+        - abs(value_at(motion.plan.linear, leg.end))
+        for leg in stops
+    ]
+    if left:
+        yield Measurement("stop_speed", max(*left, 0.0))
     for leg in stops[:1]:
         place = motion.position[motion.during(leg)]
         yield Measurement("stop_distance", float(np.hypot(*(place[-1] - place[0])[:2])))

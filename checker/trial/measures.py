@@ -13,11 +13,13 @@ class Measure:
         label: For tables.
         unit: SI; empty for ratios and counts.
         rule: Id of the rule that judges it; empty for a figure that only informs.
+        silence_is_ok: Whether the figure is in order when that rule says nothing.
     """
 
     label: str
     unit: str = ""
     rule: str = ""
+    silence_is_ok: bool = True
 
 
 MEASURES: dict[str, Measure] = {
@@ -32,7 +34,7 @@ MEASURES: dict[str, Measure] = {
     "speed_ratio": Measure("speed reached / commanded", "", "TRI003"),
     "path_sideways": Measure("sideways / forward on the straight", "", "TRI004"),
     "path_heading": Measure("heading change on the straight", "rad", "TRI004"),
-    "stop_speed": Measure("speed 1.5 s after stop", "m/s", "TRI008"),
+    "stop_speed": Measure("speed left after a stop", "m/s", "TRI008"),
     "stop_distance": Measure("way to stop", "m"),
     "tilt_max": Measure("largest tilt", "rad"),
     # turn in place, or a circle with Ackermann steering
@@ -64,7 +66,7 @@ MEASURES: dict[str, Measure] = {
     "hold_sink": Measure("height lost in the held pose", "m", "TRI011"),
     "hold_tilt": Measure("tilt in the held pose", "rad", "TRI011"),
     # parts against each other (pairs)
-    "start_overlap": Measure("parts inside each other at rest", "m", "GEO015"),
+    "start_overlap": Measure("parts inside each other at rest", "m", "GEO015", silence_is_ok=False),
     "sweep_overlap": Measure("parts inside each other somewhere in a joint's range", "m", "TRI015"),
     # energy
     "energy_gain": Measure("energy gained at rest / m·g·0.1 m", "", "TRI017"),

@@ -83,6 +83,7 @@ class Plan:
         acceleration_limit: m/s²; None without.
         turns_in_place: Whether the turn is one in place, not a circle.
         notes: What could not be driven and why, as sentences.
+        not_driven: As of `Trial`.
     """
 
     kind: str
@@ -99,6 +100,7 @@ class Plan:
     acceleration_limit: float | None = None
     turns_in_place: bool = True
     notes: tuple[str, ...] = ()
+    not_driven: str = ""
 
     @property
     def seconds(self) -> float:

@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.model.tree import canonical_link
 
 if TYPE_CHECKING:
     from checker.trial.layout import Layout
+
+
+_UNSEEN = (MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED)
+"""What a robot stands on may be in such a file: without it, it would be another robot."""
 
 
 def unusable_because(robot: Robot, layout: Layout) -> str:
@@ -21,6 +26,12 @@ def unusable_because(robot: Robot, layout: Layout) -> str:
     static = robot.element.child("static")
     if static is not None and static.text.value.strip().lower() in ("1", "true"):
         return "the robot is static"
+    for link in robot.links:
+        for collision in link.collisions:
+            mesh = robot.mesh_of(collision)
+            if isinstance(mesh, MeshFault) and mesh.trouble in _UNSEEN:
+                uri = collision.geometry.uri
+                return f"the collision mesh {uri.value if uri else ''} {mesh.reason}"
     if not any(layout.geoms.values()):
         return "the robot has no collision shape that can be used"
     return ""

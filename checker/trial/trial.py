@@ -73,6 +73,7 @@ class Trial:
         refused_part: Scoped name of the link or joint that the reason is about; empty if unknown.
         trouble: Solver warnings and NaN, as ends of sentences; empty for a sound run.
         notes: What was left out of the trial and why, as sentences.
+        not_driven: Why a robot that has a drive was only let stand, as the end of a sentence.
         series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
             `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
             `torque:<joint>` (N·m), `joint:<joint>` (rad or m).
@@ -87,6 +88,7 @@ class Trial:
     refused_part: str = ""
     trouble: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    not_driven: str = ""
     series: Mapping[str, Sequence[float]] = field(default_factory=dict)
 
     def value(self, name: str, part: str = "") -> float | None:
@@ -121,5 +123,6 @@ class Trial:
             refused_part=said["refused_part"],
             trouble=tuple(said["trouble"]),
             notes=tuple(said["notes"]),
+            not_driven=said["not_driven"],
             series={name: tuple(values) for name, values in said["series"].items()},
         )

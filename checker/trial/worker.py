@@ -40,6 +40,7 @@ def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:
         versions={"mujoco": mujoco.__version__, "course": VERSION},
         repairs=scene.repairs,
         notes=(*scene.notes, *plan.notes),
+        not_driven=plan.not_driven,
     )
     try:
         run = drive(scene, plan, timestep)

@@ -2,6 +2,7 @@
 
 Odometry counts on the commanded speed: whoever steers the robot believes it elsewhere. Mostly
 `wheel_radius` is not the radius of the wheels, or the wheels slip because they carry too little.
+With a limit of 0 it does not move at all.
 
 Fix: set `wheel_radius` to the radius of the wheels' collisions, and look at friction and loads.
 Source: a prototype trial of 60 accepted ground robots: all reach 0.98 to 1.00 of the command.
@@ -19,8 +20,17 @@ def check(
     """Report a speed that differs from the command by more than these shares of it."""
     if driven.robot.unread_plugins and driven.trial.drive == DriveKind.NONE:
         yield unchecked(driven.robot.unread_plugins)
+    if driven.trial.not_driven:
+        yield unchecked(f"the robot was not driven: {driven.trial.not_driven}")
     ratio, leg = driven.trial.value("speed_ratio"), driven.leg("drive")
-    if ratio is None or leg is None or driven.drives_backwards:
+    if leg is None or driven.drives_backwards:
+        return
+    if ratio is None:
+        yield finding(
+            driven.drive,
+            "a limit of its velocity or acceleration is 0: it stands still, whatever it is told",
+            key="speed_ratio",
+        )
         return
     off = abs(ratio - 1.0)
     if off <= warning_beyond:

@@ -21,10 +21,10 @@ def check(
     value = driven.trial.value
     said = {}
     speed, limit = value("full_speed"), value("full_speed_limit")
-    if speed is not None and limit is not None and abs(speed) > full_speed_above * limit:
+    if speed is not None and limit and abs(speed) > full_speed_above * limit:
         said["full_speed"] = f"it drives at {abs(speed):.3g} m/s, its limit is {limit:g} m/s"
     gain, most = value("full_acceleration"), value("full_acceleration_limit")
-    if gain is not None and most is not None and abs(gain) > full_acceleration_above * most:
+    if gain is not None and most and abs(gain) > full_acceleration_above * most:
         said["full_acceleration"] = (
             f"it gains {abs(gain):.3g} m/s each second, its limit is {most:g} m/s²"
         )

@@ -232,3 +232,12 @@ def test_a_file_that_is_too_large_is_not_read(
     (found,) = read({"meshes/a.stl": CUBE}, tmp_path)
     assert isinstance(found, MeshFault)
     assert found.trouble is MeshTrouble.NOT_LOOKED_AT
+
+
+def test_the_name_in_the_model_says_the_format_not_that_behind_a_link(tmp_path: Path) -> None:
+    example = {"@fragment": f'<link name="a">{fragment("meshes/a.stl")}</link>'}
+    example |= {"meshes/a.blob": CUBE, "@links": {"meshes/a.stl": "a.blob"}}
+    with open_input(write_example(example, tmp_path)) as opened:
+        robots = Subject(opened.packages[0]).robots
+        assert isinstance(robots, tuple)
+        assert isinstance(robots[0].mesh_uses[0].file, Mesh)

@@ -132,7 +132,6 @@ FLAT = tuple((x, y, 0.0) for x, y, _ in CUBE)
     ("mesh", "said", "serious"),
     [
         (MeshFault(MeshTrouble.MISSING, "is missing"), "is of a mesh that is missing", True),
-        (MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not looked for"), "was not looked for", False),
         (Mesh("a.dae", "dae", 2, (0, 0, 0), (1, 1, 0), hull=FLAT), "without volume", True),
         (Mesh("a.dae", "dae", 0, (0, 0, 0), (0, 0, 0)), "without volume", True),
     ],
@@ -145,6 +144,11 @@ def test_a_mesh_that_cannot_be_had_is_left_out(
     assert [repair.serious for repair in scene.repairs] == [serious] * 2
     assert said in scene.repairs[0].what
     assert scene.repairs[0].what.endswith("and is left out")
+
+
+@pytest.mark.parametrize("trouble", [MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED])
+def test_without_a_mesh_that_it_may_stand_on_there_is_no_trial(trouble: MeshTrouble) -> None:
+    assert meshed(MeshFault(trouble, "was not looked for")).unusable.endswith("was not looked for")
 
 
 def test_bodies_stand_where_the_file_poses_the_links() -> None:

@@ -32,14 +32,24 @@ def _of_kind(robot: Robot, locomotion: Locomotion) -> Plan:
         return plan_copter(robot, locomotion)
     if kind is DriveKind.TRACKED and any(drive.tracks for drive in locomotion.tracked_drives):
         return plan_tracks(robot, locomotion)
-    if kind is DriveKind.ACKERMANN and locomotion.wheels:
+    steers = any(drive.steering for drive in locomotion.wheel_drives)
+    if kind is DriveKind.ACKERMANN and locomotion.wheels and steers:
         return plan_ackermann(robot, locomotion)
     if kind in (DriveKind.DIFFERENTIAL, DriveKind.SKID_STEER) and locomotion.wheels:
         return plan_wheels(locomotion)
+    return _standing(robot, locomotion)
+
+
+def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
+    """Return the plan of a robot that is not driven, and say why if it has a drive."""
+    kind = locomotion.kind
     plan = plan_hold(robot, kind)
     if kind in (DriveKind.LEGGED, DriveKind.NONE):
         return plan
-    return replace(plan, notes=("Its plugins drive nothing that the model has: it only stands.",))
+    if kind is DriveKind.MECANUM:
+        return replace(plan, notes=("Mecanum wheels roll on rollers, which are not simulated.",))
+    what = "steer" if kind is DriveKind.ACKERMANN and locomotion.wheels else "drive"
+    return replace(plan, not_driven=f"its plugins {what} nothing that the model has")
 
 
 def _efforts(robot: Robot, joints: Iterable[str]) -> dict[str, float]:

@@ -36,7 +36,7 @@ def plan_tracks(robot: Robot, locomotion: Locomotion) -> Plan:
     belts = joined([Limits.of(track.limits) for track in locomotion.tracks] or [Limits()])
     linear = joined([belts, *(Limits.of(drive.linear) for drive in drives)])
     angular = joined([Limits.of(drive.angular) for drive in drives])
-    legs = driving_legs(linear, (0.0, _turn_rate(drives, linear, angular)))
+    legs = driving_legs(linear, (0.0, _turn_rate(drives, linear, angular)), angular)
     return Plan(
         kind=locomotion.kind.value,
         legs=legs,

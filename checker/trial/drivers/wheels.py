@@ -25,7 +25,7 @@ def plan_wheels(locomotion: Locomotion) -> Plan:
     """Return the plan of a robot with DiffDrive plugins; several of them are driven together."""
     drives = locomotion.wheel_drives
     linear, angular = strictest(drives)
-    legs = driving_legs(linear, (0.0, _turn_rate(drives, linear, angular)))
+    legs = driving_legs(linear, (0.0, _turn_rate(drives, linear, angular)), angular)
     speeds: dict[str, Knots] = {}
     wheels: dict[str, DrivenWheel] = {}
     for drive in drives:
