@@ -48,7 +48,7 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
             raise NoSurface(f"is not well-formed XML: {error.msg}") from None
         value = _BRACKET_IN_VALUE.search(data)
         shown = value[0].decode("utf-8", "replace")[:60] if value else ""
-        defects.append(f"Its XML is not well-formed: `<` in an attribute's value {shown}.")
+        defects.append(f"its XML is not well-formed: `<` in an attribute's value {shown}")
     if root is None or local_name(root) != "COLLADA":
         raise NoSurface("is XML, but no COLLADA file")
     return root, defects

@@ -40,7 +40,7 @@ def read_stl(data: bytes) -> Surface:
             f"is cut off: it declares {count:,} triangles, its {len(data):,} bytes hold {held:,}"
         )
     left = len(data) - _HEADER - count * _TRIANGLE
-    return Surface(_binary(data, count), defects=(f"{left:,} bytes follow its last triangle.",))
+    return Surface(_binary(data, count), defects=(f"{left:,} bytes follow its last triangle",))
 
 
 def _binary(data: bytes, count: int) -> NDArray[float64]:
@@ -62,5 +62,5 @@ def _text(data: bytes) -> Surface:
     except ValueError as error:
         raise NoSurface(f"holds a corner that is no number: {error}") from None
     names = [name.decode("utf-8", "replace").strip() for name in _SOLID.findall(data)]
-    defects = () if _END.search(data) else ("It does not end in `endsolid`.",)
+    defects = () if _END.search(data) else ("it does not end in `endsolid`",)
     return Surface(corners, defects=defects, parts=tuple(dict.fromkeys(names)))

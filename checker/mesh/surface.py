@@ -21,7 +21,7 @@ class Surface:
         metres_per_unit: The file's own unit, which `corners` honour.
         textures: Picture files as named inside.
         materials: Material files as named inside.
-        defects: What is not valid for the format though loaders cope, as whole sentences.
+        defects: What is not valid for the format though loaders cope, as clauses.
         parts: Names of the parts inside.
     """
 

@@ -57,7 +57,7 @@ class Mesh:
         degenerate: Number of triangles without area.
         textures: Picture files as named inside, and in the material files that it names.
         materials: Material files as named inside (`mtllib` of OBJ).
-        defects: What is not valid for the format though loaders cope, as whole sentences.
+        defects: What is not valid for the format though loaders cope, as clauses.
         parts: Names of the parts inside, which SDF's `<submesh>` picks.
     """
 

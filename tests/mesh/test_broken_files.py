@@ -43,7 +43,7 @@ def test_a_binary_stl_cut_off() -> None:
 def test_a_binary_stl_with_more_behind_is_read() -> None:
     read = read_mesh(binary_stl(CUBE) + b"\0" * 7, "a.stl")
     assert isinstance(read, Mesh)
-    assert read.defects == ("7 bytes follow its last triangle.",)
+    assert read.defects == ("7 bytes follow its last triangle",)
 
 
 def test_an_stl_as_text_cut_off() -> None:

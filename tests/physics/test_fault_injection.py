@@ -16,7 +16,7 @@ from checker.finding import Severity
 from checker.report.report import ReportedFinding
 from checker.settings import Settings
 from tests.physics import ackermann, multicopter, skid_steer, tracked
-from tests.physics.fault import Fault, put_into
+from tests.physics.fault import Fault, Swap, put_into
 
 ROBOTS = (skid_steer, ackermann, tracked, multicopter)
 TABLE = [(robot.SAMPLE, fault) for robot in ROBOTS for fault in robot.FAULTS]
@@ -54,3 +54,12 @@ def test_faults_are_many_and_each_is_there_once() -> None:
 def test_the_rules_that_shall_find_them_exist() -> None:
     known = {rule.id for rule in all_rules()}
     assert not sorted({rule for _, fault in TABLE for rule in fault.rules} - known)
+
+
+def test_a_robot_that_drifts_is_told_that_its_centre_of_mass_is_why(tmp_path: Path) -> None:
+    aside = Fault("", (Swap(tracked.CENTRE, tracked.CENTRE.replace(" 0 ", " 0.088 ", 1)),), (), "")
+    (report,) = check_package(put_into(tracked.SAMPLE, aside, tmp_path), Settings()).packages
+    (drift,) = [each for each in report.findings if each.severity is not Severity.INFO]
+    assert drift.rule == "TRI018"
+    assert "while turning in place" in drift.message
+    assert "the centre of mass 55 mm left of the middle of the wheels explains" in drift.message
