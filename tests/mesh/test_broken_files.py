@@ -51,7 +51,7 @@ def test_an_stl_as_text_cut_off() -> None:
     assert "3 for each triangle" in fault(data[: data.rindex(b"vertex")], "a.stl")
     read = read_mesh(data[: data.rindex(b"endsolid")], "a.stl")
     assert isinstance(read, Mesh)
-    assert read.defects == ("It does not end in `endsolid`.",)
+    assert read.defects == ("it does not end in `endsolid`",)
 
 
 def test_words_for_numbers() -> None:
