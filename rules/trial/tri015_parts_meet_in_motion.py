@@ -7,13 +7,16 @@ Fix: narrow the joint's limits, or shrink the collision shapes.
 Source: a collision query in steps through the range of each joint, one at a time.
 """
 
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI015", "parts-meet-in-motion", Severity.WARNING)
 def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
     """Report parts that come further into each other than this, in metres."""
+    unswept = driven.trial.value("unswept_joints")
+    if unswept:
+        yield unchecked(f"{unswept:g} joints of many shapes were not moved through their range")
     for each in driven.trial.all("sweep_overlap"):
         if each.value > warning_above:
             yield finding(

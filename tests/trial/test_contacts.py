@@ -117,3 +117,10 @@ def test_many_parts_are_looked_at_within_bounds() -> None:
     ties = "".join(joint(f"l{i}", parent="l0") for i in range(1, 300))
     figures = overlaps(scene_of(links + ties))
     assert 0 < len(figures) <= 60
+
+
+def test_what_is_too_much_to_move_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("checker.trial.contacts._EFFORT", 8)
+    arms = "".join(link(f"arm{n}", CUBE, f"{3 * n} 0 3 0 0 0") + joint(f"arm{n}") for n in range(3))
+    figures = overlaps(scene_of(link("a", CUBE) + arms))
+    assert [each.value for each in figures if each.name == "unswept_joints"] == [3.0]
