@@ -9,5 +9,5 @@ SECONDS_FOR_ONE = 20
 SECONDS_FOR_ALL = 90
 """By the clock, for the files of one robot; those left then are not looked at."""
 
-MEMORY = 3_000_000_000
-"""Bytes of address space; the libraries alone take 0.6 GB of it."""
+MEMORY = 1_000_000_000
+"""Bytes of address space: the libraries take 0.6 GB of it, and a million triangles fit in."""
