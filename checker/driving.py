@@ -109,9 +109,8 @@ class Driving:
 
 def _obstacle(robot: Robot) -> NotAtHand | None:
     """Say why a model is nothing to drive at all."""
-    static = robot.element.child("static")
     if not robot.links:
         return NotAtHand("the model has no links, so there is nothing to drive", applicable=False)
-    if static is not None and static.text.value.strip() in ("1", "true"):
+    if robot.is_static:
         return NotAtHand("the model is static, so there is nothing to drive", applicable=False)
     return None

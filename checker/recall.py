@@ -11,7 +11,7 @@ import os
 import stat
 from collections.abc import Iterator
 from contextlib import suppress
-from importlib.metadata import PackageNotFoundError, entry_points, version
+from importlib.metadata import entry_points
 from itertools import islice
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from checker.package.walk import SKIPPED_FOLDERS
 from checker.report.report import PackageReport
 from checker.report.stored import from_stored, to_stored
 from checker.settings import Settings
+from checker.versions import version_of
 
 KIND = "report"
 _LIBRARIES = (
@@ -36,7 +37,7 @@ def memory_key(package: Package, settings: Settings) -> str:
     """Return the key of a package's report; empty when it is not worth remembering."""
     if package.only:
         return ""
-    parts: list[bytes | str] = [code_hash("", "../rules"), *map(_version, _LIBRARIES)]
+    parts: list[bytes | str] = [code_hash("", "../rules"), *map(version_of, _LIBRARIES)]
     parts += [repr(settings), *sorted(_rules_of_others()), str(package.root)]
     parts += _content(package)
     beside = list(islice(_beside(package), ENTRIES_LIMIT))
@@ -58,13 +59,6 @@ def remember(cache: Cache, key: str, report: PackageReport) -> None:
     """Keep a report, unless something could not be looked at: it may be there the next time."""
     if key and not report.blind_spots:
         cache.put(KIND, key, to_stored(report))
-
-
-def _version(library: str) -> str:
-    try:
-        return version(library)
-    except PackageNotFoundError:
-        return "none"
 
 
 def _rules_of_others() -> Iterator[str]:

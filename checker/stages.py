@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 
-from checker.mesh.library import PackageMeshes
+from checker.mesh.package_meshes import PackageMeshes
 from checker.model.mesh import Mesh, MeshFault
 from checker.saying import Say, say_nothing
 from checker.source.text import Located

@@ -13,7 +13,7 @@ from checker.dynamics.mass_properties import MassProperties
 from checker.dynamics.weighing import weigh
 from checker.including import ModelIncludes
 from checker.launching import launch_graph
-from checker.mesh.library import PackageMeshes, mesh_uris
+from checker.mesh.package_meshes import PackageMeshes, mesh_uris
 from checker.model.configuration import FirstConfiguration
 from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot

@@ -3,25 +3,35 @@
 from __future__ import annotations
 
 import platform
-from contextlib import suppress
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
 LIBRARIES = ("mujoco", "pin", "trimesh")
 """What drives the robot, weighs it and reads its meshes: figures may differ between versions."""
 
 
+UNKNOWN = "unknown"
+
+
+@cache
+def version_of(distribution: str) -> str:
+    """Return the version of an installed distribution without importing it; else `UNKNOWN`.
+
+    Looking it up takes a millisecond, and many keys of the cache hold it.
+    """
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return UNKNOWN
+
+
 def tool_version() -> str:
     """Return the version of subt-check; `unknown` when it runs without being installed."""
-    try:
-        return version("subt-check")
-    except PackageNotFoundError:
-        return "unknown"
+    return version_of("subt-check")
 
 
 def versions() -> dict[str, str]:
     """Return the versions that a result depends on; nothing is imported for it."""
     found = {"subt-check": tool_version(), "python": platform.python_version()}
-    for library in LIBRARIES:
-        with suppress(PackageNotFoundError):
-            found[library] = version(library)
-    return found
+    known = {library: version_of(library) for library in LIBRARIES}
+    return found | {library: number for library, number in known.items() if number != UNKNOWN}

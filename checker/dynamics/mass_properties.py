@@ -77,9 +77,3 @@ class MassProperties:
     def share(self, name: str) -> float:
         """Return a link's share of the robot's mass, 0…1."""
         return self.links[name].mass / self.mass if self.mass > 0 else 0.0
-
-    @property
-    def static(self) -> bool:
-        """Whether the model says that nothing moves it: then it needs no mass."""
-        static = self.robot.element.child("static")
-        return static is not None and static.text.value.strip().lower() in ("1", "true")

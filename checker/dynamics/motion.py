@@ -30,6 +30,13 @@ _FREEDOMS = {
 }
 
 
+AXES = {
+    kind: sum(freedom is not Freedom.BALL for freedom in freedoms)
+    for kind, freedoms in _FREEDOMS.items()
+}
+"""How many axes the joints need that move, by their type."""
+
+
 @dataclass(frozen=True)
 class Motion:
     """One way in which a joint moves.

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.components import Collision, Link
-from checker.model.values import parse_number
+from checker.model.values import stated_number
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -45,15 +45,9 @@ class FrictionReader:
         for engine, first, second in _SDF:
             element = stated.child(engine) if stated is not None else None
             if element is not None:
-                return Friction(_number(element, first), _number(element, second))
+                return Friction(stated_number(element, first), stated_number(element, second))
         for element in self.extensions.get(link.scoped_name, ()):
-            first_number = _number(element, "mu1")
+            first_number = stated_number(element, "mu1")
             if first_number is not None:
-                return Friction(first_number, _number(element, "mu2"))
+                return Friction(first_number, stated_number(element, "mu2"))
         return Friction()
-
-
-def _number(parent: Element, tag: str) -> Located[float] | None:
-    child = parent.child(tag)
-    value = parse_number(child.text.value) if child is not None else None
-    return None if child is None or value is None else Located(value, child.text.span)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from checker.model.locomotion import MotionLimits
-from checker.model.values import parse_number
+from checker.model.values import stated_number
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
@@ -17,8 +17,8 @@ def read_limits(element: Element, kind: str = "") -> MotionLimits:
     """
 
     def number(end: str, quantity: str) -> Located[float] | None:
-        own = _number(element, f"{end}_{kind}{quantity}") if kind else None
-        return own or _number(element, f"{end}_{quantity}")
+        own = stated_number(element, f"{end}_{kind}{quantity}") if kind else None
+        return own or stated_number(element, f"{end}_{quantity}")
 
     return MotionLimits(
         element.span,
@@ -44,9 +44,3 @@ def symmetric_limits(
 
 def _negated(number: Located[float] | None) -> Located[float] | None:
     return None if number is None else Located(-number.value, number.span)
-
-
-def _number(element: Element, tag: str) -> Located[float] | None:
-    child = element.child(tag)
-    value = parse_number(child.text.value) if child is not None else None
-    return None if child is None or value is None else Located(value, child.text.span)

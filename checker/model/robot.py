@@ -88,6 +88,12 @@ class Robot(Part):
         return (*on_links, *(sensor for joint in self.joints for sensor in joint.sensors))
 
     @property
+    def is_static(self) -> bool:
+        """Whether the model says that nothing moves it."""
+        static = self.element.child("static")
+        return static is not None and static.text.value.lower() in ("1", "true")
+
+    @cached_property
     def mass(self) -> float:
         """Kilograms of all links together."""
         # math.fsum would raise where the sum overflows.

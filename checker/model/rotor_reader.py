@@ -8,7 +8,7 @@ from checker.model.components import Plugin
 from checker.model.limits_reader import symmetric_limits
 from checker.model.locomotion import CopterControl, MotionLimits, Rotor, RotorEntry
 from checker.model.transform import Vector
-from checker.model.values import parse_number
+from checker.model.values import parse_number, stated_number
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -69,9 +69,9 @@ def _entry(rotor: Element) -> RotorEntry:
     name = rotor.child("jointName")
     return RotorEntry(
         name.text if name is not None else Located("", rotor.span, stated=False),
-        _number(rotor, "direction"),
-        _number(rotor, "forceConstant"),
-        _number(rotor, "momentConstant"),
+        stated_number(rotor, "direction"),
+        stated_number(rotor, "forceConstant"),
+        stated_number(rotor, "momentConstant"),
         rotor.span,
     )
 
@@ -90,12 +90,6 @@ def _vector(plugin: Plugin, tag: str) -> tuple[Located[float] | None, ...]:
     numbers = [parse_number(word) for word in text.value.split()[:3]]
     numbers += [None] * (3 - len(numbers))
     return tuple(None if n is None else Located(n, text.span) for n in numbers)
-
-
-def _number(element: Element, tag: str) -> Located[float] | None:
-    child = element.child(tag)
-    value = parse_number(child.text.value) if child is not None else None
-    return None if child is None or value is None else Located(value, child.text.span)
 
 
 def _number_or(plugin: Plugin, path: str, default: float) -> Located[float]:

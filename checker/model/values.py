@@ -26,6 +26,13 @@ def parse_number(text: str) -> float | None:
     return float(text) if text.lower() in _INFINITE else None
 
 
+def stated_number(parent: Element, tag: str) -> Located[float] | None:
+    """Return the number in the child `tag`; None when there is none that reads as one."""
+    child = parent.child(tag)
+    value = parse_number(child.text.value) if child is not None else None
+    return None if child is None or value is None else Located(value, child.text.span)
+
+
 class ValueReader:
     """Reads values and collects what does not read as its type.
 

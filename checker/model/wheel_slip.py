@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.model.values import parse_number
+from checker.model.values import stated_number
 from checker.source.text import Located, Span
-from checker.source.xml import Element
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,14 +43,8 @@ def slipping_wheels(robot: Robot) -> Iterator[SlippingWheel]:
             yield SlippingWheel(
                 plugin,
                 "" if name is None else scope + name.value,
-                _number(wheel, "slip_compliance_lateral"),
-                _number(wheel, "wheel_normal_force"),
-                _number(wheel, "wheel_radius"),
+                stated_number(wheel, "slip_compliance_lateral"),
+                stated_number(wheel, "wheel_normal_force"),
+                stated_number(wheel, "wheel_radius"),
                 wheel.span,
             )
-
-
-def _number(wheel: Element, tag: str) -> Located[float] | None:
-    child = wheel.child(tag)
-    value = parse_number(child.text.value) if child is not None else None
-    return None if child is None or value is None else Located(value, child.text.span)

@@ -9,14 +9,27 @@ from checker.package.package import Package
 _NUMBERED = re.compile(r"(.+_sensor_config_)([1-9][0-9]{0,5})")
 
 
-def first_configuration(package: Package) -> Package | None:
-    """Return the configuration of lowest number at hand; None for that package itself."""
+def configurations(package: Package) -> tuple[int, dict[int, Package]] | None:
+    """Return a package's number, and the configurations of its robot at hand by their numbers.
+
+    None for a package that is no numbered configuration.
+    """
     own = _NUMBERED.fullmatch(package.name)
     if own is None or package.only:
         return None
-    first, number = package, int(own.group(2))
+    found = {int(own.group(2)): package}
     for name, other in package.workspace.packages.items():
         match = _NUMBERED.fullmatch(name)
-        if match and match.group(1) == own.group(1) and int(match.group(2)) < number:
-            first, number = other, int(match.group(2))
-    return None if first is package else first
+        if match and match.group(1) == own.group(1):
+            found.setdefault(int(match.group(2)), other)
+    return int(own.group(2)), found
+
+
+def first_configuration(package: Package) -> Package | None:
+    """Return the configuration of lowest number at hand; None for that package itself."""
+    known = configurations(package)
+    if known is None:
+        return None
+    number, found = known
+    first = min(found)
+    return found[first] if first < number else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from checker.dynamics.motion import Freedom, Motion, motions_of
+from checker.dynamics.motion import AXES, Freedom, Motion, motions_of
 from checker.model.components import Axis, Joint
 from checker.model.robot import Robot
 from checker.model.transform import Vector
@@ -14,17 +14,6 @@ from checker.trial.mjcf_text import LARGEST, bounded, numbers
 from checker.trial.repairs import Ledger
 
 _KINDS = {Freedom.TURN: "hinge", Freedom.SLIDE: "slide", Freedom.BALL: "ball"}
-_AXES = {
-    "fixed": 0,
-    "ball": 0,
-    "revolute": 1,
-    "continuous": 1,
-    "hinge": 1,
-    "prismatic": 1,
-    "universal": 2,
-    "revolute2": 2,
-}
-"""How many axes the joints need that move; joints of other types are held fixed."""
 _ENDLESS = 1e6
 """Metres or radians that stand for no bound where a joint is bounded on one side alone."""
 
@@ -71,10 +60,10 @@ def degrees_of(robot: Robot, joint: Joint, ledger: Ledger) -> tuple[Degree, ...]
     """Return the degrees of freedom of a joint; none where it is held fixed."""
     motions = motions_of(robot, joint)
     type = joint.type.value
-    if type not in _AXES:
+    if type not in AXES and type != "fixed":
         ledger.note(f"Joints are held fixed, being of type {type!r}", joint.scoped_name)
     moving = {motion.number for motion in motions}
-    for number in range(_AXES.get(type, 0)):
+    for number in range(AXES.get(type, 0)):
         if number not in moving:
             _say_why_held(joint, number, ledger)
     return tuple(_degree(joint, motion, ledger) for motion in motions)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from importlib.metadata import version
 from typing import Any
 
 from checker.cache import Cache, code_hash, key_of
@@ -13,6 +12,7 @@ from checker.model.robot import Robot
 from checker.trial.drivers.planning import plan_of
 from checker.trial.scene import build_scene
 from checker.trial.trial import Trial
+from checker.versions import version_of
 
 TIMESTEP = 0.002
 """Seconds; contacts and servos are tuned to it."""
@@ -74,7 +74,7 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Pendin
         return Pending(cache, _outcome=scene.unusable)
     request = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
     text = json.dumps(request).encode()
-    key = key_of(text, code_hash("trial"), *map(version, _LIBRARIES))
+    key = key_of(text, code_hash("trial"), *map(version_of, _LIBRARIES))
     known = _known(cache.get(_KIND, key))
     if known is not None:
         return Pending(cache, _outcome=known)

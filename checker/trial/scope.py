@@ -23,8 +23,7 @@ def unusable_because(robot: Robot, layout: Layout) -> str:
         return f"parts of the robot are not at hand: {robot.missing_parts}"
     if not robot.links:
         return "the robot has no links"
-    static = robot.element.child("static")
-    if static is not None and static.text.value.strip().lower() in ("1", "true"):
+    if robot.is_static:
         return "the robot is static"
     for link in robot.links:
         for collision in link.collisions:

@@ -25,7 +25,7 @@ _MOMENTS = 6
 @rule("INE001", "no-inertia", Severity.ERROR)
 def check(masses: MassProperties) -> Findings:
     """Report moving links without inertial, without mass, and without any moment of inertia."""
-    if masses.static:
+    if masses.robot.is_static:
         return
     held = _held(masses.robot)
     for link in masses.robot.links:

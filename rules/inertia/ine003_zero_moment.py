@@ -19,7 +19,7 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
 
     That is one below `least` kg·m² or `relative` times the largest.
     """
-    if masses.static:
+    if masses.robot.is_static:
         return
     body = rigid_bodies(masses.robot).of_link
     sound = {body[name] for name, link in masses.links.items() if not _zero(link, least, relative)}

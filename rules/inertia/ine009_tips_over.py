@@ -25,7 +25,7 @@ def check(
     warning_below_degrees: float = 25.0,
 ) -> Findings:
     """Report a small tip angle at the inertial of the heaviest link."""
-    if masses.static:
+    if masses.robot.is_static:
         return
     unknown = masses.robot.missing_parts or masses.support_unknown
     if unknown:

@@ -25,7 +25,7 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
     """
     robot = masses.robot
     unknown = robot.missing_parts or masses.support_unknown or robot.unread_plugins
-    if masses.static:
+    if masses.robot.is_static:
         return
     if unknown:
         yield unchecked(unknown)

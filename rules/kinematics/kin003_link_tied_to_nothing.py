@@ -22,8 +22,7 @@ def check(robot: Robot) -> Findings:
     tree = robot.tree
     # A group without a link at its top is a loop; that, and ties to itself, are for KIN002.
     tops = {top: group for group in tree.groups if (top := _top(tree, group))}
-    static = robot.element.child("static")
-    if len(tops) < 2 or (static is not None and static.text.value in ("true", "1")):
+    if len(tops) < 2 or robot.is_static:
         return
     main = max(tops, key=lambda top: len(tops[top]))
     excused, unclear = _tied_by_broken_joints(tree)

@@ -9,25 +9,20 @@ Source: Model Migration Guide, step 4: names end in `_sensor_config_<#>`; that n
 other is common practice.
 """
 
-import re
-
+from checker.package.configuration import configurations
 from checker.package.package import Package
 from checker.rule import Findings, Severity, finding, rule
-
-_NUMBERED = re.compile(r"(.+_sensor_config_)([1-9][0-9]{0,5})")
 
 
 @rule("PKG017", "number-left-out", Severity.INFO)
 def check(package: Package) -> Findings:
     """Report the configuration that stands behind a gap."""
-    own = _NUMBERED.fullmatch(package.name)
-    if own is None or package.only:
+    known = configurations(package)
+    if known is None:
         return
-    stem, number = own.group(1), int(own.group(2))
-    others = (_NUMBERED.fullmatch(name) for name in package.workspace.packages)
-    numbers = {int(other.group(2)) for other in others if other and other.group(1) == stem}
+    number, numbers = known
     before = max((each for each in numbers if each < number), default=0)
-    if len(numbers | {number}) > 1 and before + 1 < number:
+    if len(numbers) > 1 and before + 1 < number:
         last = number - 1
         gap = f"{before + 1}" if before + 1 == last else f"{before + 1} to {last}"
         yield finding(

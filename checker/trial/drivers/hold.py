@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from checker.dynamics.motion import AXES
 from checker.model.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.trial.course import holding_legs
 from checker.trial.plan import Plan
 from checker.trial.profile import Knots
 from checker.trial.trial import Leg
-
-_MOVING = ("revolute", "continuous", "hinge", "prismatic", "universal", "revolute2")
-"""Joint types that a servo can hold; the others cannot move, or are balls."""
 
 
 def plan_hold(robot: Robot, kind: DriveKind) -> Plan:
@@ -26,6 +24,9 @@ def plan_hold(robot: Robot, kind: DriveKind) -> Plan:
 
 
 def at_rest(robot: Robot, joints: Iterable[str], legs: tuple[Leg, ...]) -> dict[str, Knots]:
-    """Return commands that keep joints where they are, of those that can move."""
+    """Return commands that keep joints where they are, of those that a servo can hold.
+
+    Balls are left out, and what cannot move.
+    """
     still = ((0.0, 0.0), (legs[-1].end, 0.0))
-    return {name: still for name in joints if robot.joints_by_name[name].type.value in _MOVING}
+    return {name: still for name in joints if AXES.get(robot.joints_by_name[name].type.value)}

@@ -11,7 +11,7 @@ import pytest
 
 from checker.cache import NO_CACHE, Cache
 from checker.confined import Child, Died
-from checker.mesh import library
+from checker.mesh import package_meshes
 from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
@@ -92,8 +92,10 @@ def test_one_content_under_two_names_is_read_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[int] = []
-    start = library._started
-    monkeypatch.setattr(library, "_started", lambda files: asked.append(len(files)) or start(files))
+    start = package_meshes._started
+    monkeypatch.setattr(
+        package_meshes, "_started", lambda files: asked.append(len(files)) or start(files)
+    )
     one, other = read({"meshes/a.stl": CUBE, "meshes/b.stl": CUBE}, tmp_path)
     assert asked == [1]
     assert isinstance(one, Mesh)
@@ -125,7 +127,7 @@ def test_faults_of_one_file_leave_the_others(tmp_path: Path) -> None:
 def test_a_file_that_brings_its_reader_down_takes_no_other_with_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(library, "SECONDS_FOR_ONE", 2)
+    monkeypatch.setattr(package_meshes, "SECONDS_FOR_ONE", 2)
     # Nodes that show others ten times each, nine levels deep: a billion cubes.
     levels = "".join(
         f'<node id="n{level}">' + f'<instance_node url="#n{level - 1}"/>' * 10 + "</node>"
@@ -203,7 +205,7 @@ def test_what_was_given_up_is_tried_again(tmp_path: Path, monkeypatch: pytest.Mo
     cache = Cache(tmp_path / "cache")
     gave_up = MeshFault(MeshTrouble.NOT_LOOKED_AT, "took too long")
     with monkeypatch.context() as patch:
-        patch.setattr(library, "_answered", lambda _, number: [gave_up] * number)
+        patch.setattr(package_meshes, "_answered", lambda _, number: [gave_up] * number)
         assert read({"meshes/a.stl": CUBE}, tmp_path, cache) == [gave_up]
     assert isinstance(read({"meshes/a.stl": CUBE}, tmp_path, cache)[0], Mesh)
 
@@ -220,15 +222,15 @@ def test_no_proper_answer(
 
 def test_a_reading_that_was_begun_can_be_ended(tmp_path: Path) -> None:
     (tmp_path / "a.stl").write_bytes(CUBE)
-    started = library._started([MeshFile("a.stl", tmp_path / "a.stl")])
+    started = package_meshes._started([MeshFile("a.stl", tmp_path / "a.stl")])
     started.stop()
-    assert isinstance(library._answered(started, 1)[0], MeshFault)
+    assert isinstance(package_meshes._answered(started, 1)[0], MeshFault)
 
 
 def test_a_file_that_is_too_large_is_not_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(library, "SIZE_LIMIT", 100)
+    monkeypatch.setattr(package_meshes, "SIZE_LIMIT", 100)
     (found,) = read({"meshes/a.stl": CUBE}, tmp_path)
     assert isinstance(found, MeshFault)
     assert found.trouble is MeshTrouble.NOT_LOOKED_AT

@@ -7,7 +7,6 @@ import posixpath
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from importlib.metadata import version
 from itertools import islice
 
 from checker.cache import NO_CACHE, Cache, code_hash, key_of
@@ -22,6 +21,7 @@ from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.package.reading import NotReadable, read_bytes
 from checker.source.text import Located
+from checker.versions import version_of
 
 _KIND = "mesh"
 _LIBRARIES = ("lxml", "numpy", "pycollada", "scipy", "trimesh")
@@ -151,7 +151,7 @@ def _key(file: MeshFile) -> str | MeshFault:
     if isinstance(data, NotReadable):
         return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
     suffix = posixpath.splitext(file.path)[1].lower()
-    libraries = [version(library) for library in _LIBRARIES]
+    libraries = map(version_of, _LIBRARIES)
     return key_of(suffix, data, code_hash("mesh", "model/mesh.py"), *libraries)
 
 
