@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from checker.mesh.hull import convex_hull
+from checker.mesh.joined import Joined
 from checker.mesh.surface import NoSurface, Surface
 from checker.model.mesh import Mesh
 from checker.model.transform import Vector
@@ -30,13 +31,13 @@ def measure(surface: Surface, path: str, format: str) -> Mesh:
     if not len(surface.corners):
         raise NoSurface("holds no triangles")
     _refuse_lost_corners(surface.corners)
-    joined = _joined(surface.corners)
+    joined = Joined.of(surface.corners)
     flat = _without_area(joined)
     points = joined.vertices
     hull, hull_volume = convex_hull(points)
     # A triangle whose corners are one leaves no hole where it is left out.
-    joined.update_faces(_with_three_corners(joined))
-    watertight = bool(len(joined.faces) and joined.is_watertight)
+    joined = joined.only(_with_three_corners(joined))
+    watertight, wound_alike = joined.is_closed()
     return Mesh(
         path=path,
         format=format,
@@ -45,7 +46,7 @@ def measure(surface: Surface, path: str, format: str) -> Mesh:
         high=_vector(points.max(axis=0)),
         metres_per_unit=surface.metres_per_unit,
         hull=hull,
-        volume=_volume(joined) if watertight and joined.is_winding_consistent else None,
+        volume=_volume(joined) if wound_alike else None,
         hull_volume=hull_volume,
         watertight=watertight,
         degenerate=int(flat.sum()),
@@ -66,24 +67,13 @@ def _refuse_lost_corners(corners: NDArray[float64]) -> None:
         raise NoSurface(f"has a corner that is nowhere: triangle {number + 1:,} is {written}")
 
 
-def _joined(corners: NDArray[float64]) -> Any:
-    """Return the surface as a trimesh with equal corners made one."""
-    import numpy as np
-    import trimesh
-
-    faces = np.arange(len(corners) * 3).reshape(-1, 3)
-    mesh = trimesh.Trimesh(corners.reshape(-1, 3), faces, process=False)
-    mesh.merge_vertices(merge_norm=True, merge_tex=True)
-    return mesh
-
-
-def _with_three_corners(mesh: Any) -> NDArray[bool_]:
+def _with_three_corners(mesh: Joined) -> NDArray[bool_]:
     a, b, c = mesh.faces.T
     three: NDArray[bool_] = (a != b) & (b != c) & (c != a)
     return three
 
 
-def _without_area(mesh: Any) -> NDArray[bool_]:
+def _without_area(mesh: Joined) -> NDArray[bool_]:
     """Say of each triangle whether it is lower than `THINNEST`."""
     import numpy as np
 
@@ -94,7 +84,7 @@ def _without_area(mesh: Any) -> NDArray[bool_]:
     return flat
 
 
-def _volume(mesh: Any) -> float | None:
+def _volume(mesh: Joined) -> float | None:
     """Return the enclosed volume, m³, positive where the triangles face outwards."""
     import numpy as np
 

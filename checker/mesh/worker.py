@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
+from importlib import import_module
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -25,21 +27,23 @@ def answer(request: bytes) -> bytes:
     Returns:
         JSON: what each file holds, in the same order.
     """
-    _load_libraries()
-    until = monotonic() + SECONDS_FOR_ALL
     asked = json.loads(request)
-    seconds = asked["seconds"]
+    _load_libraries({name.rpartition(".")[2].lower() for _, name in asked["files"]})
+    seconds, until = asked["seconds"], monotonic() + SECONDS_FOR_ALL
     read = [_read_apart(Path(at), name, seconds, until) for at, name in asked["files"]]
     return json.dumps(read).encode()
 
 
-def _load_libraries() -> None:
+def _load_libraries(suffixes: Collection[str]) -> None:
     """Import once what every fork needs."""
-    import collada
-    import scipy.spatial
-    import trimesh
+    import_module("scipy.spatial")
+    for suffix, library in _LIBRARIES.items():
+        if suffix in suffixes:
+            import_module(library)
 
-    _ = collada, scipy, trimesh
+
+_LIBRARIES = {"dae": "collada", "obj": "trimesh"}
+"""What reads a format, by the suffix of its files."""
 
 
 def _read_apart(location: Path, name: str, seconds: int, until: float) -> Any:

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.trial.motion import Motion
-from checker.trial.profile import value_at
-from checker.trial.recording import Touch
+from checker.trial.profile import Knots, value_at
+from checker.trial.touches import Touches
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
-
-Flat = tuple[float, float]
-"""x and y."""
-Point = tuple[float, float, float, float, float]
-"""Grip (N), x, y (metres), slide along x and y (m/s)."""
+    Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -37,16 +32,15 @@ class Footing:
     slide: Array
 
 
-def loads(touches: Sequence[Touch]) -> dict[str, float]:
+def loads(touches: Touches) -> dict[str, float]:
     """Return the mean normal force on each link, N."""
-    total: dict[str, float] = {}
-    for touch in touches:
-        for link, load in zip(touch.links, touch.loads.tolist(), strict=True):
-            total[link] = total.get(link, 0.0) + load
-    return {link: load / len(touches) for link, load in total.items()}
+    import numpy as np
+
+    total = np.bincount(touches.link, touches.loads, len(touches.names)) / len(touches.time)
+    return dict(zip(touches.names, total.tolist(), strict=True))
 
 
-def middle(motion: Motion, touches: Sequence[Touch]) -> Array | None:
+def middle(motion: Motion, touches: Touches) -> Array | None:
     """Return the middle of the driven wheels, or of where the belts touch; x, y in metres."""
     import numpy as np
 
@@ -54,54 +48,47 @@ def middle(motion: Motion, touches: Sequence[Touch]) -> Array | None:
     columns = [number for number, name in enumerate(motion.run.rig.names) if name in driven]
     belts = {belt.link for belt in motion.plan.belts}
     if columns:
-        places = [touch.anchors[columns, :2] for touch in touches]
+        places = touches.anchors[:, columns, :2].reshape(-1, 2)
     else:
-        places = [
-            touch.points[[link in belts for link in touch.links], :2]
-            for touch in touches
-            if touch.links
-        ]
-    together = np.concatenate(places) if places else np.zeros((0, 2))
-    if not len(together):
+        is_belt = np.array([name in belts for name in touches.names])
+        places = touches.points[is_belt[touches.link], :2]
+    if not len(places):
         return None
-    centre: Array = (together.min(axis=0) + together.max(axis=0)) / 2
+    centre: Array = (places.min(axis=0) + places.max(axis=0)) / 2
     return centre
 
 
-def footing(motion: Motion, touches: Sequence[Touch]) -> Footing:
+def footing(motion: Motion, touches: Touches) -> Footing:
     """Return what a robot stands on; parts that roll freely hold nothing and are left out.
 
     A wheel counts as one point, the middle of its loads: across its width it gives way.
     """
     import numpy as np
 
-    surfaces = _Surfaces(motion)
-    points: list[Point] = []
-    wheels: dict[str, list[Point]] = {}
-    for touch in touches:
-        grips = (touch.loads * touch.friction / len(touches)).tolist()
-        for link, (x, y, z), grip in zip(touch.links, touch.points.tolist(), grips, strict=True):
-            slide = surfaces.velocity(link, (x, y, z), touch)
-            if slide is not None and grip > 0.0:
-                into = wheels.setdefault(link, []) if link in surfaces.wheels else points
-                into.append((grip, x, y, *slide))
-    points += [_joined(each) for each in wheels.values()]
-    columns = np.array(points).reshape(-1, 5)
+    surfaces = _Surfaces(motion, touches)
+    grip = touches.loads * touches.friction / len(touches.time)
+    columns = np.column_stack([grip, touches.points[:, :2], surfaces.velocities()])
+    holds = (grip > 0.0) & ~np.isnan(columns).any(axis=1)
+    columns, link = columns[holds], touches.link[holds]
+    is_wheel = np.array([name in surfaces.wheels for name in touches.names])
+    wheels = [_joined(columns[link == each]) for each in np.unique(link[is_wheel[link]])]
+    columns = np.vstack([columns[~is_wheel[link]], *wheels])
     return Footing(columns[:, 1:3], columns[:, 0], columns[:, 3:])
 
 
-def _joined(points: Sequence[Point]) -> Point:
-    """Return the middle of points by their grip, with all of it."""
-    grip = sum(point[0] for point in points)
-    x, y, u, v = (sum(p[0] * p[column] for p in points) / grip for column in range(1, 5))
-    return grip, x, y, u, v
+def _joined(points: Array) -> Array:
+    """Return the middle of points by their grip (the first column), with all of it."""
+    import numpy as np
+
+    grip = points[:, 0]
+    return np.array([grip.sum(), *(grip @ points[:, 1:] / grip.sum())])
 
 
 class _Surfaces:
     """Finds how the surface of a link moves against the robot, as it is commanded."""
 
-    def __init__(self, motion: Motion) -> None:
-        self.motion = motion
+    def __init__(self, motion: Motion, touches: Touches) -> None:
+        self.motion, self.touches = motion, touches
         self.rig = motion.run.rig
         numbers = {name: number for number, name in enumerate(self.rig.names)}
         self.wheels = {
@@ -127,16 +114,35 @@ class _Surfaces:
             loose[body] = free or loose[model.body_parentid[body]]
         return {link for link, body in scene.bodies.items() if loose[model.body(body).id]}
 
-    def velocity(self, link: str, point: Sequence[float], touch: Touch) -> Flat | None:
-        """Return a velocity in the robot's frame, m/s; None for a part that rolls freely."""
-        if link in self.wheels:
-            number, joint = self.wheels[link]
-            rate = value_at(self.motion.plan.speeds[joint], touch.time)
-            x, y, z = (a - b for a, b in zip(point, touch.anchors[number].tolist(), strict=True))
-            ax, ay, az = touch.axes[number].tolist()
-            return rate * (ay * z - az * y), rate * (az * x - ax * z)
-        if link in self.belts:
-            belt = self.belts[link]
-            speed = value_at(belt.speed, touch.time)
-            return -speed * belt.forward[0], -speed * belt.forward[1]
-        return None if link in self.loose else (0.0, 0.0)
+    def velocities(self) -> Array:
+        """Return velocities in the robot's frame, m/s; NaN for parts that roll freely (k × 2)."""
+        import numpy as np
+
+        found = np.zeros((len(self.touches.link), 2))
+        for number in np.unique(self.touches.link).tolist():
+            name, of = self.touches.names[number], self.touches.link == number
+            if name in self.wheels:
+                found[of] = self._of_wheel(*self.wheels[name], of)
+            elif name in self.belts:
+                belt = self.belts[name]
+                found[of] = np.outer(self._commands(belt.speed, of), np.negative(belt.forward[:2]))
+            elif name in self.loose:
+                found[of] = np.nan
+        return found
+
+    def _of_wheel(self, joint: int, name: str, of: Mask) -> Array:
+        """Return the velocity of a wheel's surface at its contacts: it turns about its axis."""
+        import numpy as np
+
+        samples = self.touches.sample[of]
+        x, y, z = (self.touches.points[of] - self.touches.anchors[samples, joint]).T
+        ax, ay, az = self.touches.axes[samples, joint].T
+        rate = self._commands(self.motion.plan.speeds[name], of)
+        return np.column_stack([rate * (ay * z - az * y), rate * (az * x - ax * z)])
+
+    def _commands(self, line: Knots, of: Mask) -> Array:
+        """Return what is commanded when some contacts were sampled."""
+        import numpy as np
+
+        commands = np.array([value_at(line, time) for time in self.touches.time.tolist()])
+        return commands[self.touches.sample[of]]

@@ -28,5 +28,5 @@ def measure_settle(motion: Motion) -> Iterator[Measurement]:
     yield Measurement("settle_tilt", float(motion.tilt[rest].mean()))
     speeds = np.linalg.norm(motion.velocity[rest], axis=1)
     yield Measurement("settle_speed", float(speeds.mean()))
-    depths = [touch.depth for touch in motion.touches(leg, _AT_REST)]
-    yield Measurement("rest_penetration", max(depths))
+    deepest = motion.touches(leg, _AT_REST).depth.max(initial=0.0)
+    yield Measurement("rest_penetration", float(deepest))

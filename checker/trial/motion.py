@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from checker.trial.plan import Plan
-from checker.trial.recording import Touch
 from checker.trial.simulate import Run
+from checker.trial.touches import Touches
 from checker.trial.trial import Leg
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ class Motion:
         yaw: Heading without jumps, radians (n).
         tilt: Between the robot's z axis and the vertical, radians (n).
         forward: Speed along the robot's x axis, m/s (n).
+        contacts: With the ground, sampled more often than the rest.
     """
 
     run: Run
@@ -45,6 +46,7 @@ class Motion:
     yaw: Array = field(init=False)
     tilt: Array = field(init=False)
     forward: Array = field(init=False)
+    contacts: Touches = field(init=False)
 
     def __post_init__(self) -> None:
         import numpy as np
@@ -58,6 +60,7 @@ class Motion:
         self.yaw = np.unwrap(np.arctan2(self.rotation[:, 1, 0], self.rotation[:, 0, 0]))
         self.tilt = np.arccos(np.clip(self.rotation[:, 2, 2], -1.0, 1.0))
         self.forward = np.einsum("ij,ij->i", self.velocity, self.rotation[:, :, 0])
+        self.contacts = self.run.contacts.touches(self.run.rig)
 
     def between(self, start: float, end: float) -> slice:
         """Return the samples of a stretch of time, seconds, its end excluded."""
@@ -80,10 +83,9 @@ class Motion:
         finished = leg is not None and len(self.time) > 0 and self.time[-1] > leg.end - 0.1
         return leg if finished else None
 
-    def touches(self, leg: Leg, seconds: float) -> list[Touch]:
+    def touches(self, leg: Leg, seconds: float) -> Touches:
         """Return the contacts at the end of a leg."""
-        start, end = max(leg.end - seconds, leg.start) - _SLACK, leg.end - _SLACK
-        return [touch for touch in self.run.samples.touches if start <= touch.time < end]
+        return self.contacts.between(max(leg.end - seconds, leg.start) - _SLACK, leg.end - _SLACK)
 
     @property
     def weight(self) -> float:

@@ -20,33 +20,6 @@ CLOSE_SECONDS = {SETTLE: 1.0, TURN: 1.5}
 bodies come and go step by step."""
 
 
-@dataclass(frozen=True)
-class Touch:
-    """The contacts with the ground at one time, and how the wheels stood.
-
-    Attributes:
-        time: Seconds.
-        links: Scoped names of the links that touch, one a contact.
-        geoms: Numbers of their geoms.
-        points: Where, in the robot's frame, metres (n × 3).
-        loads: Normal forces, N (n).
-        friction: Coefficients (n).
-        depth: Deepest penetration, metres.
-        anchors: Where the joints with a servo are, in the robot's frame, metres.
-        axes: Their axes, in the robot's frame.
-    """
-
-    time: float
-    links: list[str]
-    geoms: Array
-    points: Array
-    loads: Array
-    friction: Array
-    depth: float
-    anchors: Array
-    axes: Array
-
-
 @dataclass
 class Samples:
     """Lists, one entry a sample, in the world's frame if nothing else is said.
@@ -60,7 +33,6 @@ class Samples:
         centre: Of mass, in the robot's frame, metres.
         energy: Potential and kinetic, J.
         joints: Where the joints with a servo stand, rad or m.
-        touches: Contacts with the ground, sampled more often than the rest.
     """
 
     time: list[float] = field(default_factory=list)
@@ -71,7 +43,6 @@ class Samples:
     centre: list[Array] = field(default_factory=list)
     energy: list[float] = field(default_factory=list)
     joints: list[Array] = field(default_factory=list)
-    touches: list[Touch] = field(default_factory=list)
 
 
 def take(samples: Samples, rig: Rig, time: float) -> None:
@@ -88,30 +59,15 @@ def take(samples: Samples, rig: Rig, time: float) -> None:
     samples.position.append(position)
     samples.rotation.append(rotation)
     samples.spin.append(motion[:3])
-    samples.velocity.append(motion[3:] - np.cross(motion[:3], offset))
+    samples.velocity.append(motion[3:] - _cross(motion[:3], offset))
     samples.centre.append(rotation.T @ (data.subtree_com[0] - position))
     samples.energy.append(float(data.energy.sum()))
     samples.joints.append(rig.positions)
 
 
-def touch(rig: Rig, time: float) -> Touch:
-    """Return the contacts of MuJoCo's last step."""
+def _cross(one: Array, two: Array) -> Array:
+    """Return the cross product of two vectors; NumPy's own is made for many, and slow for two."""
     import numpy as np
 
-    data = rig.data
-    position, rotation = rig.pose()
-    contact = data.contact
-    # A contact that the solver left out has no force.
-    used = contact.efc_address >= 0
-    geoms = contact.geom[used].max(axis=1) if used.any() else np.zeros(0, dtype=int)
-    return Touch(
-        time=time,
-        links=[rig.parts[geom] for geom in geoms],
-        geoms=geoms,
-        points=(contact.pos[used] - position) @ rotation,
-        loads=data.efc_force[contact.efc_address[used]],
-        friction=contact.friction[used, 0],
-        depth=float(-contact.dist[used].min(initial=0.0)),
-        anchors=(data.xanchor[rig.joints] - position) @ rotation,
-        axes=data.xaxis[rig.joints] @ rotation,
-    )
+    (a, b, c), (x, y, z) = one.tolist(), two.tolist()
+    return np.array((b * z - c * y, c * x - a * z, a * y - b * x))

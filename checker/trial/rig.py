@@ -74,8 +74,17 @@ class Rig:
 
     def pose(self) -> tuple[Array, Array]:
         """Return position (metres) and rotation (3×3) of the robot's frame in the world."""
-        rotation = self.data.xmat[self.root].reshape(3, 3) @ self._link_to_robot
-        return self.data.xpos[self.root] - rotation @ self._link_place, rotation
+        return self.frame(self.data.xpos[self.root], self.data.xmat[self.root])
+
+    def frame(self, place: Array, turn: Array) -> tuple[Array, Array]:
+        """Return the pose of the robot's frame, from one or many of the body `root`.
+
+        Args:
+            place: Position, metres (… × 3).
+            turn: Rotation (… × 9).
+        """
+        rotation = turn.reshape(*turn.shape[:-1], 3, 3) @ self._link_to_robot
+        return place - rotation @ self._link_place, rotation
 
     def _tune(self) -> None:
         """Give each servo the stiffness that its load asks for; their force has no limit.

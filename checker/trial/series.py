@@ -50,16 +50,12 @@ def _loads(motion: Motion) -> dict[str, Array]:
     """Return the mean load of each link around each sample, N, of links that touch the ground."""
     import numpy as np
 
+    touches, count = motion.contacts, len(motion.time)
+    nearest = np.abs(touches.time[:, None] - motion.time).argmin(axis=1)
+    counts = np.maximum(np.bincount(nearest, minlength=count), 1)
     found: dict[str, Array] = {}
-    touches = motion.run.samples.touches
-    bounds = np.array([touch.time for touch in touches])
-    at = np.abs(bounds[:, None] - motion.time).argmin(axis=1) if len(motion.time) else bounds
-    for touch, number in zip(touches, at.tolist(), strict=True):
-        for link, load in zip(touch.links, touch.loads.tolist(), strict=True):
-            name = f"load:{link}"
-            if name not in found and len(found) < _MOST_PARTS:
-                found[name] = np.zeros(len(motion.time))
-            if name in found:
-                found[name][number] += load
-    counts = np.bincount(at, minlength=len(motion.time))
-    return {name: total / np.maximum(counts, 1) for name, total in found.items()}
+    for number in list(dict.fromkeys(touches.link.tolist()))[:_MOST_PARTS]:
+        of = touches.link == number
+        total = np.bincount(nearest[touches.sample[of]], touches.loads[of], count)
+        found[f"load:{touches.names[number]}"] = total / counts
+    return found

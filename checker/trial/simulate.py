@@ -10,9 +10,10 @@ from checker.trial.course import HOVER
 from checker.trial.flight import PILOT_SECONDS, Pilot
 from checker.trial.plan import Plan
 from checker.trial.profile import Knots
-from checker.trial.recording import CLOSE_SECONDS, SAMPLE_SECONDS, Samples, take, touch
+from checker.trial.recording import CLOSE_SECONDS, SAMPLE_SECONDS, Samples, take
 from checker.trial.rig import Rig
 from checker.trial.scene import Scene
+from checker.trial.touches import ContactLog
 
 if TYPE_CHECKING:
     import numpy as np
@@ -37,6 +38,7 @@ class Run:
         rig: With the state at the end.
         timestep: Seconds.
         samples: At the start and every 50 ms.
+        contacts: With the ground, sampled more often.
         forces: Of the servos in each step, N·m or N (steps × servos).
         hover_effort: Largest share of its greatest thrust that a rotor gives to carry the weight;
             None if no shares keep the balance, and for what does not fly.
@@ -46,6 +48,7 @@ class Run:
     rig: Rig
     timestep: float
     samples: Samples = field(default_factory=Samples)
+    contacts: ContactLog = field(default_factory=ContactLog)
     forces: list[Array] = field(default_factory=list)
     hover_effort: float | None = None
     trouble: str = ""
@@ -87,7 +90,7 @@ def drive(scene: Scene, plan: Plan, timestep: float) -> Run:
         step(model, data)
         run.forces.append(data.actuator_force.copy())
         if number in touched:
-            run.samples.touches.append(touch(rig, number * timestep))
+            run.contacts.add(rig, number * timestep)
         if number % every == 0:
             take(run.samples, rig, number * timestep)
             run.trouble = _trouble(rig, number * timestep)
