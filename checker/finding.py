@@ -62,10 +62,18 @@ class Safety(enum.StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """Replace the text at `place` by `replacement`."""
+    """Replace the text at `place` by `replacement`.
+
+    Attributes:
+        place: Where the text stands.
+        replacement: What shall stand there.
+        original: What stands there. Where the file holds something else, as a spawner does that
+            puts a text together, the edit cannot be made.
+    """
 
     place: Place
     replacement: str
+    original: str
 
 
 @dataclass(frozen=True, slots=True)

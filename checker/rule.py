@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, get_type_hints
 
-from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.finding import Fix, Place, Safety, Severity
 from checker.source.text import Span
 
 __all__ = [
@@ -101,7 +101,7 @@ def _place(where: Where) -> Place:
 
 def replace_text(where: HasSpan, replacement: str, safety: Safety = Safety.SAFE) -> Fix:
     """Return the fix that writes `replacement` over the text of `where`."""
-    return Fix(safety, (Edit(where.span.place(), replacement),))
+    return Fix(safety, (where.span.replaced_by(replacement),))
 
 
 @dataclass(frozen=True)

@@ -4,15 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
+from checker.model.sensing.attenuation import Attenuation, read_attenuation
+from checker.model.sensing.camera import Camera, read_camera
+from checker.model.sensing.imu import Imu, read_imu
+from checker.model.sensing.kind import SensorType, sensor_type
+from checker.model.sensing.lidar import Lidar, read_lidar
 from checker.model.shapes import Geometry, Material
 from checker.model.transform import Transform
-from checker.model.values import parse_number
+from checker.model.values import ValueReader, parse_number
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 UNLIMITED = 1e16
 """SDFormat's own bound: limits at or beyond ±1e16 mean that there is none."""
+
+
+_WITH_ALPHA = 4
+"""Numbers of a colour that says how opaque it is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +93,13 @@ class Visual(Part):
     geometry: Geometry
     material: Material | None
 
+    @cached_property
+    def is_see_through(self) -> bool:
+        """Whether something behind it can be seen: it says so, or its colour does."""
+        diffuse = self.material.colours.get("diffuse", ()) if self.material is not None else ()
+        clear = len(diffuse) == _WITH_ALPHA and diffuse[-1].value < 1.0
+        return clear or ValueReader().number(self.element, "transparency", 0.0).value > 0.0
+
 
 @dataclass(frozen=True, eq=False)
 class Plugin(Part):
@@ -145,6 +162,31 @@ class Sensor(Part):
     topic: Located[str]
     plugins: tuple[Plugin, ...] = ()
 
+    @cached_property
+    def kind(self) -> SensorType:
+        """What its type means, whichever release spells it."""
+        return sensor_type(self.type.value)
+
+    @cached_property
+    def camera(self) -> Camera | None:
+        """What its `<camera>` says; None when it has none."""
+        return read_camera(self.element)
+
+    @cached_property
+    def lidar(self) -> Lidar | None:
+        """What its `<lidar>` or `<ray>` says; None when it has none."""
+        return read_lidar(self.element)
+
+    @cached_property
+    def imu(self) -> Imu | None:
+        """What its `<imu>` says; None when it has none."""
+        return read_imu(self.element)
+
+    @cached_property
+    def update_rate(self) -> Located[float]:
+        """Measurements a second; 0, SDFormat's default, is as often as the simulation steps."""
+        return ValueReader().number(self.element, "update_rate", 0.0)
+
 
 @dataclass(frozen=True, eq=False)
 class Light(Part):
@@ -153,6 +195,16 @@ class Light(Part):
     type: str
     link: str
     pose: Pose
+
+    @cached_property
+    def attenuation(self) -> Attenuation | None:
+        """How it grows weaker with distance; None when it does not say."""
+        return read_attenuation(self.element)
+
+    @cached_property
+    def casts_shadows(self) -> bool:
+        """Whether what stands in its way darkens what lies behind."""
+        return ValueReader().boolean(self.element, "cast_shadows", False).value
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,9 +308,16 @@ class Model(Part):
 
     Attributes:
         scoped_name: `arm` for a model nested in the robot.
+        pose: In the model around it, unless it says otherwise.
+        definition: The `<model>` itself, which an include takes from another file.
+        scope: What stands in front of scoped names around it; empty for the robot.
+        prefix: What stands in front of scoped names inside it.
         included_from: URI of the include; None for a model written in place.
     """
 
     scoped_name: str
     pose: Pose
+    definition: Element
+    scope: str
+    prefix: str
     included_from: Located[str] | None = None

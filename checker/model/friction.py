@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.components import Collision, Link
+from checker.model.urdf.extensions import extension_number
 from checker.model.values import stated_number
 from checker.source.text import Located
 from checker.source.xml import Element
@@ -47,7 +48,7 @@ class FrictionReader:
             if element is not None:
                 return Friction(stated_number(element, first), stated_number(element, second))
         for element in self.extensions.get(link.scoped_name, ()):
-            first_number = stated_number(element, "mu1")
+            first_number = extension_number(element, "mu1")
             if first_number is not None:
-                return Friction(first_number, stated_number(element, "mu2"))
+                return Friction(first_number, extension_number(element, "mu2"))
         return Friction()

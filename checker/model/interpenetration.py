@@ -53,7 +53,7 @@ def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
         each
         for link in robot.tree.links.values()
         for each in placed(robot, link, link.collisions)
-        if _is_convex(robot, each)
+        if is_convex(robot, each)
     ]
     bodies = rigid_bodies(robot)
     tied = _tied(robot, bodies)
@@ -90,7 +90,8 @@ def _depth(robot: Robot, one: Placed, other: Placed, enough: float) -> float:
     return overlap_depth(partial(one.support, robot), partial(other.support, robot), start, enough)
 
 
-def _is_convex(robot: Robot, shape: Placed) -> bool:
+def is_convex(robot: Robot, shape: Placed) -> bool:
+    """Say whether a shape is convex, a mesh nearly so."""
     mesh = robot.mesh_of(shape.shape)
     if mesh is None:
         return True

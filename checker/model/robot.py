@@ -224,6 +224,21 @@ class Robot(Part):
             placed.append((shape.geometry, pose))
         return box_around(placed, self.meshes)
 
+    def own_box_of(self, link: Link) -> Box | None:
+        """Return the box around a link's shapes in the link's frame: alike links have like boxes.
+
+        None for a link without shapes, and where a mesh or a place is unknown.
+        """
+        frame = self.pose_of(link.scoped_name)
+        placed = []
+        shapes: tuple[Collision | Visual, ...] = (*link.collisions, *link.visuals)
+        for shape in shapes:
+            pose = self.pose_of_part(link, shape.pose)
+            if frame is None or pose is None:
+                return None
+            placed.append((shape.geometry, frame.inverse @ pose))
+        return box_around(placed, self.meshes)
+
     def mesh_of(self, shape: Collision | Visual) -> Mesh | MeshFault | None:
         """Return the mesh that a collision or visual consists of; None for other shapes."""
         return mesh_of(shape.geometry, self.meshes)

@@ -97,11 +97,11 @@ class Transform:
         pitch = math.atan2(-rows[2][0], cos_pitch)
         if cos_pitch < 1e-12:
             return (0.0, pitch, math.atan2(-rows[0][1], rows[1][1]))
-        return (
-            math.atan2(rows[2][1], rows[2][2]),
-            pitch,
-            math.atan2(rows[1][0], rows[0][0]),
-        )
+        yaw = math.atan2(rows[1][0], rows[0][0])
+        sy, cy = math.sin(yaw), math.cos(yaw)
+        # With this yaw taken out first, roll makes up for the rounding of yaw near ±π/2 of pitch.
+        sin_roll, cos_roll = sy * rows[0][2] - cy * rows[1][2], cy * rows[1][1] - sy * rows[0][1]
+        return (math.atan2(sin_roll, cos_roll), pitch, yaw)
 
 
 def _vector(values: tuple[float, ...]) -> Vector:

@@ -56,6 +56,21 @@ class WheelReader:
         link = self.robot.links_by_name.get(self.child_of.get(joint, "")) if joint else None
         if joint is None or link is None:
             return None
+        return self._wheel(joint, link, name, side, knuckles)
+
+    def below(self, joint: Joint, side: Side, knuckles: Mapping[str, Joint]) -> Wheel | None:
+        """Return the wheel below a joint that no plugin names; None when no link is below."""
+        link = self.robot.links_by_name.get(self.child_of.get(joint, ""))
+        return None if link is None else self._wheel(joint, link, joint.name, side, knuckles)
+
+    def _wheel(
+        self,
+        joint: Joint,
+        link: Link,
+        name: Located[str],
+        side: Side,
+        knuckles: Mapping[str, Joint],
+    ) -> Wheel:
         if joint not in self.measured:
             self.measured[joint] = self._measure(joint, link)
         known = self.measured[joint]

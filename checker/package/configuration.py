@@ -25,6 +25,12 @@ def configurations(package: Package) -> tuple[int, dict[int, Package]] | None:
     return int(own.group(2)), found
 
 
+def configuration_number(package: Package) -> int:
+    """Return the number at the end of a package's name; 1 for a name without."""
+    number = re.search(r"_([0-9]{1,4})$", package.name)
+    return int(number.group(1)) if number else 1
+
+
 def first_configuration(package: Package) -> Package | None:
     """Return the configuration of lowest number at hand; None for that package itself."""
     known = configurations(package)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -64,6 +64,12 @@ class Package:
         default_factory=dict, init=False, repr=False
     )
 
+    def with_texts(self, texts: Mapping[str, SourceText]) -> Package:
+        """Return the package as if some of its files held other texts; nothing is written."""
+        changed = replace(self)
+        changed._texts.update({**self._texts, **texts})
+        return changed
+
     @property
     def name(self) -> str:
         """The folder's name; of a single file, the file's."""
@@ -81,6 +87,14 @@ class Package:
     def kind(self) -> PackageKind:
         """What the package is meant to be."""
         return kind_of(self)
+
+    @cached_property
+    def is_urdf(self) -> bool:
+        """Whether its robot is described in URDF alone, as packages and files of ROS are."""
+        if not self.only:
+            return self.kind is PackageKind.URDF_DESCRIPTION
+        document = self.xml(self.only)
+        return isinstance(document, XmlDocument) and document.root.tag == "robot"
 
     def folder_place(self) -> Place:
         """Return the place of the package as a whole, for findings about what is missing."""

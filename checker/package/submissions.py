@@ -24,12 +24,20 @@ _MEANT = re.compile(
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NOT_LINE_END = re.compile(r"[^\r\n]")
 _LOOK_BACK = 60
+_DIGITS = 6
 _NUMBER = re.compile(r"_sensor_config_\d+\Z", re.I)
 
 
 def robot_of(name: str) -> str:
     """Return a package's name without the number of its configuration."""
     return _NUMBER.sub("", name)
+
+
+def configuration_number(name: str) -> int | None:
+    """Return the number of a package's configuration; None when its name has none."""
+    match = _NUMBER.search(name)
+    digits = match.group().rpartition("_")[2] if match else ""
+    return int(digits) if 0 < len(digits) <= _DIGITS else None
 
 
 def is_same_robot(name: str, other: str) -> bool:

@@ -34,6 +34,16 @@ def encoding_of(data: bytes) -> str:
     return declared.group(1).decode("ascii").lower() if declared else "utf-8"
 
 
+def encode_like(text: str, data: bytes) -> bytes:
+    """Return a text in the encoding of `data`, with its byte order mark if it has one.
+
+    Raises:
+        UnicodeError: The encoding lacks a character of the text.
+    """
+    mark = next((mark for mark, _ in _BOMS if data.startswith(mark)), b"")
+    return mark + text.encode(encoding_of(data))
+
+
 def decode(data: bytes) -> str:
     """Decode a text file: by byte order mark, by XML declaration, else as UTF-8.
 

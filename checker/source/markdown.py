@@ -62,10 +62,19 @@ class Passage:
 
 @dataclass(frozen=True, eq=False)
 class Markdown:
-    """A Markdown file as its passages, in order."""
+    """A Markdown file as its passages, in order.
+
+    Attributes:
+        source: The file.
+        passages: Its blocks of visible text.
+        text: What was read of the file, comments and fenced code blanked out.
+        fences: Fenced code, with its fences.
+    """
 
     source: SourceText
     passages: tuple[Passage, ...]
+    text: str = field(default="", repr=False)
+    fences: tuple[Span, ...] = ()
 
 
 def read_markdown(source: SourceText) -> Markdown:
@@ -77,11 +86,14 @@ def read_markdown(source: SourceText) -> Markdown:
     parser = MarkdownIt("commonmark").disable(["code", "inline"])
     tokens = parser.parse(text)
     starts = _line_starts(text)
-    for token in tokens:
-        if token.type == "fence" and token.map:
-            first, last = token.map
-            text = _blank(text, [(starts[first], starts[min(last, len(starts) - 1)])])
-    return Markdown(source, tuple(_passages(source, _visible(text), starts, tokens)))
+    fences = [
+        (starts[token.map[0]], starts[min(token.map[1], len(starts) - 1)])
+        for token in tokens
+        if token.type == "fence" and token.map
+    ]
+    text = _blank(text, fences)
+    passages = tuple(_passages(source, _visible(text), starts, tokens))
+    return Markdown(source, passages, text, tuple(Span(source, *each) for each in fences))
 
 
 def _line_starts(text: str) -> list[int]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import ClassVar, Generic, TypeVar
 
-from checker.finding import Place
+from checker.finding import Edit, Place
 
 T = TypeVar("T")
 
@@ -45,6 +45,24 @@ class SourceText:
         """Return the line and column, both from 1, of a character offset."""
         line = bisect_right(self._line_starts, offset)
         return line, offset - self._line_starts[line - 1] + 1
+
+    def offset_of(self, line: int, column: int) -> int | None:
+        """Return the character offset of a line and column, both from 1; None outside the text."""
+        starts = self._line_starts
+        if not 1 <= line <= len(starts) or column < 1:
+            return None
+        end = starts[line] if line < len(starts) else len(self.text) + 1
+        offset = starts[line - 1] + column - 1
+        return offset if offset < end else None
+
+    def stretch_of(self, edit: Edit) -> tuple[int, int] | None:
+        """Return the offsets that an edit replaces; None where its text does not stand there."""
+        place = edit.place
+        start = self.offset_of(place.line, place.column)
+        end = self.offset_of(place.end_line, place.end_column)
+        if start is None or end is None or self.text[start:end] != edit.original:
+            return None
+        return start, end
 
     def line(self, number: int) -> str:
         """Return the text of a line (from 1) without its line ending."""
@@ -87,6 +105,10 @@ class Span:
     def line(self) -> int:
         """First line, in the file that a person would open."""
         return self.place().line
+
+    def replaced_by(self, replacement: str) -> Edit:
+        """Return the edit that puts another text here."""
+        return Edit(self.place(), replacement, self.text)
 
     def place(self, note: str = "") -> Place:
         """Return the place in the file that a person would open."""

@@ -163,6 +163,14 @@ class Element:
         return Span(self.source, start, end, self.path)
 
     @property
+    def end_name_span(self) -> Span | None:
+        """The tag's name within the end tag; None for `<a/>`."""
+        if self.source.text[self.position.start_end - 2 : self.position.start_end] == "/>":
+            return None
+        start = self.position.end_start + len("</")
+        return Span(self.source, start, start + len(self.name_span.text), self.path)
+
+    @property
     def parent(self) -> Element | None:
         """The element around this one."""
         node = self.node.getparent()
@@ -212,6 +220,13 @@ class Element:
         """Return the place of an attribute's name."""
         return self._attribute_span(name, 0)
 
+    def whole_attribute_span(self, name: str) -> Span:
+        """Return the place of an attribute, of its quotes, and of the blanks in front of it."""
+        text, start = self.source.text, self._attribute_span(name, 0).start
+        while text[start - 1].isspace():
+            start -= 1
+        return Span(self.source, start, self._attribute_span(name, 1).end + 1, self.path)
+
     def _attribute_span(self, name: str, part: int) -> Span:
         """Return the name (`part` 0) or the value (1) of an attribute, else the start tag."""
         spans = self._scanned.attributes.get(name)
@@ -229,6 +244,14 @@ class Element:
                 break
             parts.append(node.tail or "")
         return "".join(parts)
+
+    @property
+    def comment_in_front(self) -> Located[str] | None:
+        """The comment right in front, with nothing but blanks between; its place is the tag."""
+        node = self.node.getprevious()
+        if not isinstance(node, etree._Comment) or (node.tail or "").strip(_BLANKS):
+            return None
+        return Located((node.text or "").strip(_BLANKS), self.span)
 
     @property
     def stray_texts(self) -> Iterator[Span]:

@@ -57,7 +57,7 @@ def _unit(inertia: LinkInertia) -> Iterator[Finding]:
 
 def _alike(masses: MassProperties, group: Sequence[LinkInertia], tolerance: float) -> bool:
     weights = [inertia.mass for inertia in group]
-    boxes = [masses.robot.box_of(inertia.link) for inertia in group]
+    boxes = [masses.robot.own_box_of(inertia.link) for inertia in group]
     sizes = [box.diagonal for box in boxes if box is not None]
     return _near(weights, tolerance) and _near(sizes, tolerance)
 
@@ -101,6 +101,19 @@ def _links(*parts: tuple[str, float, float], moments: str, marked: bool = False)
 _WHEELS = (("left", 2.0, 0.1), ("right", 2.0, 0.1), ("rear", 2.0, 0.1))
 GOOD = [
     _links(*_WHEELS, moments="0.008"),
+    "".join(
+        f"""
+<link name="leg_{number}">
+  <pose>0 0 0 0 0 {yaw}</pose>
+  <inertial>
+    <mass>2</mass>
+    <inertia><ixx>0.01</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia>
+  </inertial>
+  <collision name="c"><geometry><box><size>1 0.1 0.1</size></box></geometry></collision>
+</link>
+"""
+        for number, yaw in enumerate((0.0, 0.7, 1.5))
+    ),
     _links(("body", 2.0, 0.1), ("camera", 0.01, 0.02), ("lidar", 0.02, 0.05), moments="0.01"),
 ]
 BAD = [

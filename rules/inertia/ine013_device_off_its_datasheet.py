@@ -12,15 +12,15 @@ Source: the seed tutorial "Simulating the Ouster OS-1" for that device; `devices
 """
 
 import re
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 from checker.dynamics.link_geometry import not_looked_at, solid
 from checker.dynamics.mass_properties import LinkInertia, MassProperties
 from checker.model.boxes import box_around
 from checker.model.components import Link
+from checker.model.devices import Device
+from checker.model.known_devices import KnownDevices, spaced
 from checker.model.robot import Robot
-from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Span
 
@@ -30,46 +30,40 @@ _BESIDE = re.compile(
     re.I,
 )
 """Words for what holds or covers a device."""
-_SEED = "seed"
-
-Device = Mapping[str, Any]
 
 
 @rule("INE013", "device-off-its-datasheet", Severity.WARNING)
-def check(masses: MassProperties, *, tolerance: float = 0.1) -> Findings:
+def check(masses: MassProperties, known: KnownDevices, *, tolerance: float = 0.1) -> Findings:
     """Report devices off by more than `tolerance`; by figures from memory, as information."""
     robot = masses.robot
     for inertia in masses.links.values():
         link = inertia.link
-        device = _device(robot, link)
+        device = _device(robot, link, known)
         if device is None or link.inertial is None:
             continue
         unknown = not_looked_at(robot, link)
         if unknown:
             yield unchecked(unknown)
             continue
-        severity = Severity.WARNING if device["source"] == _SEED else Severity.INFO
+        severity = Severity.INFO if device.is_from_memory("body") else Severity.WARNING
         for where, what in _differences(robot, inertia, device, tolerance):
             yield finding(
                 where,
-                f"link {link.name.value!r} {what} ({device['name']})",
+                f"link {link.name.value!r} {what} ({device.name})",
                 severity=severity,
             )
 
 
-def _device(robot: Robot, link: Link) -> Device | None:
+def _device(robot: Robot, link: Link, known: KnownDevices) -> Device | None:
     """Return the device that a link stands for: by its name, its shapes and its sensors."""
     names = [link.name.value] + ([robot.name.value] if len(robot.links) == 1 else [])
-    text = re.sub(r"[_/:.]+", " ", " ".join(names)[:200])
-    if _BESIDE.search(text) or not solid((*link.collisions, *link.visuals)):
+    text = " ".join(names)[:200]
+    if _BESIDE.search(spaced(text)) or not solid((*link.collisions, *link.visuals)):
         return None
-    for device in table("devices")["devices"]:
-        if re.search(device["match"], text, re.I):
-            types = {sensor.type.value for sensor in link.sensors}
-            # URDF has its sensors elsewhere: there the name has to do.
-            fits = types.intersection(device["sdf_types"]) or robot.format == "urdf"
-            return device if fits else None
-    return None
+    # URDF has its sensors elsewhere: there the name has to do.
+    types = None if robot.format == "urdf" else [sensor.type.value for sensor in link.sensors]
+    device = known.named(text, types)
+    return device if device is not None and device.body else None
 
 
 def _differences(
@@ -77,18 +71,20 @@ def _differences(
 ) -> Iterator[tuple[Span, str]]:
     """Yield what is off, each with the place that states it."""
     link = inertia.link
-    mass = float(device["mass_kg"])
-    if _off(inertia.mass, mass, tolerance):
+    mass = _mass(device)
+    if mass is not None and _off(inertia.mass, mass, tolerance):
         stated = link.inertial.mass.span if link.inertial is not None else link.span
         yield stated, f"weighs {inertia.mass:.4g} kg, expected {mass:g} kg"
     size = _size(device)
+    if size is None:
+        return
     sizes = _sizes(robot, link)
     if sizes and all(_any_off(each, sorted(size), tolerance) for each in sizes):
         said = " × ".join(f"{1000 * length:.3g}" for length in sizes[0])
         expected = " × ".join(f"{1000 * length:.3g}" for length in sorted(size))
         yield link.span, f"measures {said} mm, expected {expected} mm"
-    moments = _moments(device, mass, size)
-    if _any_off(inertia.principal, moments, tolerance):
+    moments = _moments(device, mass, size) if mass is not None else None
+    if moments is not None and _any_off(inertia.principal, moments, tolerance):
         said = ", ".join(f"{moment:.3g}" for moment in inertia.principal)
         expected = ", ".join(f"{moment:.3g}" for moment in moments)
         yield (
@@ -105,18 +101,24 @@ def _any_off(values: tuple[float, ...], expected: list[float], tolerance: float)
     return any(_off(a, b, tolerance) for a, b in zip(values, expected, strict=True))
 
 
-def _size(device: Device) -> tuple[float, float, float]:
-    """Return x, y, z in metres."""
-    size = {name: length / 1000 for name, length in device["size_mm"].items()}
+def _mass(device: Device) -> float | None:
+    """Return the mass in kilograms, where it is known."""
+    mass = device.body.get("mass_kg")
+    return None if mass is None else float(mass)
+
+
+def _size(device: Device) -> tuple[float, float, float] | None:
+    """Return x, y, z in metres, where they are known."""
+    size = {name: length / 1000 for name, length in device.body.get("size_mm", {}).items()}
     if "diameter" in size:
         return (size["diameter"], size["diameter"], size["height"])
-    return (size["x"], size["y"], size["z"])
+    return (size["x"], size["y"], size["z"]) if size else None
 
 
 def _moments(device: Device, mass: float, size: tuple[float, float, float]) -> list[float]:
     """Return the principal moments of a solid cylinder or box, ascending, kg·m²."""
     x, y, z = size
-    if "diameter" in device["size_mm"]:
+    if "diameter" in device.body["size_mm"]:
         across, along = mass * (3 * x * x / 4 + z * z) / 12, mass * x * x / 8
         return sorted((across, across, along))
     return sorted(mass / 12 * (a * a + b * b) for a, b in ((x, y), (x, z), (y, z)))

@@ -75,10 +75,11 @@ def test_every_real_launch_file_expands_without_a_fault_that_is_not_real(path):
 def test_every_bridge_is_read_and_marked_where_it_is_written(package):
     path = Path(CORPUS) / package / "launch/vehicle_topics.launch"
     graph = expand(path, name="X", world_name="w", breadcrumbs="1")
-    assert len(graph.bridges) == BRIDGES[package]
+    written = [bridge for bridge in graph.bridges if not bridge.node.assumed_from]
+    assert len(written) == BRIDGES[package]
     programs = {"parameter_bridge", "image_bridge"}
     assert len(graph.bridges) == sum(node.type in programs for node in graph.nodes)
-    for bridge in graph.bridges:
+    for bridge in written:
         # Every arg that stands in the text has its value in the topic.
         around = re.split(r"\$\([^)]*\)", bridge.span.text)
         assert all(part in bridge.ign_topic for part in around)

@@ -121,8 +121,9 @@ def agree(path: Path) -> None:
 
 
 def test_yourdfpy_agrees_on_the_samples(samples: Path) -> None:
-    paths = [path for path in samples.rglob("*.urdf") if path.read_text("utf-8").strip()]
-    assert paths
+    sound = [path for path in samples.rglob("*.urdf") if "broken" not in str(path)]
+    assert len(sound) > 1
+    paths = [path for path in sound if path.read_text("utf-8").strip()]
     for path in paths:
         agree(path)
 

@@ -66,3 +66,22 @@ def test_an_empty_sheet_claims_nothing():
     sheet = read("")
     assert (sheet.title, sheet.sections, sheet.sensors) == ("", (), ())
     assert (sheet.total_mass, sheet.endurance, sheet.limits) == (None, None, ())
+
+
+def test_a_section_of_fenced_code_says_something():
+    sheet = read("# R\n## Usage\n```\nroslaunch\n```\n## Rights\n## Links\nhttps://example.org\n")
+    said = {each.title: not sheet.says_nothing(each) for each in sheet.sections}
+    assert said == {"R": True, "Usage": True, "Rights": False, "Links": True}
+
+
+def test_a_section_reaches_to_the_next_of_its_level_or_above():
+    sheet = read("# A\n## B\nb\n### C\nc\n## D\n# E\n")
+    stretches = {each.title: sheet.stretch_of(each).text for each in sheet.sections}
+    assert stretches["B"].split() == ["B", "b", "###", "C", "c", "##"]
+    assert stretches["C"].split() == ["C", "c", "##"]
+    assert stretches["E"].strip() == "E"
+
+
+def test_a_sheet_that_is_not_read_to_its_end_says_so():
+    assert not read("# A\n").unread
+    assert "200,000" in read("# A\n" + "word " * 50_000).unread

@@ -35,6 +35,17 @@ class BridgeKind(enum.StrEnum):
 
 
 PROGRAMS = {"parameter_bridge": BridgeKind.PARAMETER, "image_bridge": BridgeKind.IMAGE}
+PASSES_NOTHING = frozenset(
+    {
+        *("ros_ign_bridge", "ros_ign_image", "ros_ign_point_cloud", "ros1_ign_bridge"),
+        *("ros1_ign_image", "ros_gz_bridge", "ros_gz_image", "ros_gz_point_cloud", "subt_ros"),
+        *("controller_manager", "gazebo_ros", "joint_state_publisher", "joy", "ps3joy"),
+        *("robot_state_publisher", "rviz"),
+        *("static_transform_publisher", "teleop_twist_joy", "teleop_twist_keyboard", "tf"),
+        *("tf2_ros", "topic_tools", "twist_mux", "xacro"),
+    }
+)
+"""Packages whose nodes pass no topic of Gazebo but those that their command lines name."""
 _DIRECTIONS = {"[": Direction.TO_ROS, "]": Direction.TO_IGN, "@": Direction.BOTH}
 _PARAMETER = re.compile(r"([^@\[\]]+)@([^@\[\]]+)([@\[\]])([^@\[\]]+)\Z")
 

@@ -6,10 +6,10 @@ files, args do not unless they are handed over.
 
 from __future__ import annotations
 
-from collections import ChainMap
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+from checker.model.launch.assumed import assumed_bridges, assumed_nodes
 from checker.model.launch.bridge import Bridge, read_bridges
 from checker.model.launch.graph import (
     EnvironmentVariable,
@@ -24,8 +24,9 @@ from checker.model.launch.graph import (
 from checker.model.launch.include import Inclusion, MissingLaunchFile, ReadLaunch, read_inclusion
 from checker.model.launch.names import resolve_name
 from checker.model.launch.reading import Reader, words
-from checker.model.launch.scope import LaunchFile, Scope
+from checker.model.launch.scope import LaunchFile, Scope, args_of
 from checker.model.launch.substitution import is_known
+from checker.model.launch.tags import left_outside
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
@@ -47,7 +48,7 @@ def expand_launch(
     chain = ((document.source.file, frozenset(given.items())),)
     file = LaunchFile(document, given, None, overrides_constants=False, chain=chain)
     expansion = _Expansion(read_launch)
-    expansion.expand(document.root, Scope(file, ChainMap()))
+    expansion.expand(document.root, Scope(file, args_of(file)))
     return expansion.graph(file)
 
 
@@ -65,10 +66,13 @@ class _Expansion:
         self._nodes: list[Node] = []
         self._bridges: list[Bridge] = []
         self._dormant_bridges: list[Bridge] = []
+        self._dormant_nodes: list[Node] = []
         self._params: list[Param] = []
         self._environment: list[EnvironmentVariable] = []
         self._includes: list[Include] = []
         self._unresolved: list[UnresolvedInclude] = []
+        self._assumed: list[UnresolvedInclude] = []
+        self._dormant_includes: list[UnresolvedInclude] = []
         self._handlers: dict[str, Callable[[Element, Scope], None]] = {
             "arg": self._arg,
             "env": self._env,
@@ -85,10 +89,13 @@ class _Expansion:
             nodes=tuple(self._nodes),
             bridges=tuple(self._bridges),
             dormant_bridges=tuple(self._dormant_bridges),
+            dormant_nodes=tuple(self._dormant_nodes),
             params=tuple(self._params),
             environment=tuple(self._environment),
             includes=tuple(self._includes),
             unresolved_includes=tuple(self._unresolved),
+            assumed_includes=tuple(self._assumed),
+            dormant_includes=tuple(self._dormant_includes),
             arguments=MappingProxyType(entry.declared),
             undecided=tuple(self._reader.undecided),
             faults=tuple(self._reader.faults),
@@ -106,7 +113,7 @@ class _Expansion:
             handler = self._handlers.get(element.tag)
             if handler and self._reader.enabled(element, scope):
                 handler(element, scope)
-            elif element.tag in ("group", "node") and not self._asleep:
+            elif element.tag in ("group", "include", "node") and not self._asleep:
                 self._read_dormant(element, scope)
         return True
 
@@ -115,10 +122,13 @@ class _Expansion:
         dormant = _Expansion(_follow_nothing, asleep=True)
         dormant._handlers[element.tag](element, scope)
         self._dormant_bridges += dormant._bridges
+        self._dormant_nodes += dormant._nodes
+        assumed = set(dormant._assumed)
+        self._dormant_includes += [each for each in dormant._unresolved if each not in assumed]
 
     def _arg(self, element: Element, scope: Scope) -> None:
         name = element.get("name") or ""
-        if name in scope.args:
+        if scope.declares(name):
             message = f"the arg {name!r} is declared twice"
             self._reader.fault(LaunchFaultKind.REPEATED_ARG, element, message)
             return
@@ -181,7 +191,8 @@ class _Expansion:
         if file is not None:
             self._params.append(Param(full, file.value, "load", element.span))
         else:
-            self._params.append(Param(full, element.raw_text, "yaml", element.span))
+            text = element.raw_text
+            self._params.append(Param(full, text, "yaml", element.span, element.text_span))
 
     def _node(self, element: Element, scope: Scope) -> None:
         if not self._reader.charge(element, len(element.children) + len(scope.remaps)):
@@ -197,9 +208,10 @@ class _Expansion:
             self._reader.value(element, "args", scope),
             scope.remaps_with(own),
             element.span,
+            words=self._words(element, scope),
         )
         self._nodes.append(node)
-        self._read_bridges(element, node, scope)
+        self._read_bridges(node)
 
     def _inside_node(self, element: Element, name: str, scope: Scope) -> list[Remap]:
         """Read what stands inside a node, and return its own remaps."""
@@ -218,11 +230,14 @@ class _Expansion:
                     self._env(child, scope)
         return own
 
-    def _read_bridges(self, element: Element, node: Node, scope: Scope) -> None:
-        written = element.attribute("args")
-        if written is None:
-            return
-        for read in read_bridges(node, words(written, scope)):
+    def _words(self, element: Element, scope: Scope) -> tuple[Located[str], ...]:
+        written = element.attribute("args") or left_outside(element).get("args")
+        if written is None or not self._reader.charge(element, len(written.value) // 100):
+            return ()
+        return tuple(words(written, scope))
+
+    def _read_bridges(self, node: Node) -> None:
+        for read in read_bridges(node, node.words):
             if isinstance(read, Bridge):
                 self._bridges.append(read)
             elif is_known(read.value):
@@ -241,7 +256,20 @@ class _Expansion:
             return
         if isinstance(document, MissingLaunchFile):
             self._reader.fault(LaunchFaultKind.MISSING_FILE, inclusion.file.span, document)
-        self._unresolved.append(inclusion.unresolved(inner.namespace, document))
+        unresolved = inclusion.unresolved(inner.namespace, document)
+        self._unresolved.append(unresolved)
+        if not isinstance(document, MissingLaunchFile):
+            self._assume(unresolved, element, inner)
+
+    def _assume(self, include: UnresolvedInclude, element: Element, scope: Scope) -> None:
+        """Add what a known template of the challenge starts."""
+        nodes = assumed_nodes(include, scope.remaps)
+        if nodes is None or not self._reader.charge(element, len(nodes) * (1 + len(scope.remaps))):
+            return
+        self._assumed.append(include)
+        for node in nodes:
+            self._nodes.append(node)
+            self._bridges += assumed_bridges(node)
 
     def _follow(self, inclusion: Inclusion, document: XmlDocument, scope: Scope) -> None:
         arguments, span = inclusion.arguments, inclusion.span

@@ -7,12 +7,19 @@ Texts hold what roslaunch would put there. What depends on the machine that laun
 from __future__ import annotations
 
 import enum
+import posixpath
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
-from checker.model.launch.bridge import Bridge
+from checker.model.launch.bridge import PASSES_NOTHING, Bridge
 from checker.model.launch.names import resolve_name
 from checker.source.text import Located, Span
+
+_SIMULATOR = "gazebo_ros"
+"""Package whose launch files start Gazebo Classic, and bridge nothing."""
+_DESCRIPTION = "description.launch"
+"""What loads `robot_description` in every submission, and passes no topic."""
 
 
 class LaunchFaultKind(enum.Enum):
@@ -69,6 +76,9 @@ class Node:
         args: Command line, substitutions made.
         remaps: Those in force: the node's own and those around it.
         span: The start tag.
+        assumed_from: The file of the challenge's own package that is assumed to start the node
+            (the span is that of its `<include>`); empty for a node that was read.
+        words: The words of `args`, each with its place.
     """
 
     package: str
@@ -78,6 +88,8 @@ class Node:
     args: str
     remaps: tuple[Remap, ...]
     span: Span
+    assumed_from: str = ""
+    words: tuple[Located[str], ...] = ()
 
     @property
     def file(self) -> str:
@@ -107,12 +119,14 @@ class Param:
         value: The value, the command, the file name or the YAML text.
         kind: `value`, `command`, `textfile`, `binfile`, `yaml` or `load`.
         span: The start tag.
+        text: Where the text of a `<rosparam>` stands; None for other parameters.
     """
 
     name: str
     value: str
     kind: str
     span: Span
+    text: Span | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,24 +176,68 @@ class LaunchGraph:
         nodes: In the order of the files.
         bridges: Topics that the nodes pass between ROS and Gazebo.
         dormant_bridges: Those of nodes that a condition leaves out.
+        dormant_nodes: Nodes that a condition leaves out.
         params: Parameters set.
         environment: Environment variables set.
         includes: Files followed.
         unresolved_includes: Files not at hand.
+        assumed_includes: Those of them whose nodes and bridges are here all the same, as they are
+            assumed to be.
+        dormant_includes: Files that a condition leaves out, and that were not read for it.
         arguments: Args that the entry file declares, with their values.
         undecided: Conditions whose value is not known here; what they guard is left out.
         faults: What is wrong.
         unread: Why parts of what the robot starts are not known.
+        unknown_commands: Why the commands that start it are not known; then sample arguments
+            stand for theirs.
     """
 
     nodes: tuple[Node, ...] = ()
     bridges: tuple[Bridge, ...] = ()
     dormant_bridges: tuple[Bridge, ...] = ()
+    dormant_nodes: tuple[Node, ...] = ()
     params: tuple[Param, ...] = ()
     environment: tuple[EnvironmentVariable, ...] = ()
     includes: tuple[Include, ...] = ()
     unresolved_includes: tuple[UnresolvedInclude, ...] = ()
+    assumed_includes: tuple[UnresolvedInclude, ...] = ()
+    dormant_includes: tuple[UnresolvedInclude, ...] = ()
     arguments: Mapping[str, Located[str]] = field(default_factory=dict)
     undecided: tuple[Located[str], ...] = ()
     faults: tuple[LaunchFault, ...] = ()
     unread: tuple[str, ...] = ()
+    unknown_commands: str = ""
+
+    @cached_property
+    def unseen_bridges(self) -> tuple[str, ...]:
+        """Why topics may be passed that `bridges` and `dormant_bridges` do not hold."""
+        assumed = set(self.assumed_includes)
+        missing = (
+            each
+            for each in self.unresolved_includes
+            if each not in assumed
+            and each.package != _SIMULATOR
+            and posixpath.basename(each.file) != _DESCRIPTION
+        )
+        reasons = [f"{each.file} is not read: {each.reason}" for each in missing]
+        reasons += [
+            f"the condition {condition.value!r} is not known before the launch"
+            for condition in self.undecided
+        ]
+        reasons += [
+            f"the topic {bridge.ign_topic!r} of bridge {bridge.node.name!r} is not known "
+            "before the launch"
+            for bridge in self.bridges
+            if "$(" in bridge.ign_topic
+        ]
+        reasons += [
+            f"{param.value}, which may name bridges, is not read"
+            for param in self.params
+            if param.name.endswith("/config_file")
+        ]
+        reasons += [
+            f"node {node.name!r} of package {node.package} may pass topics of Gazebo itself"
+            for node in self.nodes
+            if node.package not in PASSES_NOTHING
+        ]
+        return tuple(dict.fromkeys(reasons))

@@ -85,12 +85,12 @@ def read_inclusion(reader: Reader, element: Element, scope: Scope) -> Inclusion:
         if given is not None:
             name = child.get("name") or ""
             arguments[name], places[name] = given.value, child.span
-    package, path = _target(file.value)
+    package, path = target_of(file.value)
     given_arguments = MappingProxyType(arguments)
     return Inclusion(package, path, file, given_arguments, places, passes_all, element.span)
 
 
-def _target(file: str) -> tuple[str, str]:
+def target_of(file: str) -> tuple[str, str]:
     """Return package and path of an included file; an empty path when they are not known."""
     found = _FOUND.match(file)
     if found:

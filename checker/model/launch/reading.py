@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from checker.model.launch.graph import LaunchFault, LaunchFaultKind
 from checker.model.launch.scope import Scope
 from checker.model.launch.substitution import is_known, substitute
+from checker.model.launch.tags import left_outside
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
@@ -49,8 +50,9 @@ class Reader:
     def text(self, element: Element, attribute: str, scope: Scope) -> Located[str] | None:
         """Return an attribute with its substitutions made; None when it is absent."""
         if element.get(attribute) is None:
-            return None
-        written = element.attribute(attribute)
+            written = left_outside(element).get(attribute)
+        else:
+            written = element.attribute(attribute)
         if written is None or "$(" not in written.value:
             return written
         result = substitute(written.value, scope.args, scope.file.directory)

@@ -47,6 +47,11 @@ class LaunchFile:
         return HERE + posixpath.dirname(self.name)
 
 
+def args_of(file: LaunchFile) -> ChainMap[str, str]:
+    """Return the args with which a file begins: roslaunch knows those given undeclared, too."""
+    return ChainMap({}, dict(file.given))
+
+
 @dataclass(eq=False)
 class Scope:
     """What is in force inside one group, file or node.
@@ -77,7 +82,11 @@ class Scope:
 
     def of_file(self, file: LaunchFile) -> Scope:
         """Return the scope of an included file: namespace and remaps reach in, args do not."""
-        return Scope(file, ChainMap(), self.namespace, self.remaps, self.depth)
+        return Scope(file, args_of(file), self.namespace, self.remaps, self.depth)
+
+    def declares(self, name: str) -> bool:
+        """Whether an arg is declared here or around; one that is only given is not."""
+        return any(name in declared for declared in self.args.maps[:-1])
 
     def remaps_with(self, own: list[Remap]) -> tuple[Remap, ...]:
         """Return the remaps in force for a node with remaps of its own; the strongest first."""

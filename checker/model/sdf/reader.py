@@ -159,7 +159,18 @@ class _Collected:
             pose.relative_to or scope.model_frame, transform, pose.span, f"model '{name.value}'"
         )
         inside.graph.add(inside.model_frame, node)
-        self.models.append(Model(name, placed, inside.model_frame, pose, included_from))
+        self.models.append(
+            Model(
+                name,
+                placed,
+                inside.model_frame,
+                pose,
+                model,
+                scope.prefix,
+                inside.prefix,
+                included_from,
+            )
+        )
 
     @staticmethod
     def _scope_inside(model: Element, placed: Element, name: str, scope: Scope) -> Scope:

@@ -30,7 +30,8 @@ _LIMIT = re.compile(
     r"\blimited\b|\bset\s+(?:to|at)\b|\b(?:modell?ed|simulated)\s+(?:as|to)\b", re.IGNORECASE
 )
 _ENDURANCE = re.compile(
-    r"\bbattery\s+life\b|\bendurance\b|\brun[\s-]?time\b|\bflight\s+time\b", re.IGNORECASE
+    r"\bbattery\s+(?:life|lasts)\b|\bendurance\b|\brun[\s-]?time\b|\bflight\s+time\b",
+    re.IGNORECASE,
 )
 _BOUND = re.compile(r"\b(?:over|more\s+than|at\s+least|up\s+to|after|for)\s*$", re.IGNORECASE)
 # Two statements this close are one figure and its rounding: `2 hours`, `2 hours and 6 minutes`.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,7 +20,7 @@ from checker.model.specification.motion import (
 from checker.model.specification.quantities import Quantity
 from checker.model.specification.sensors import ListedSensor, listed_sensors
 from checker.model.specification.validation import validation_links
-from checker.source.markdown import Markdown, Passage, PassageKind, read_markdown
+from checker.source.markdown import MAX_LENGTH, Markdown, Passage, PassageKind, read_markdown
 from checker.source.text import SourceText, Span
 
 
@@ -129,10 +130,37 @@ class Specification:
         section = self.section("validation")
         if section is None:
             return tuple(validation_links(self.source, 0, 0))
-        start = section.span.start
-        later = (each for each in self.sections if each.span.start > start)
-        ends = (each.span.start for each in later if each.level <= section.level)
-        return tuple(validation_links(self.source, start, next(ends, len(self.source.text))))
+        stretch = self.stretch_of(section)
+        return tuple(validation_links(self.source, stretch.start, stretch.end))
+
+    @property
+    def unread(self) -> str:
+        """Why its end is not known, as the end of a sentence; empty when all of it is read."""
+        if len(self.source.text) <= MAX_LENGTH:
+            return ""
+        return f"{self.source.file} is read up to character {MAX_LENGTH:,} only"
+
+    def stretch_of(self, section: Section) -> Span:
+        """Return a section from its heading to the next one of its level or above."""
+        return Span(self.source, section.span.start, self._ends[section.span.start])
+
+    @cached_property
+    def _ends(self) -> dict[int, int]:
+        """Where each section ends, by the offset of its heading."""
+        ends, found = [len(self.source.text)] * 7, {}
+        for section in reversed(self.sections):
+            start = section.span.start
+            found[start] = ends[section.level]
+            ends[section.level :] = [start] * (7 - section.level)
+        return found
+
+    def says_nothing(self, section: Section) -> bool:
+        """Whether there is neither text nor fenced code in a section."""
+        if not section.is_empty:
+            return False
+        stretch, fences = self.stretch_of(section), self.markdown.fences
+        code = bisect_left(fences, stretch.start, key=lambda fence: fence.start)
+        return code == len(fences) or fences[code].start >= stretch.end
 
     @cached_property
     def line_references(self) -> tuple[LineReference, ...]:

@@ -1,0 +1,1 @@
+"""What cameras, lidars and inertial units are set to, in SI units."""

@@ -1,0 +1,54 @@
+"""What an inertial measurement unit is set to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from checker.model.sensing.noise import Noise, read_noise
+from checker.model.values import ValueReader
+from checker.source.text import Located, Span
+from checker.source.xml import Element
+
+QUANTITIES = ("angular_velocity", "linear_acceleration")
+
+
+@dataclass(frozen=True, eq=False)
+class Imu:
+    """An `<imu>`.
+
+    Attributes:
+        noises: By quantity and axis, `("angular_velocity", "x")`: rad/s and m/s².
+        enable_orientation: Whether it gives its true orientation; SDFormat's default is yes.
+        element: The `<imu>`.
+    """
+
+    noises: Mapping[tuple[str, str], Noise]
+    enable_orientation: Located[bool]
+    element: Element
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.element.span
+
+
+def read_imu(sensor: Element) -> Imu | None:
+    """Read the `<imu>` of a sensor; None when it has none."""
+    element = sensor.child("imu")
+    if element is None:
+        return None
+    return Imu(
+        _noises(element), ValueReader().boolean(element, "enable_orientation", True), element
+    )
+
+
+def _noises(imu: Element) -> dict[tuple[str, str], Noise]:
+    found = {}
+    for quantity in QUANTITIES:
+        holder = imu.child(quantity)
+        for axis in "xyz":
+            noise = read_noise(holder.child(axis)) if holder is not None else None
+            if noise is not None:
+                found[quantity, axis] = noise
+    return found

@@ -1,0 +1,51 @@
+"""How much of a sensor's view the robot itself hides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from checker.model.components import Link, Visual
+from checker.model.robot import Robot
+from checker.model.sensing.mounting import Mounted
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """What a camera or lidar sees of the robot that carries it, with all joints where they start.
+
+    Simulators draw the outer side of a surface only, and only beyond the near clip: a sensor inside
+    its housing sees through it.
+
+    Attributes:
+        filled: Shares of the view that visuals fill, and the metres to each of them.
+        cut: Share in which visuals stand nearer than the near clip, so that they are cut open.
+        by: The visual that takes most, and its link; None where there is none in view.
+    """
+
+    mounted: Mounted
+    filled: tuple[tuple[float, float], ...]
+    cut: float
+    by: tuple[Link, Visual] | None
+
+    @property
+    def hidden(self) -> float:
+        """Share of the view that visuals fill, 0 to 1."""
+        return sum(share for share, _ in self.filled)
+
+    def hidden_within(self, distance: float) -> float:
+        """Return the share of the view that visuals nearer than a distance fill, metres."""
+        return sum(share for share, metres in self.filled if metres < distance)
+
+
+@dataclass(frozen=True, eq=False)
+class SensorViews:
+    """A robot and the views of its cameras and lidars.
+
+    Attributes:
+        views: Those that could be worked out, in the order of the sensors.
+        unseen: Why something that may stand in a view is not known, as ends of sentences.
+    """
+
+    robot: Robot
+    views: tuple[View, ...]
+    unseen: tuple[str, ...] = ()

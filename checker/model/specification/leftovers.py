@@ -1,0 +1,72 @@
+"""What is left of a template or of a draft in a sheet: placeholders, struck-through text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from checker.source.markdown import Markdown
+from checker.source.text import Span
+
+STRUCK_LIMIT = 5000
+"""Characters of struck-through text."""
+
+_PLACEHOLDER = re.compile(
+    r"\b(?:TODO|TBD|TBA|FIXME)\b"
+    r"|\\?<?\b[Ff][Ii][Xx][_-][Mm][Ee]\b\\?>?"
+    r"|https?://[^\s)>\]]{0,300}/x{3,}(?![\w-])"
+    # `\<Robot Name\>`, `<Explanation of Diversions\>`; `/<Robot Name>/cmd_vel` is part of a path.
+    r"|(?<!/)\\?<[A-Z]\w*(?: [\w()]+){1,8}\\?>(?!/)"
+    r"|\\?<[A-Z][\w ]{0,60}\(s\)[^<>\n]{0,200}\\?>"
+)
+_NO_TARGET = re.compile(r"\[([^\]\[\n]{1,200})\]\(\s*\)")
+_STRUCK = re.compile(
+    r"(?<!~)~~(?!~)|<(?P<close>/?)(?P<tag>s|del|strike)>",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Leftover:
+    """Something that was to be replaced or removed.
+
+    Attributes:
+        words: As written.
+        span: Where.
+    """
+
+    words: str
+    span: Span
+
+
+def placeholders(markdown: Markdown) -> Iterator[Leftover]:
+    """Yield placeholders of text and of links; those in comments and fenced code are none."""
+    for found in _PLACEHOLDER.finditer(markdown.text):
+        yield Leftover(found.group(), Span(markdown.source, *found.span()))
+
+
+def links_without_target(markdown: Markdown) -> Iterator[Leftover]:
+    """Yield links such as `[datasheet]()`."""
+    for found in _NO_TARGET.finditer(markdown.text):
+        yield Leftover(found.group(1), Span(markdown.source, *found.span()))
+
+
+def struck_through(markdown: Markdown) -> Iterator[Leftover]:
+    """Yield text between `~~` and `~~`, `<s>` and `</s>`, `<del>` and `</del>`."""
+    opening: re.Match[str] | None = None
+    for mark in _STRUCK.finditer(markdown.text):
+        if opening is not None and _ends(opening, mark):
+            start, end = opening.end(), mark.start()
+            opening = None
+            if 0 < end - start <= STRUCK_LIMIT:
+                words = " ".join(markdown.text[start:end].split())
+                yield Leftover(words, Span(markdown.source, start, end))
+        elif not mark["close"]:
+            opening = mark
+
+
+def _ends(opening: re.Match[str], mark: re.Match[str]) -> bool:
+    if not opening["tag"]:
+        return not mark["tag"]
+    return bool(mark["close"]) and (mark["tag"] or "").lower() == opening["tag"].lower()

@@ -1,0 +1,33 @@
+"""Values below `<gazebo>` tags: `<kp>1e6</kp>`, and `<kp value="1e6"/>` as older files have it."""
+
+from __future__ import annotations
+
+from checker.model.values import parse_number
+from checker.source.text import Located
+from checker.source.xml import Element
+
+_TRUE = ("1", "true")
+
+
+def extension_text(element: Element) -> Located[str]:
+    """Return what an element says; an attribute `value` counts more than the text.
+
+    Source: sdformat, parser_urdf.cc, GetKeyValueAsString.
+    """
+    return element.attribute("value") or element.text
+
+
+def extension_number(tag: Element, name: str) -> Located[float] | None:
+    """Return the number in a child of a `<gazebo>` tag; None when none reads as one."""
+    child = tag.child(name)
+    if child is None:
+        return None
+    said = extension_text(child)
+    value = parse_number(said.value.strip())
+    return None if value is None else Located(value, said.span)
+
+
+def extension_flag(tag: Element, name: str) -> bool:
+    """Say whether a child of a `<gazebo>` tag is there and says true."""
+    child = tag.child(name)
+    return child is not None and extension_text(child).value.strip().lower() in _TRUE

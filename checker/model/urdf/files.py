@@ -1,0 +1,63 @@
+"""The URDF files of a package that stand for a robot, and what is wrong with those that cannot."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+from checker.model.urdf.description import UrdfDescription
+from checker.source.text import Span
+
+
+class XacroFaultKind(enum.StrEnum):
+    """Why there is no robot to be had from a file.
+
+    `EMPTY`: it holds nothing. `MALFORMED`: it is no well-formed XML. `EXPANSION`: xacro refuses it.
+    `ENVIRONMENT`: it needs an environment variable. `ARGUMENT`: it needs an argument that nobody
+    gives. `LIMIT`: expanding it does not come to an end.
+    """
+
+    EMPTY = "empty"
+    MALFORMED = "malformed"
+    EXPANSION = "expansion"
+    ENVIRONMENT = "environment"
+    ARGUMENT = "argument"
+    LIMIT = "limit"
+
+
+@dataclass(frozen=True, eq=False)
+class XacroFault:
+    """Why and where a file does not expand.
+
+    Attributes:
+        kind: What sort of fault it is.
+        file: The file that was to be expanded; the fault may stand in one that it includes.
+        span: Where it stands.
+        message: The end of a sentence.
+        hint: How to mend it; may be empty.
+        loaded: Whether a launch file of the package loads the file.
+    """
+
+    kind: XacroFaultKind
+    file: str
+    span: Span
+    message: str
+    hint: str = ""
+    loaded: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class UrdfFiles:
+    """What became of the URDF files of a package.
+
+    Attributes:
+        descriptions: Of the files that hold a robot.
+        faults: Of files that hold none because something is wrong with them.
+        unread: Why files could not be looked at, each the end of a sentence.
+        set_aside: The same of files beside an SDF model that no launch file loads.
+    """
+
+    descriptions: tuple[UrdfDescription, ...] = ()
+    faults: tuple[XacroFault, ...] = ()
+    unread: tuple[str, ...] = ()
+    set_aside: tuple[str, ...] = ()

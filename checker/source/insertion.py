@@ -1,0 +1,144 @@
+"""Text edits that put elements into XML, laid out like what stands there, and take them out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from checker.finding import Edit
+from checker.source.text import SourceText, Span
+from checker.source.xml import Element
+
+_STEP = "  "
+"""Indentation of a step of depth, where the file shows none."""
+_BLANKS = (" ", "\t")
+
+
+class Insertion(NamedTuple):
+    """A stretch of text, and what is to stand there with the elements put in."""
+
+    span: Span
+    text: str
+
+
+def insert_into(parent: Element, lines: Sequence[str]) -> Edit:
+    """Return the edit that puts elements in front of those that an element holds.
+
+    Args:
+        parent: The element that is to hold them.
+        lines: Their text, two blanks in front of a line for each step of depth.
+    """
+    span, text = insertion(parent, lines)
+    return span.replaced_by(text)
+
+
+def insertion(parent: Element, lines: Sequence[str]) -> Insertion:
+    """Return what `insert_into` replaces, and by what."""
+    source, position = parent.source, parent.position
+    outer, written = _written(parent, lines)
+    if parent.span.text.endswith("/>"):
+        opened = position.start + len(parent.span.text.removesuffix("/>").rstrip())
+        tail = Span(source, opened, position.start_end, parent.path)
+        return Insertion(tail, f">{written}{outer}</{parent.tag}>")
+    start = end = _behind_comments(source, position.start_end)
+    if not parent.children and not source.text[start : position.end_start].strip():
+        end, written = position.end_start, written + outer
+    return Insertion(Span(source, start, end, parent.path), written)
+
+
+def append_to(parent: Element, lines: Sequence[str]) -> Edit:
+    """Return the edit that puts elements behind those that an element holds; see `insert_into`."""
+    last = parent.children[-1] if parent.children else None
+    return insert_into(parent, lines) if last is None else insert_behind(last, lines)
+
+
+def insert_behind(element: Element, lines: Sequence[str]) -> Edit:
+    """Return the edit that puts elements behind another one; see `insert_into`."""
+    parent = element.parent or element
+    end = _behind_comments(element.source, element.position.end)
+    span = Span(element.source, end, end, parent.path)
+    return span.replaced_by(_written(parent, lines)[1])
+
+
+def _written(parent: Element, lines: Sequence[str]) -> tuple[str, str]:
+    """Return what goes in front of an end tag on a line of its own, and lines to put in."""
+    outer, inner = _indentations(parent)
+    if inner is None:
+        return "", "".join(line.strip() for line in lines)
+    step = inner[len(outer) :] if outer is not None and inner.startswith(outer) else ""
+    newline = newline_of(parent.source, parent.position.start_end)
+    written = "".join(newline + inner + _stepped(line, step or _STEP) for line in lines)
+    return "" if outer is None else newline + outer, written
+
+
+def _behind_comments(source: SourceText, offset: int) -> int:
+    """Return where a line ends that goes on with nothing but comments, else the offset itself."""
+    text, at = source.text, offset
+    while True:
+        while text[at : at + 1] in _BLANKS:
+            at += 1
+        if not text.startswith("<!--", at):
+            return at if at > offset and text.startswith(("\n", "\r\n"), at) else offset
+        behind = text.find("-->", at) + len("-->")
+        if behind < at or "\n" in text[at:behind]:
+            return offset
+        at = behind
+
+
+def removal(element: Element) -> Edit:
+    """Return the edit that takes an element out; see `with_blanks`."""
+    return with_blanks(element.whole_span).replaced_by("")
+
+
+def with_blanks(span: Span) -> Span:
+    """Return a stretch with the blanks that would be left over if it were taken out.
+
+    These are the rest of its lines when nothing else stands there, else the blanks on one side.
+    """
+    source, start, end = span.source, span.start, span.end
+    text, indentation = source.text, indentation_of(source, start)
+    behind = end
+    while text[behind : behind + 1] in _BLANKS:
+        behind += 1
+    ends_line = text.startswith(("\n", "\r\n"), behind)
+    if indentation is not None and ends_line:
+        start, end = start - len(indentation), text.index("\n", behind) + 1
+    elif indentation is not None:
+        end = behind
+    elif behind > end or ends_line:
+        while text[start - 1] in _BLANKS:
+            start -= 1
+    return Span(source, start, end, span.element)
+
+
+def _indentations(parent: Element) -> tuple[str | None, str | None]:
+    """Return the indentation of an element and of what it holds; None amid a line."""
+    outer = indentation_of(parent.source, parent.position.start)
+    if parent.children:
+        return outer, indentation_of(parent.source, parent.children[0].position.start)
+    return outer, None if outer is None else outer + (_step_around(parent, outer) or _STEP)
+
+
+def _step_around(element: Element, own: str) -> str:
+    """Return how much further in an element stands than the one around it."""
+    above = element.parent
+    around = indentation_of(above.source, above.position.start) if above is not None else None
+    return own[len(around) :] if around is not None and own.startswith(around) else ""
+
+
+def indentation_of(source: SourceText, offset: int) -> str | None:
+    """Return the blanks between the start of a line and an offset; None if more is there."""
+    before = source.text[source.text.rfind("\n", 0, offset) + 1 : offset]
+    return None if before.strip() else before
+
+
+def newline_of(source: SourceText, offset: int = 0) -> str:
+    """Return how the line ends that holds an offset, or the one before."""
+    end = source.text.find("\n", offset)
+    end = end if end >= 0 else source.text.rfind("\n")
+    return "\r\n" if end > 0 and source.text[end - 1] == "\r" else "\n"
+
+
+def _stepped(line: str, step: str) -> str:
+    text = line.lstrip(" ")
+    return step * ((len(line) - len(text)) // len(_STEP)) + text

@@ -1,0 +1,71 @@
+"""Devices by their names in running text and in the names of a model."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checker.model.known_devices import known_devices
+from tests.model.test_device_form import DEVICE
+
+KNOWN = known_devices()
+
+
+def named(text: str, types: tuple[str, ...] | None = None) -> str:
+    device = KNOWN.named_in(text, types)
+    return device.id if device is not None else ""
+
+
+@pytest.mark.parametrize(
+    ("text", "id"),
+    [
+        ("LIDAR - Velodyne VLP-16, modeled by `gpu_lidar` plugin", "velodyne_vlp16"),
+        ("1x 3D medium range lidar: Velodyne-16", "velodyne_vlp16"),
+        ("Ouster OS1-16", "ouster_os1_16"),
+        ("Ouster OS-1 64", "ouster_os1_64"),
+        ("Ouster OS1-64 Gen 2", "ouster_os1_gen2"),
+        ("D435i RGBD Camera (x3)", "realsense_d435"),
+        ("an Ouster OS0 above a Velodyne VLP-16", ""),
+        ("a lidar", ""),
+        ("VLP-1600", ""),
+        ("x" * 600 + " VLP-16", ""),
+    ],
+)
+def test_running_text(text: str, id: str) -> None:
+    assert named(text) == id
+
+
+def test_devices_of_other_types_do_not_count() -> None:
+    text = "Seek Thermal Compact, next to the D435"
+    assert named(text) == ""
+    assert named(text, ("thermal",)) == "seek_compact"
+    assert named(text, ("imu",)) == ""
+
+
+@pytest.mark.parametrize("name", ["vlp16", "front_vlp16_link", "/robot/vlp-16/points", "VLP_16"])
+def test_names_of_a_model(name: str) -> None:
+    device = KNOWN.named(name)
+    assert device is not None
+    assert device.id == "velodyne_vlp16"
+
+
+def test_a_users_device_is_asked_first() -> None:
+    own = {**DEVICE, "id": "own_vlp16", "match": r"\bVLP[- ]?16\b"}
+    device = known_devices([own]).named_in("Velodyne VLP-16")
+    assert device is not None
+    assert device.id == "own_vlp16"
+    assert not device.is_from_memory("rows")
+
+
+def test_what_is_from_memory_says_so() -> None:
+    device = KNOWN.named_in("VLP-16")
+    assert device is not None
+    assert device.is_from_memory("body")
+    assert not device.is_from_memory("rows")
+
+
+@given(st.text(max_size=700))
+def test_any_text_can_be_searched(text: str) -> None:
+    KNOWN.named_in(text)
+    KNOWN.named(text)

@@ -1,0 +1,150 @@
+"""Which sensor stands for which device: the sheet says it, else the model, else nobody knows."""
+
+from __future__ import annotations
+
+from checker.model.known_devices import known_devices
+from checker.model.sensor_devices import find_sensor_devices
+from checker.model.specification.sheet import Specification, read_specification
+from checker.source.text import SourceText
+from tests.model.robots import sdf
+
+KNOWN = known_devices()
+
+
+def sensor(name: str, type: str = "gpu_lidar", *, samples: int = 1800, rows: int = 16) -> str:
+    if type != "gpu_lidar":
+        return f'<sensor name="{name}" type="{type}"/>'
+    return f"""<sensor name="{name}" type="gpu_lidar"><lidar><scan>
+<horizontal><samples>{samples}</samples></horizontal>
+<vertical><samples>{rows}</samples></vertical></scan></lidar></sensor>"""
+
+
+def point(name: str) -> str:
+    return sensor(name, samples=1, rows=1)
+
+
+def plane(name: str) -> str:
+    return sensor(name, samples=920, rows=1)
+
+
+def sheet(*items: str, lead: str = "", below: str = "") -> Specification:
+    text = "\n".join(f"* {item}" for item in items)
+    return read_specification(
+        SourceText("specifications.md", f"# R\n\n## Sensors\n\n{lead}\n\n{text}\n\n{below}")
+    )
+
+
+def found(*sensors: str, by: Specification | None = None, number: int = 1) -> dict[str, str]:
+    """Return devices by the sensors' names; `*` in front when the model's own words say so."""
+    robot = sdf(f'<link name="body">{"".join(sensors)}</link>')
+    devices = find_sensor_devices(robot, KNOWN, by, {number})
+    return {
+        each.sensor.name.value: f"{'' if each.from_sheet else '*'}{each.device.id}"
+        for each in devices.known
+    }
+
+
+def test_the_only_item_of_a_type_means_the_only_sensor() -> None:
+    by = sheet("Velodyne VLP-16, modeled by gpu_lidar", "Xsens MTi 100 IMU, modeled by imu plugin")
+    assert found(sensor("scan"), sensor("imu", "imu"), by=by) == {
+        "scan": "velodyne_vlp16",
+        "imu": "xsens_mti",
+    }
+
+
+def test_several_sensors_count() -> None:
+    two = (sensor("left"), sensor("right"))
+    both = {"left": "velodyne_vlp16", "right": "velodyne_vlp16"}
+    assert found(*two, by=sheet("2x Velodyne VLP-16, modeled by gpu_lidar")) == both
+    assert found(*two, by=sheet("Velodyne VLP-16 lidars, modeled by gpu_lidar")) == both
+    assert found(*two, by=sheet("3x Velodyne VLP-16, modeled by gpu_lidar")) == {}
+    assert found(*two, by=sheet("A Velodyne VLP-16, modeled by gpu_lidar")) == {}
+
+
+def test_without_a_number_sensors_must_be_set_alike() -> None:
+    by = sheet("Velodyne VLP-16 lidars, modeled by gpu_lidar")
+    assert found(sensor("left"), sensor("right", samples=900), by=by) == {}
+
+
+def test_one_device_may_have_several_cameras() -> None:
+    cameras = [sensor(f"camera_{number}", "camera") for number in range(6)]
+    assert set(found(*cameras, by=sheet("1 x Ladybug LB-3 camera")).values()) == {"ladybug3"}
+
+
+def test_names_choose_among_items() -> None:
+    by = sheet("LIDAR - Velodyne VLP-16, modeled by gpu_lidar", "LIDAR - Robosense RS-Bpearl")
+    assert found(sensor("front_vlp16"), sensor("rear_bpearl", rows=32), by=by) == {
+        "front_vlp16": "velodyne_vlp16",
+        "rear_bpearl": "robosense_bpearl",
+    }
+    # What is named takes its item; the other one is left for the sensor without a name.
+    assert found(sensor("laser"), sensor("bpearl"), sensor("bpearl_2"), by=by) == {
+        "laser": "velodyne_vlp16",
+        "bpearl": "robosense_bpearl",
+        "bpearl_2": "robosense_bpearl",
+    }
+
+
+def test_words_for_places_choose_among_items() -> None:
+    by = sheet("Front lidar: Velodyne VLP-16", "Rear lidar: Ouster OS0")
+    assert found(sensor("laser_front"), sensor("laser_back", rows=64), by=by) == {
+        "laser_front": "velodyne_vlp16",
+        "laser_back": "ouster_os0",
+    }
+
+
+def test_scans_choose_among_items() -> None:
+    by = sheet(
+        "Velodyne VLP-16 3D lidar", "RPLidar S1 planar lidar", "2x Lidar Lite, modeled by gpu_ray"
+    )
+    sensors = (sensor("a"), plane("b"), point("c"), point("d"))
+    assert found(*sensors, by=by) == {
+        "a": "velodyne_vlp16",
+        "b": "rplidar_s1",
+        "c": "lidar_lite_v3",
+        "d": "lidar_lite_v3",
+    }
+
+
+def test_sensors_that_the_sheet_does_not_list_are_not_taken_for_those_it_lists() -> None:
+    by = sheet("A Velodyne VLP-16 lidar, modeled by gpu_lidar")
+    sensors = (sensor("front_laser"), point("top_laser"))
+    assert found(*sensors, by=by) == {"front_laser": "velodyne_vlp16"}
+
+
+def test_doubt_is_not_knowing() -> None:
+    two = sheet("LIDAR - Velodyne VLP-16", "LIDAR - Ouster OS0")
+    assert found(sensor("left_laser"), sensor("right_laser"), by=two) == {}
+    assert found(sensor("laser"), by=sheet("3D lidar of our own, modeled by gpu_lidar")) == {}
+    assert found(sensor("vlp16"), by=sheet("Ouster OS0 lidar, modeled by gpu_lidar")) == {}
+
+
+def test_what_is_not_modeled_does_not_count() -> None:
+    by = sheet("Velodyne VLP-16 lidar, modeled by gpu_lidar", "Ouster OS0 lidar, not modeled")
+    assert found(sensor("scan"), by=by) == {"scan": "velodyne_vlp16"}
+
+
+def test_items_of_other_configurations_do_not_count() -> None:
+    by = sheet("Velodyne VLP-16 lidar", "Sensor configuration 3 has an Ouster OS0 lidar instead")
+    assert found(sensor("scan"), by=by) == {"scan": "velodyne_vlp16"}
+    only_one = sheet("Velodyne VLP-16 lidar", lead="Sensor Config 1 uses:")
+    assert found(sensor("scan"), by=only_one) == {"scan": "velodyne_vlp16"}
+    assert found(sensor("scan"), by=only_one, number=2) == {}
+
+
+def test_without_a_sheet_names_and_comments_tell() -> None:
+    assert found(sensor("os1_lidar")) == {"os1_lidar": "*ouster_os1_64"}
+    assert found("<!-- Based on RPLidar S1 -->", sensor("scan")) == {"scan": "*rplidar_s1"}
+    assert found("<!-- RPLidar S1 -->", sensor("imu", "imu"), sensor("scan")) == {}
+
+
+def test_paragraphs_of_diversions() -> None:
+    below = (
+        "## Diversions from Physical Hardware\n\nThe lidar's range is 50 m.\n\nThe wheels slip.\n"
+    )
+    by = sheet("Velodyne VLP-16 lidar", below=below)
+    devices = find_sensor_devices(sdf(f'<link name="b">{sensor("s")}</link>'), KNOWN, by, {1})
+    (each,) = devices.known
+    assert devices.are_diverted(each.device, r"\brange\b")
+    assert not devices.are_diverted(each.device, r"\bslip\b")
+    assert not devices.are_diverted(each.device, r"\brows\b")
