@@ -35,7 +35,7 @@ def check_package(path: Path, settings: Settings | None = None) -> Report:
         UnreadableInput: There is nothing to check at the path.
         InvalidSettings: The settings name what does not exist.
     """
-    return _report([list(_check_input(_Task(path, settings=settings)))])
+    return _report([list(_check_input(Task(path, settings=settings)))])
 
 
 def check_paths(
@@ -62,7 +62,7 @@ def check_paths(
 
 
 @dataclass(frozen=True)
-class _Task:
+class Task:
     """What one process does at a time.
 
     Attributes:
@@ -100,29 +100,29 @@ class _Task:
         return str(self.path / package.name)
 
 
-def _tasks(path: Path, wishes: Mapping[str, Any], jobs: int, say: Say) -> list[_Task]:
+def _tasks(path: Path, wishes: Mapping[str, Any], jobs: int, say: Say) -> list[Task]:
     """Part a folder into its packages, so that processes can share them."""
     try:
         if jobs > 1 and path.is_dir():
             with open_input(path) as opened:
                 names = [each.name for each in opened.packages]
-            return [_Task(path, name, wishes=wishes, say=say) for name in names]
+            return [Task(path, name, wishes=wishes, say=say) for name in names]
     except (UnreadableInput, OSError):
         pass  # the task that meets it again says so
-    return [_Task(path, wishes=wishes, say=say)]
+    return [Task(path, wishes=wishes, say=say)]
 
 
 _Checked = list[PackageReport | NotOpened]
 
 
-def _check_or_say_why_not(task: _Task) -> _Checked:
+def _check_or_say_why_not(task: Task) -> _Checked:
     try:
         return list(_check_input(task))
     except UnreadableInput as error:
         return [NotOpened(str(task.path), f"{error.reason}; {error.advice}", failed=True)]
 
 
-def _check_input(task: _Task) -> Iterator[PackageReport | NotOpened]:
+def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:
     started = perf_counter()
     with open_input(task.path) as opened:
         opening = perf_counter() - started
@@ -134,7 +134,7 @@ def _check_input(task: _Task) -> Iterator[PackageReport | NotOpened]:
             yield NotOpened(str(task.path / each.name), each.reason, failed=False)
 
 
-def _recalled_or_judged(package: Package, task: _Task) -> PackageReport:
+def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     """Take the report of a package from the cache while nothing has changed, else check it."""
     started = perf_counter()
     settings, shown = task.settings_for(package), task.shown(package)

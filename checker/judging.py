@@ -11,10 +11,17 @@ from checker.discovery import all_rules
 from checker.engine import crashed, needed_parts, run_rules
 from checker.facts import facts_of
 from checker.measured import measured
+from checker.model.known_devices import known_devices
 from checker.options import check_against_rules
 from checker.package.package import Package
 from checker.profiles import profile
-from checker.report.report import Cause, InheritedPart, NotChecked, PackageReport
+from checker.report.report import (
+    Cause,
+    InheritedPart,
+    NotChecked,
+    PackageReport,
+    ReportedFinding,
+)
 from checker.saying import Say
 from checker.settings import Settings
 from checker.stages import Stages
@@ -37,17 +44,42 @@ def judged(
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.
     """
-    check_against_rules(settings, all_rules())
+    settings = settings.suiting(urdf=package.is_urdf)
     stages = Stages(lambda words: say(f"{package.name}: {words}"))
-    subject = Subject(package, cache, stages)
+    subject = Subject(package, cache, stages, known_devices(settings.devices))
+    try:
+        if not settings.select:
+            # Whatever the rules are, some ask for the meshes: these are read while those load.
+            subject.start_meshes()
+        check_against_rules(settings, all_rules())
+        return _report_or_crash(subject, shown, settings)
+    finally:
+        subject.close()
+
+
+def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[ReportedFinding, ...]:
+    """Return what the rules find in a package; for what needs no more than that.
+
+    Raises:
+        InvalidSettings: The settings name a rule or option that does not exist.
+    """
+    settings = settings.suiting(urdf=package.is_urdf)
+    subject = Subject(package, cache, devices=known_devices(settings.devices))
+    try:
+        check_against_rules(settings, all_rules())
+        with collection_put_off():
+            return run_rules(all_rules(), subject, profile(settings.profile), settings).findings
+    finally:
+        subject.close()
+
+
+def _report_or_crash(subject: Subject, shown: str, settings: Settings) -> PackageReport:
     try:
         with collection_put_off():
             return _report(subject, shown, settings)
     except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
         broken = (crashed("check", error),)
-        return PackageReport(package.name, shown, "unknown", (), broken)
-    finally:
-        subject.close()
+        return PackageReport(subject.package.name, shown, "unknown", (), broken)
 
 
 def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:

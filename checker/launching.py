@@ -12,11 +12,10 @@ from types import MappingProxyType
 from checker.model.launch.command import LaunchCommand
 from checker.model.launch.expand import expand_launch
 from checker.model.launch.graph import LaunchGraph, UnresolvedInclude
-from checker.model.launch.include import MissingLaunchFile
+from checker.model.launch.include import MissingLaunchFile, target_of
 from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.package.references import PROVIDED
 from checker.parts import NotAtHand
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
@@ -25,6 +24,9 @@ from checker.spawning import StartedXml
 
 USUAL_FILES = ("launch/description.launch", "launch/vehicle_topics.launch")
 """What a spawner ought to start; read with sample arguments when it does not."""
+
+WITHOUT_ROBOT = frozenset({"gazebo_ros"})
+"""Packages whose launch files start the simulator with a world, and nothing of a robot."""
 
 SAMPLE_ARGUMENTS: Mapping[str, str] = MappingProxyType(
     dict(zip(("name", "world_name"), map(str, EXECUTABLES_ARGUMENTS), strict=True))
@@ -36,7 +38,7 @@ def launch_graph(package: Package, started: StartedXml | NotAtHand) -> LaunchGra
     """Expand every launch file that a package's spawner starts, and those that it forgets."""
     if package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
         return NotAtHand("the package needs no launch files", applicable=False)
-    files = _LaunchFiles(package)
+    files = LaunchFiles(package)
     graphs = []
     commands: list[tuple[LaunchCommand, Span]] = []
     if isinstance(started, StartedXml):
@@ -47,13 +49,11 @@ def launch_graph(package: Package, started: StartedXml | NotAtHand) -> LaunchGra
     usual = [path for path in USUAL_FILES if posixpath.basename(path) not in named]
     graphs += _expanded(package, usual, files)
     if isinstance(started, NotAtHand):
-        return (
-            _joined(graphs, started.reason) if graphs else NotAtHand("no launch file can be read")
-        )
-    return _joined(graphs)
+        return joined(graphs, started.reason) if graphs else NotAtHand("no launch file can be read")
+    return joined(graphs)
 
 
-def _expanded(package: Package, paths: Sequence[str], files: _LaunchFiles) -> list[LaunchGraph]:
+def _expanded(package: Package, paths: Sequence[str], files: LaunchFiles) -> list[LaunchGraph]:
     """Expand launch files with the arguments that a launcher gives."""
     parts = [package.part(path) for path in paths]
     documents = [package.xml(part.path) for part in parts if isinstance(part, Found)]
@@ -64,7 +64,7 @@ def _expanded(package: Package, paths: Sequence[str], files: _LaunchFiles) -> li
     ]
 
 
-def _started(command: LaunchCommand, span: Span, files: _LaunchFiles) -> LaunchGraph:
+def _started(command: LaunchCommand, span: Span, files: LaunchFiles) -> LaunchGraph:
     """Expand the file that a command names; one that is not at hand is an unresolved include."""
     document = files.find(command.package, command.file)
     if isinstance(document, XmlDocument):
@@ -76,9 +76,17 @@ def _started(command: LaunchCommand, span: Span, files: _LaunchFiles) -> LaunchG
     return LaunchGraph(unresolved_includes=(missing,))
 
 
-def _joined(graphs: Sequence[LaunchGraph], *reasons: str) -> LaunchGraph:
-    missing = chain.from_iterable(graph.unresolved_includes for graph in graphs)
-    unread = (_reason(include) for include in missing if include.package not in PROVIDED)
+def joined(graphs: Sequence[LaunchGraph], *reasons: str) -> LaunchGraph:
+    """Return several graphs as one; `reasons` say what else is not known."""
+    missing = (
+        include
+        for graph in graphs
+        for include in graph.unresolved_includes
+        if include.package not in WITHOUT_ROBOT
+    )
+    assumed = tuple(chain.from_iterable(graph.assumed_includes for graph in graphs))
+    known = set(assumed)
+    unread = (_reason(include) for include in missing if include not in known)
     return LaunchGraph(
         nodes=tuple(chain.from_iterable(graph.nodes for graph in graphs)),
         bridges=tuple(chain.from_iterable(graph.bridges for graph in graphs)),
@@ -89,10 +97,14 @@ def _joined(graphs: Sequence[LaunchGraph], *reasons: str) -> LaunchGraph:
         unresolved_includes=tuple(
             chain.from_iterable(graph.unresolved_includes for graph in graphs)
         ),
+        assumed_includes=assumed,
+        dormant_nodes=tuple(chain.from_iterable(graph.dormant_nodes for graph in graphs)),
+        dormant_includes=tuple(chain.from_iterable(graph.dormant_includes for graph in graphs)),
         arguments=ChainMap({}, *(dict(graph.arguments) for graph in graphs)),
         undecided=tuple(chain.from_iterable(graph.undecided for graph in graphs)),
         faults=tuple(chain.from_iterable(graph.faults for graph in graphs)),
         unread=tuple(dict.fromkeys((*reasons, *unread))),
+        unknown_commands="; ".join(reasons),
     )
 
 
@@ -101,8 +113,8 @@ def _reason(include: UnresolvedInclude) -> str:
 
 
 @dataclass(frozen=True)
-class _LaunchFiles:
-    """Finds launch files in the package and its siblings."""
+class LaunchFiles:
+    """Finds launch files, and what they name, in the package and its siblings."""
 
     package: Package
 
@@ -115,6 +127,14 @@ class _LaunchFiles:
         if prefix is None:
             return f"package {package} is not at hand"
         return self._read(posixpath.join(prefix, path))
+
+    def path_of(self, text: str) -> str | None:
+        """Return the path of `$(find package)/path`; None when the package is not at hand."""
+        package, path = target_of(text.strip())
+        prefix = self._folder(package) if package else ""
+        if prefix is None or not path:
+            return None
+        return posixpath.normpath(posixpath.join(prefix, path))
 
     def find(self, package: str, file: str) -> XmlDocument | str:
         """Return the launch file of a command: roslaunch looks for it anywhere in the package."""

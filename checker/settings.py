@@ -14,6 +14,7 @@ from typing import Any
 
 from checker.errors import InvalidSettings
 from checker.finding import Severity
+from checker.model.device_form import problem_of_device, problem_of_match
 from checker.package.reading import NotReadable, read_text
 from checker.profiles import profile_names
 from checker.rule import Rule
@@ -21,6 +22,9 @@ from checker.rule import Rule
 FILE_NAME = "subt-check.toml"
 SHARED_FILE_NAME = "pyproject.toml"
 SIZE_LIMIT = 1_000_000
+URDF_PROFILE = "urdf"
+"""Judges URDF packages and files where the user names no profile."""
+DEVICES_LIMIT = 100
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,7 @@ class Settings:
 
     Attributes:
         profile: Name of the profile that judges.
+        profile_chosen: Whether the user named it; otherwise what is checked decides.
         select: Rule ids or groups to run; empty for all of the profile.
         ignore: Rule ids or groups to leave out.
         fail_on: Findings at or above this severity make the exit code 1.
@@ -38,9 +43,11 @@ class Settings:
         trial: Whether robots are driven.
         thorough: Whether they are driven again at half the time step.
         cache: Whether results are kept on disk, and taken from there.
+        devices: Sensor devices of the user's, each in the form of `devices.json`.
     """
 
     profile: str = "subt"
+    profile_chosen: bool = field(default=False, kw_only=True, compare=False)
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
     fail_on: Severity = Severity.ERROR
@@ -50,6 +57,7 @@ class Settings:
     trial: bool = True
     thorough: bool = False
     cache: bool = True
+    devices: tuple[Mapping[str, Any], ...] = ()
 
     def selects(self, rule: Rule) -> bool:
         """Whether the user wants this rule to run."""
@@ -58,7 +66,13 @@ class Settings:
 
     def overridden(self, **changes: Any) -> Settings:
         """Return settings in which those that are not None replace these."""
-        return replace(self, **{key: value for key, value in changes.items() if value is not None})
+        wanted = {key: value for key, value in changes.items() if value is not None}
+        return replace(self, profile_chosen=self.profile_chosen or "profile" in wanted, **wanted)
+
+    def suiting(self, *, urdf: bool) -> Settings:
+        """Return the settings for what is checked: a URDF robot has a profile of its own."""
+        is_default = self.profile == Settings.profile and not self.profile_chosen
+        return replace(self, profile=URDF_PROFILE) if urdf and is_default else self
 
     @property
     def description(self) -> str:
@@ -70,6 +84,7 @@ class Settings:
         changes += [f"without {', '.join(self.ignore)}"] if self.ignore else []
         changes += [f"severity of {', '.join(self.severity)}"] if self.severity else []
         changes += [f"options of {', '.join(self.options)}"] if self.options else []
+        changes += [f"{len(self.devices)} of its own devices"] if self.devices else []
         changes += [] if self.trial else ["without trial"]
         changes += ["thorough"] if self.thorough else []
         return f"{self.source.name} ({'; '.join(changes)})"
@@ -150,6 +165,7 @@ _KEYS = {
     "rules": "options",
     "trial": "trial",
     "thorough": "thorough",
+    "devices": "devices",
 }
 """Keys of the file, and the fields they set."""
 
@@ -165,7 +181,8 @@ def parse_settings(content: object, path: Path) -> Settings:
         if key not in _KEYS:
             raise InvalidSettings(path, f"unknown key {key!r}, expected one of {_list(_KEYS)}")
         values[_KEYS[key]] = _convert(key, value, path)
-    return replace(Settings(), **values, source=path)
+    chosen = "profile" in values
+    return replace(Settings(), **values, profile_chosen=chosen, source=path)
 
 
 def _convert(key: str, value: Any, path: Path) -> Any:
@@ -182,17 +199,35 @@ def _convert(key: str, value: Any, path: Path) -> Any:
             if not isinstance(value, bool):
                 raise InvalidSettings(path, f"{key} is {value!r}, expected true or false")
             return value
-        case "severity":
-            levels = [str(level) for level in Severity]
-            return {
-                rule: Severity(_one_of(f"severity.{rule}", level, levels, path))
-                for rule, level in _table(key, value, path).items()
-            }
+        case "devices":
+            return _devices(value, path)
         case _:
-            return {
-                rule: _table(f"rules.{rule}", options, path)
-                for rule, options in _table(key, value, path).items()
-            }
+            return _by_rule(key, value, path)
+
+
+def _by_rule(key: str, value: Any, path: Path) -> dict[str, Any]:
+    """Read a table of severities, or of options, by rule."""
+    if key == "severity":
+        levels = [str(level) for level in Severity]
+        return {
+            rule: Severity(_one_of(f"severity.{rule}", level, levels, path))
+            for rule, level in _table(key, value, path).items()
+        }
+    return {
+        rule: _table(f"rules.{rule}", options, path)
+        for rule, options in _table(key, value, path).items()
+    }
+
+
+def _devices(value: Any, path: Path) -> tuple[Mapping[str, Any], ...]:
+    if not isinstance(value, list) or len(value) > DEVICES_LIMIT:
+        problem = f"devices is no list of tables, or one of more than {DEVICES_LIMIT}"
+        raise InvalidSettings(path, problem)
+    for number, entry in enumerate(value, 1):
+        problem = problem_of_device(entry) or problem_of_match(entry["match"])
+        if problem:
+            raise InvalidSettings(path, f"device {number} {problem}")
+    return tuple(value)
 
 
 def _one_of(key: str, value: Any, choices: Sequence[str], path: Path) -> str:

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypeVar
 
 from checker.cache import NO_CACHE, Cache
+from checker.collection import collection_put_off
+from checker.controlling.entries import LaunchEntries, launch_entries
+from checker.controlling.system import control_system
+from checker.describing import Describing
 from checker.driving import Driving
 from checker.dynamics.mass_properties import MassProperties
 from checker.dynamics.weighing import weigh
@@ -15,14 +20,20 @@ from checker.including import ModelIncludes
 from checker.launching import launch_graph
 from checker.mesh.package_meshes import PackageMeshes, mesh_uris
 from checker.model.configuration import FirstConfiguration
+from checker.model.controllers import ControlSystem
+from checker.model.devices import SensorDevices
+from checker.model.known_devices import KnownDevices, known_devices
 from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.links import read_plugin
 from checker.model.sdf.reader import read_sdf
+from checker.model.sensing.view import SensorViews
+from checker.model.sensor_devices import find_sensor_devices
 from checker.model.specification.sheet import Specification, read_specification
-from checker.model.urdf.reader import read_urdf
-from checker.package.configuration import first_configuration
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.files import UrdfFiles
+from checker.package.configuration import configuration_number, first_configuration
 from checker.package.inheritance import SPAWNER, Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
@@ -35,6 +46,7 @@ from checker.spawner.reader import Spawner, read_spawner
 from checker.spawning import SpawnedXml, StartedXml, WorkspaceFiles, emitted_xml
 from checker.stages import Stages, TimedMeshes
 from checker.trial.robot_trial import RepeatedTrial, RobotTrial
+from checker.view.viewing import Viewing
 
 T = TypeVar("T")
 
@@ -52,11 +64,13 @@ class Subject:
         package: Its files.
         cache: Where results that take long are kept.
         stages: Told of what takes long.
+        devices: Sensor devices of which figures are known.
     """
 
     package: Package
     cache: Cache = NO_CACHE
     stages: Stages = field(default_factory=Stages)
+    devices: KnownDevices = field(default_factory=known_devices)
     _provided: dict[type, Sequence[object]] = field(default_factory=dict, repr=False)
 
     def part(self, kind: type) -> Sequence[object] | NotAtHand:
@@ -83,11 +97,19 @@ class Subject:
         twice = RepeatedTrial in kinds
         driven = twice or RobotTrial in kinds
         if (driven or MassProperties in kinds) and isinstance(self.robots, tuple):
-            meshes = self.robots[0].meshes
-            if isinstance(meshes, TimedMeshes):
-                meshes.begin()
+            _begin_meshes(self.robots[0])
         if driven and not isinstance(self.driving, NotAtHand):
             self.driving.begin(twice=twice)
+        if SensorViews in kinds and not isinstance(self.viewing, NotAtHand):
+            self.viewing.begin()
+        if UrdfFiles in kinds or UrdfDescription in kinds:
+            _ = self.describing
+
+    def start_meshes(self) -> None:
+        """Begin to read the robot's meshes; what goes wrong is met again by who asks for it."""
+        with suppress(Exception), collection_put_off():
+            if isinstance(self.robots, tuple):
+                _begin_meshes(self.robots[0])
 
     def close(self) -> None:
         """End what was begun and nobody asked for."""
@@ -95,9 +117,10 @@ class Subject:
         for robot in robots if isinstance(robots, tuple) else ():
             if isinstance(robot.meshes, TimedMeshes):
                 robot.meshes.stop()
-        driving = self.__dict__.get("driving")
-        if isinstance(driving, Driving):
-            driving.stop()
+        for name in ("driving", "describing", "viewing"):
+            each = self.__dict__.get(name)
+            if isinstance(each, Driving | Describing | Viewing):
+                each.stop()
 
     @cached_property
     def paperwork(self) -> Paperwork:
@@ -115,16 +138,39 @@ class Subject:
         path = self.package.model_path
         if isinstance(path, Missing):
             return NotAtHand(path.reason)
-        return _expanded(self.document(path.path))
+        document = self.document(path.path)
+        if isinstance(document, XmlDocument) and document.root.tag == "robot":
+            return self._urdf if self.package.only else document
+        return document
 
     @property
     def _urdf(self) -> XmlDocument | NotAtHand:
-        """The description of a URDF package: its only URDF file that says anything."""
-        files = [each for each in self.package.index.with_suffix(".urdf") if each.size]
-        if len(files) != 1:
-            number = f"{len(files)} URDF files" if files else "only xacro files"
-            return NotAtHand(f"the package holds {number}, and none is known to be the robot")
-        return _expanded(self.document(files[0].path))
+        """The first description of a URDF package, or of a file."""
+        found = self.descriptions
+        return found if isinstance(found, NotAtHand) else found[0].document
+
+    @cached_property
+    def describing(self) -> Describing:
+        """The URDF files that stand for a robot, as they are being expanded."""
+        return Describing(self.package, self.cache)
+
+    @property
+    def urdf_files(self) -> UrdfFiles | NotAtHand:
+        """What became of the URDF files."""
+        if not self.describing.applicable:
+            return NotAtHand("no URDF file stands for a robot", applicable=False)
+        return self.describing.files
+
+    @cached_property
+    def descriptions(self) -> tuple[UrdfDescription, ...] | NotAtHand:
+        """The robots that URDF files describe."""
+        files = self.urdf_files
+        if isinstance(files, NotAtHand) or files.descriptions:
+            return files if isinstance(files, NotAtHand) else files.descriptions
+        wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
+        reasons = [*wrong, *files.unread]
+        said = next(iter((*reasons, *files.set_aside)), "the URDF files hold no robot")
+        return NotAtHand(said, applicable=bool(reasons))
 
     def document(self, path: str) -> XmlDocument | NotAtHand:
         """Return a file as XML, or say why it cannot be had."""
@@ -161,7 +207,8 @@ class Subject:
         if isinstance(self.model, NotAtHand):
             return self.model
         if self.model.root.tag == "robot":
-            return (read_urdf(self.model),)
+            found = self.descriptions
+            return found if isinstance(found, NotAtHand) else tuple(each.robot for each in found)
         robots = read_sdf(self.model, ModelIncludes(self.package))
         if self.package.kind is not PackageKind.SINGLE_FILE:
             robots = robots[:1]
@@ -215,6 +262,18 @@ class Subject:
         return self.driving if isinstance(self.driving, NotAtHand) else self.driving.twice
 
     @cached_property
+    def viewing(self) -> Viewing | NotAtHand:
+        """The views of the robots' sensors."""
+        if isinstance(self.robots, NotAtHand):
+            return self.robots
+        return Viewing(self.robots, self.cache, self.stages)
+
+    @property
+    def views(self) -> tuple[SensorViews, ...] | NotAtHand:
+        """The robots and what of themselves their sensors see."""
+        return self.viewing if isinstance(self.viewing, NotAtHand) else self.viewing.views
+
+    @cached_property
     def spawner(self) -> Spawner | NotAtHand:
         """The spawner, read without running it."""
         if self.package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
@@ -241,8 +300,28 @@ class Subject:
 
     @cached_property
     def launch(self) -> LaunchGraph | NotAtHand:
-        """What the launch files start that the spawner calls for."""
+        """What the launch files start that the spawner calls for; of a URDF package, all."""
+        if self.package.kind is PackageKind.URDF_DESCRIPTION:
+            if not self.launch_entries.entries:
+                return NotAtHand("the package has no launch files", applicable=False)
+            return self.launch_entries.graph
         return launch_graph(self.package, self.started)
+
+    @cached_property
+    def launch_entries(self) -> LaunchEntries:
+        """The launch files that a URDF package can be started with."""
+        if self.package.kind is not PackageKind.URDF_DESCRIPTION:
+            return LaunchEntries()
+        return launch_entries(self.package)
+
+    @cached_property
+    def control(self) -> ControlSystem | NotAtHand:
+        """What controls the joints of a URDF package."""
+        if self.package.kind is not PackageKind.URDF_DESCRIPTION and (
+            not self.package.only or not self.describing.applicable
+        ):
+            return NotAtHand("the package is no URDF package", applicable=False)
+        return control_system(self.package, self.launch_entries, self.robots, self.descriptions)
 
     @cached_property
     def specification(self) -> Specification | NotAtHand:
@@ -257,17 +336,24 @@ class Subject:
             return NotAtHand(f"{part.path} {source.reason}")
         return read_specification(source)
 
+    @cached_property
+    def sensor_devices(self) -> SensorDevices | NotAtHand:
+        """The devices that sensors stand for; without the sheet, as far as the model tells."""
+        if isinstance(self.robots, NotAtHand):
+            return self.robots
+        sheet = None if isinstance(self.specification, NotAtHand) else self.specification
+        path = self.package.model_path
+        holders = (self.package, *(() if isinstance(path, Missing) else (path.package,)))
+        numbers = {configuration_number(package) for package in holders}
+        found = [find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots]
+        known = tuple(each for devices in found for each in devices.known)
+        return SensorDevices(known, found[0].diversions)
 
-def _expanded(document: XmlDocument | NotAtHand) -> XmlDocument | NotAtHand:
-    """Hold back a xacro file: its numbers are expressions until xacro has expanded it."""
-    if isinstance(document, XmlDocument) and document.tree.xpath(
-        "boolean(//xacro:*)", namespaces=_XACRO
-    ):
-        return NotAtHand(f"{document.source.file} is a xacro file, which is not expanded")
-    return document
 
+def _begin_meshes(robot: Robot) -> None:
+    if isinstance(robot.meshes, TimedMeshes):
+        robot.meshes.begin()
 
-_XACRO = {"xacro": "http://www.ros.org/wiki/xacro"}
 
 _Provider = Callable[[Subject], object]
 
@@ -284,5 +370,11 @@ _PROVIDERS: dict[type, _Provider] = {
     SpawnedXml: lambda subject: subject.spawned,
     StartedXml: lambda subject: subject.started,
     LaunchGraph: lambda subject: subject.launch,
+    ControlSystem: lambda subject: subject.control,
     Specification: lambda subject: subject.specification,
+    UrdfDescription: lambda subject: subject.descriptions,
+    UrdfFiles: lambda subject: subject.urdf_files,
+    KnownDevices: lambda subject: subject.devices,
+    SensorDevices: lambda subject: subject.sensor_devices,
+    SensorViews: lambda subject: subject.views,
 }

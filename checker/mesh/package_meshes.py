@@ -69,6 +69,14 @@ class PackageMeshes:
         """Return what the file behind a URI holds; the first call reads all files."""
         return self._by_address.get(_address(uri), _UNKNOWN)
 
+    def content(self, uri: Located[str]) -> tuple[MeshFile, str] | MeshFault:
+        """Return the file behind a URI and a hash of what is in it, without reading the mesh."""
+        place = self._reading.places.get(_address(uri), _UNKNOWN)
+        if isinstance(place, MeshFault):
+            return place
+        key = self._content_keys[place.path]
+        return key if isinstance(key, MeshFault) else (place, key)
+
     def begin(self) -> None:
         """Begin to read what is not known yet; `of` waits for it."""
         _ = self._reading
@@ -91,6 +99,10 @@ class PackageMeshes:
             at: files[place.path] if isinstance(place, MeshFile) else place
             for at, place in reading.places.items()
         }
+
+    @cached_property
+    def _content_keys(self) -> dict[str, str | MeshFault]:
+        return {file.path: key for file, key in self._reading.keys}
 
     @cached_property
     def _reading(self) -> _Reading:

@@ -25,17 +25,28 @@ def read_mesh(data: bytes, path: str) -> Mesh | MeshFault:
         path: Its name; the suffix decides on the format, as in Gazebo.
     """
     suffix = path.rpartition(".")[2].lower()
-    reader = _READERS.get(suffix)
-    if reader is None:
-        return MeshFault(MeshTrouble.UNSUPPORTED, f"is of a format that is not read: .{suffix}")
-    if not data.strip():
-        return MeshFault(MeshTrouble.UNREADABLE, "is empty")
-    if data.startswith(_POINTER):
-        return MeshFault(MeshTrouble.UNREADABLE, "is a pointer of Git LFS, not the mesh")
     try:
-        return measure(_surface(reader, data), path, suffix)
+        return measure(read_surface(data, path), path, suffix)
     except NoSurface as none:
         return MeshFault(none.trouble, none.reason)
+
+
+def read_surface(data: bytes, path: str) -> Surface:
+    """Return the triangles of a file.
+
+    Raises:
+        NoSurface: It cannot be read.
+    """
+    suffix = path.rpartition(".")[2].lower()
+    reader = _READERS.get(suffix)
+    if reader is None:
+        reason = f"is of a format that is not read: .{suffix}"
+        raise NoSurface(reason, MeshTrouble.UNSUPPORTED)
+    if not data.strip():
+        raise NoSurface("is empty")
+    if data.startswith(_POINTER):
+        raise NoSurface("is a pointer of Git LFS, not the mesh")
+    return _surface(reader, data)
 
 
 def _surface(reader: _Reader, data: bytes) -> Surface:

@@ -53,5 +53,5 @@ def _finding(said: Mapping[str, Any]) -> ReportedFinding:
 def _fix(said: Mapping[str, Any] | None) -> Fix | None:
     if said is None:
         return None
-    edits = (Edit(Place(**each["place"]), each["replacement"]) for each in said["edits"])
+    edits = (Edit(**{**each, "place": Place(**each["place"])}) for each in said["edits"])
     return Fix(Safety(said["safety"]), tuple(edits))

@@ -56,7 +56,7 @@ def _package(
     palette: Palette,
 ) -> str:
     own, elsewhere = _split_by_owner(package, said_by_owner)
-    kind = package.kind.replace("_", " ")
+    kind = package.kind.replace("_", " ") + _profile(package)
     lines = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
     for finding in own:
         lines += [*finding_text(finding, package, palette, finding.rule in explained), ""]
@@ -71,6 +71,11 @@ def _package(
     lines += _facts(package.facts)
     lines.append(_verdict(package, palette))
     return "\n".join(lines) + "\n"
+
+
+def _profile(package: PackageReport) -> str:
+    """Name the profile where it is not the usual one: what is checked may have chosen it."""
+    return "" if package.profile == PackageReport.profile else f", profile {package.profile}"
 
 
 def _split_by_owner(

@@ -1,0 +1,1 @@
+"""What a robot's own visuals hide from its cameras and lidars."""

@@ -1,0 +1,66 @@
+"""What URDF says beside links and joints, and which profile judges it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from checker.cache import NO_CACHE
+from checker.judging import judged
+from checker.model.urdf.lumping import Lumping
+from checker.package.opening import open_input
+from checker.saying import say_nothing
+from checker.settings import Settings
+from tests.urdf.conftest import NAME, Describe, robot
+
+FILE = f"{NAME}/urdf/acme.urdf"
+BODY = """
+<link name="base"/><link name="arm"/><link name="hand"/><link name="tool"/>
+<joint name="shoulder" type="revolute"><parent link="base"/><child link="arm"/></joint>
+<joint name="wrist" type="fixed"><parent link="arm"/><child link="hand"/></joint>
+<joint name="grip" type="fixed"><parent link="hand"/><child link="tool"/></joint>
+<transmission name="t">
+  <type>transmission_interface/SimpleTransmission</type>
+  <joint name="shoulder"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
+  <actuator name="m"/>
+</transmission>
+<gazebo reference="grip"><preserveFixedJoint>true</preserveFixedJoint></gazebo>
+<gazebo><static>true</static></gazebo>
+"""
+
+
+def test_transmissions_and_gazebo_tags(describe: Describe) -> None:
+    (description,) = describe({FILE: robot(BODY)}).describing.files.descriptions
+    (transmission,) = description.transmissions
+    assert transmission.type.value == "transmission_interface/SimpleTransmission"
+    assert [end.name.value for end in transmission.joints] == ["shoulder"]
+    assert [each.value for each in transmission.joints[0].interfaces] == ["EffortJointInterface"]
+    assert transmission.actuators[0].interfaces == ()
+    assert [tag.reference.value for tag in description.gazebo] == ["grip", ""]
+    assert not description.for_rviz
+
+
+def test_fixed_joints_merge_links_unless_they_are_kept(describe: Describe) -> None:
+    (description,) = describe({FILE: robot(BODY)}).describing.files.descriptions
+    groups = Lumping(description).groups
+    names = {name: [link.name.value for link in links] for name, links in groups.items()}
+    assert names == {"base": ["base"], "arm": ["arm", "hand"], "tool": ["tool"]}
+
+
+def test_a_loop_of_fixed_joints_ends(describe: Describe) -> None:
+    back = '<joint name="back" type="fixed"><parent link="hand"/><child link="arm"/></joint>'
+    (description,) = describe({FILE: robot(BODY + back)}).describing.files.descriptions
+    assert sum(len(links) for links in Lumping(description).groups.values()) == 4
+
+
+def profile_of(path: Path, settings: Settings) -> str:
+    with open_input(path) as opened:
+        return judged(opened.packages[0], "", settings, NO_CACHE, say_nothing).profile
+
+
+def test_a_urdf_robot_gets_its_own_profile(describe: Describe, tmp_path: Path) -> None:
+    describe({FILE: robot(BODY)})
+    quick = Settings(select=("URD003",), trial=False)
+    for path in (tmp_path / NAME, tmp_path / FILE):
+        assert profile_of(path, quick) == "urdf"
+        assert profile_of(path, quick.overridden(profile="sdf")) == "sdf"
+        assert profile_of(path, quick.overridden(profile="subt")) == "subt"

@@ -1,0 +1,168 @@
+"""Xacro files become robots, whatever they include and whoever gives their arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from checker.cache import Cache
+from checker.model.urdf.files import UrdfFiles, XacroFaultKind
+from checker.parts import NotAtHand
+from checker.subject import Subject
+from tests.urdf.conftest import NAME, Describe, robot
+
+FILE = f"{NAME}/urdf/acme.urdf.xacro"
+BASE = '<link name="base"/>'
+
+
+def files_of(subject: Subject) -> UrdfFiles:
+    files = subject.urdf_files
+    assert not isinstance(files, NotAtHand)
+    return files
+
+
+def links(subject: Subject) -> list[str]:
+    return [
+        link.name.value
+        for description in files_of(subject).descriptions
+        for link in description.robot.links
+    ]
+
+
+def launch(words: str) -> str:
+    return f'<launch><param name="robot_description" command="{words}"/></launch>'
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ('<xacro:property name="n" value="arm"/><link name="${n}"/>', ["arm"]),
+        ('<xacro:arg name="n" default="arm"/><link name="$(arg n)"/>', ["arm"]),
+        ('<link name="$(eval 1 + 2)"/>', ["3"]),
+        ('<link name="$(optenv ACME_MISSING laser)"/>', ["laser"]),
+        ('<link name="a${2 * 3}"/><xacro:if value="${1 > 2}"><link name="b"/></xacro:if>', ["a6"]),
+        (
+            '<xacro:macro name="m" params="s *o"><link name="${s}"><xacro:insert_block name="o"/>'
+            '</link></xacro:macro><xacro:m s="l"><visual/></xacro:m><xacro:m s="r"><visual/>'
+            "</xacro:m>",
+            ["l", "r"],
+        ),
+    ],
+)
+def test_expressions_and_macros(describe: Describe, body: str, expected: list[str]) -> None:
+    assert links(describe({FILE: robot(body)})) == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "others"),
+    [
+        ("wheel.xacro", {f"{NAME}/urdf/wheel.xacro": ""}),
+        ("../parts/wheel.xacro", {f"{NAME}/parts/wheel.xacro": ""}),
+        (f"$(find {NAME})/parts/wheel.xacro", {f"{NAME}/parts/wheel.xacro": ""}),
+        ("$(find acme_parts)/wheel.xacro", {"acme_parts/wheel.xacro": ""}),
+        ("${'whe' + 'el'}.xacro", {f"{NAME}/urdf/wheel.xacro": ""}),
+        ("$(find acme_${'parts'})/wheel.xacro", {"acme_parts/wheel.xacro": ""}),
+        ("whe*.xacro", {f"{NAME}/urdf/wheel.xacro": ""}),
+    ],
+)
+def test_includes_are_found(describe: Describe, name: str, others: Mapping[str, str]) -> None:
+    files = dict.fromkeys(others, robot('<link name="wheel"/>').replace(' name="acme"', ""))
+    include = f'<xacro:include filename="{name}"/>{BASE}'
+    assert links(describe({FILE: robot(include), **files})) == ["wheel", "base"]
+
+
+def test_yaml_is_read_beside_the_file(describe: Describe) -> None:
+    body = (
+        """<xacro:property name="y" value="${load_yaml('links.yaml')}"/><link name="${y['a']}"/>"""
+    )
+    yaml = {f"{NAME}/urdf/links.yaml": "a: mast\n"}
+    assert links(describe({FILE: robot(body), **yaml})) == ["mast"]
+
+
+def test_arguments_come_from_the_launch_file(describe: Describe) -> None:
+    command = f"$(find xacro)/xacro $(find {NAME})/urdf/acme.urdf.xacro laser:=true"
+    body = f'{BASE}<xacro:if value="$(arg laser)"><link name="laser"/></xacro:if>'
+    subject = describe({FILE: robot(body), f"{NAME}/launch/show.launch": launch(command)})
+    assert links(subject) == ["base", "laser"]
+
+
+def test_the_file_that_a_launch_file_loads_counts(describe: Describe) -> None:
+    other = f"{NAME}/urdf/other.urdf"
+    subject = describe(
+        {
+            FILE: robot(BASE),
+            other: '<robot name="o"><link name="other"/></robot>',
+            f"{NAME}/launch/show.launch": launch(f"cat $(find {NAME})/urdf/other.urdf"),
+        }
+    )
+    assert links(subject) == ["other"]
+
+
+def test_several_robots_are_each_one(describe: Describe) -> None:
+    second = f"{NAME}/urdf/second.xacro"
+    subject = describe({FILE: robot(BASE), second: robot('<link name="other"/>')})
+    assert sorted(links(subject)) == ["base", "other"]
+
+
+def test_macros_alone_are_no_robot_and_no_fault(describe: Describe) -> None:
+    macro = '<xacro:macro name="m" params="n"><link name="${n}"/></xacro:macro>'
+    subject = describe({FILE: robot(macro)})
+    assert files_of(subject) == files_of(subject)
+    assert not files_of(subject).faults
+    robots = subject.robots
+    assert isinstance(robots, NotAtHand)
+    assert not robots.applicable
+
+
+def test_an_argument_that_nobody_gives_is_not_known(describe: Describe) -> None:
+    files = files_of(describe({FILE: robot('<link name="$(arg side)"/>')}))
+    assert not files.faults
+    assert "arg side" in files.unread[0]
+
+
+def test_a_package_that_is_not_at_hand_is_no_fault(describe: Describe) -> None:
+    body = f'<xacro:include filename="$(find elsewhere)/a.xacro"/>{BASE}'
+    files = files_of(describe({FILE: robot(body)}))
+    assert not files.faults
+    assert "elsewhere is not at hand" in files.unread[0]
+
+
+@pytest.mark.parametrize("only", ["urdf/acme.urdf.xacro"])
+def test_a_lone_file_finds_what_it_includes(describe: Describe, only: str) -> None:
+    body = f'<xacro:include filename="$(find acme_parts)/wheel.xacro"/>{BASE}'
+    parts = {"acme_parts/wheel.xacro": robot('<link name="wheel"/>')}
+    subject = describe({FILE: robot(body), **parts}, only)
+    assert subject.package.is_urdf
+    assert links(subject) == ["wheel", "base"]
+
+
+def test_meshes_of_a_found_package_are_those_of_the_package(describe: Describe) -> None:
+    mesh = f'<mesh filename="file://$(find {NAME})/meshes/a.stl"/>'
+    body = f'<link name="a"><visual><geometry>{mesh}</geometry></visual></link>'
+    subject = describe({FILE: robot(body)})
+    (uri,) = files_of(subject).descriptions[0].robot.file_uris
+    assert uri.value == f"package://{NAME}/meshes/a.stl"
+
+
+def test_what_was_expanded_is_kept(
+    describe: Describe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = describe({FILE: robot('<link name="${1 + 1}"/>')}).package
+    cache = Cache(tmp_path / "cache")
+    assert links(Subject(package, cache)) == ["2"]
+    monkeypatch.setattr("checker.xacro.expansion.Child", None)
+    assert links(Subject(package, cache)) == ["2"]
+
+
+def test_a_plain_urdf_needs_no_process(describe: Describe, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("checker.xacro.expansion.Child", None)
+    plain = f'<robot name="acme">{BASE}</robot>'
+    assert links(describe({f"{NAME}/urdf/acme.urdf": plain})) == ["base"]
+
+
+def test_an_empty_file_that_is_loaded_is_a_fault(describe: Describe) -> None:
+    command = f"$(find xacro)/xacro $(find {NAME})/urdf/acme.urdf.xacro"
+    files = files_of(describe({FILE: "", f"{NAME}/launch/show.launch": launch(command)}))
+    assert [fault.kind for fault in files.faults] == [XacroFaultKind.EMPTY]

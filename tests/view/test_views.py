@@ -1,0 +1,144 @@
+"""The views of a robot's sensors: visuals of all kinds, files, the cache, and what goes wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from checker.cache import NO_CACHE, Cache
+from checker.model.sensing.view import SensorViews
+from checker.package.opening import open_input
+from checker.subject import Subject
+from checker.view import viewing
+from tests.examples import write_example
+from tests.mesh.files import binary_stl, box
+
+PLATE = binary_stl(box(0.02, 1.0, 1.0))
+CAMERA = """
+<sensor name="front" type="camera">
+  <camera><horizontal_fov>1</horizontal_fov><clip><near>0.01</near></clip></camera>
+</sensor>
+"""
+
+
+def mesh(uri: str, pose: str = "0.05 0 0 0 0 0", more: str = "") -> str:
+    return (
+        f'<visual name="{uri}"><pose>{pose}</pose>'
+        f"<geometry><mesh><uri>{uri}</uri>{more}</mesh></geometry></visual>"
+    )
+
+
+def views(
+    visuals: str, folder: Path, files: Mapping[str, str | bytes] = {}, cache: Cache = NO_CACHE
+) -> SensorViews:
+    changes = {"@fragment": f'<link name="a">{visuals}{CAMERA}</link>', **files}
+    with open_input(write_example(changes, folder)) as opened:
+        subject = Subject(opened.packages[0], cache)
+        try:
+            found = subject.views
+            assert isinstance(found, tuple)
+            return found[0]
+        finally:
+            subject.close()
+
+
+def solid(text: str, pose: str = "0.05 0 0 0 0 0") -> str:
+    return f'<visual name="v"><pose>{pose}</pose><geometry>{text}</geometry></visual>'
+
+
+@pytest.mark.parametrize(
+    "visual",
+    [
+        solid("<box><size>0.02 1 1</size></box>"),
+        solid("<box><size>1 0.02 1</size></box>", "0.05 0 0 0 0 1.5708"),
+        solid("<cylinder><radius>1</radius><length>0.02</length></cylinder>", "0.05 0 0 0 1.57 0"),
+        solid("<sphere><radius>1</radius></sphere>", "1.05 0 0 0 0 0"),
+    ],
+)
+def test_a_wall_before_the_lens_fills_the_view(visual: str, tmp_path: Path) -> None:
+    (view,) = views(visual, tmp_path).views
+    assert view.hidden == pytest.approx(1.0, abs=1e-3)
+    assert view.hidden_within(0.03) == 0.0
+    assert view.hidden_within(1.0) == pytest.approx(1.0, abs=1e-3)
+    assert view.cut == 0.0
+    assert view.by is not None
+
+
+def test_half_a_wall_fills_half_the_view(tmp_path: Path) -> None:
+    half = solid("<box><size>0.02 2 2</size></box>", "0.05 1 0 0 0 0")
+    (view,) = views(half, tmp_path).views
+    assert view.hidden == pytest.approx(0.5, abs=0.01)
+
+
+def test_what_is_nearer_than_the_near_clip_is_cut(tmp_path: Path) -> None:
+    (view,) = views(solid("<box><size>0.01 1 1</size></box>", "0.01 0 0 0 0 0"), tmp_path).views
+    assert view.hidden == 0.0
+    assert view.cut == pytest.approx(1.0, abs=1e-3)
+
+
+def test_a_mesh_is_as_good_as_a_box_with_scale_and_pose(tmp_path: Path) -> None:
+    turned = mesh("meshes/a.stl", "0.05 0 0 3.1416 0 0", "<scale>0.5 2 2</scale>")
+    (view,) = views(turned, tmp_path, {"meshes/a.stl": PLATE}).views
+    assert view.hidden == pytest.approx(1.0, abs=1e-3)
+    assert view.filled[0][1] == pytest.approx(0.045, rel=0.3)
+
+
+def test_without_sensors_or_visuals_nothing_is_asked(tmp_path: Path) -> None:
+    found = views("", tmp_path)
+    assert [view.hidden for view in found.views] == [0.0]
+    assert not found.unseen
+
+
+def test_an_answer_is_kept_and_holds_while_nothing_changes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cache, files = Cache(tmp_path / "cache"), {"meshes/a.stl": PLATE}
+    one = views(mesh("meshes/a.stl"), tmp_path / "one", files, cache)
+    monkeypatch.setattr(viewing, "Child", None)
+    same = views(mesh("meshes/a.stl"), tmp_path / "two", files, cache)
+    assert [view.filled for view in same.views] == [view.filled for view in one.views]
+    with pytest.raises(TypeError):
+        views(mesh("meshes/a.stl", "0.1 0 0 0 0 0"), tmp_path / "three", files, cache)
+
+
+@pytest.mark.parametrize(
+    ("visual", "content", "reason"),
+    [
+        (mesh("meshes/b.stl"), PLATE, "meshes/b.stl does not exist"),
+        (mesh("meshes/a.stl"), PLATE[:-200], "meshes/a.stl is cut off"),
+        (mesh("meshes/a.stl"), b"", "meshes/a.stl is empty"),
+        (
+            mesh("meshes/a.stl", more="<submesh><name>lid</name></submesh>"),
+            PLATE,
+            "meshes/a.stl is used in part only (<submesh>)",
+        ),
+        (solid("<polyline/>"), PLATE, "a visual of kind polyline is not looked at"),
+    ],
+)
+def test_what_cannot_be_looked_at_is_said(
+    visual: str, content: bytes, reason: str, tmp_path: Path
+) -> None:
+    found = views(visual, tmp_path, {"meshes/a.stl": content})
+    assert found.unseen[0].startswith(reason)
+    assert [view.hidden for view in found.views] == [0.0]
+
+
+@pytest.mark.parametrize(
+    "size", ["0.02 inf 1", "0.02 -1 1", "nan 1 1", "0 0 0", "1e300 1e300 1e300", "word", "1"]
+)
+@pytest.mark.parametrize("pose", ["0.05 0 0 0 0 0", "1e300 0 0 0 0 0"])
+def test_lengths_of_any_kind_do_no_harm(size: str, pose: str, tmp_path: Path) -> None:
+    found = views(solid(f"<box><size>{size}</size></box>", pose), tmp_path)
+    assert len(found.views) == 1
+
+
+def test_a_child_that_fails_leaves_a_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(viewing, "SECONDS_FOR_ALL", 1)
+    monkeypatch.setattr(viewing, "MEMORY", 1_000_000)
+    found = views(mesh("meshes/a.stl"), tmp_path, {"meshes/a.stl": PLATE})
+    assert not found.views
+    assert found.unseen[0].startswith("what the sensors see was not worked out")
