@@ -13,13 +13,15 @@ sys.dont_write_bytecode = True  # samples/ holds packages, and no folder beside 
 
 from asset_collada import collada
 from asset_pictures import HEIGHT, VIEWS, WIDTH, draw, faces_of, png
-from asset_solids import Colour, Meshes, box, extrude, plate, track, wheel
+from asset_solids import Colour, Meshes, box, cylinder, extrude, plate, track, wheel
 
 HERE = Path(__file__).resolve().parent
 HUSKY = HERE / "husky_migration_sensor_config_1"
 CRAWLER = HERE / "subtcheck_crawler_sensor_config_1"
 BUGGY = HERE / "subtcheck_buggy_sensor_config_1"
 QUADRO = HERE / "subtcheck_quadro_sensor_config_1"
+OUSTER = HERE / "ouster_description"
+OLD_HUSKY = HERE / "husky_description"
 BROKEN = HERE / "broken_rover_sensor_config_1"
 
 BLACK: Colour = (0.08, 0.08, 0.09)
@@ -97,6 +99,10 @@ def write_meshes() -> None:
     for sample, meshes in good_samples().items():
         for name, (solid, colour) in meshes.items():
             (sample / "meshes" / f"{name}.dae").write_text(collada(name, solid, colour), "utf-8")
+    for name, (solid, colour) in husky_meshes().items():
+        (OLD_HUSKY / "meshes" / f"{name}.dae").write_text(collada(name, solid, colour), "utf-8")
+    lidar = cylinder(0.042, 0.073, 24)
+    (OUSTER / "meshes" / "os1_64.dae").write_text(collada("os1_64", lidar, GREY), "utf-8")
     folder = BROKEN / "meshes"
     body = box((-0.25, 0.25), (-0.15, 0.15), (-0.05, 0.05))
     tyre = wheel(0.1, 0.06, 16)
@@ -121,6 +127,7 @@ def main() -> None:
     """Writes all assets and says how much they weigh."""
     samples = (*good_samples(), BROKEN)
     folders = [sample / part for sample in samples for part in ("meshes", "thumbnails")]
+    folders += [OUSTER / "meshes", OLD_HUSKY / "meshes"]
     for folder in (*folders, BROKEN / "materials" / "textures"):
         folder.mkdir(parents=True, exist_ok=True)
     write_meshes()

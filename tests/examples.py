@@ -5,6 +5,9 @@ package: `None` removes a file, bytes are written as they are, `../other/…` li
 `@fragment` goes into model.sdf, `@name` names the package, `@links` maps paths to the targets of
 symbolic links, and `@reported` lists what must be reported where no marker can stand. The marker
 `^ SEN005` stands on the line that must be reported.
+
+`@urdf` makes it a URDF package: an arm of one joint, its controller and its launch files. A text is
+put into the robot in place of the arm's transmission and plugin; True leaves these as they are.
 """
 
 from __future__ import annotations
@@ -91,6 +94,62 @@ install(FILES model.sdf model.config DESTINATION ${{CATKIN_PACKAGE_SHARE_DESTINA
 }
 
 
+URDF_NAME = "acme_arm_description"
+
+_ARM = """<robot name="arm">
+  <link name="base_link"/>
+  <link name="upper_arm"/>
+  <joint name="shoulder" type="revolute">
+    <parent link="base_link"/>
+    <child link="upper_arm"/>
+    <axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="10" velocity="1"/>
+  </joint>
+@
+</robot>
+"""
+_ARM_CONTROL = """  <transmission name="shoulder_transmission">
+    <type>transmission_interface/SimpleTransmission</type>
+    <joint name="shoulder">
+      <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+    </joint>
+    <actuator name="shoulder_motor"/>
+  </transmission>
+  <gazebo>
+    <plugin name="control" filename="libgazebo_ros_control.so">
+      <robotNamespace>/arm</robotNamespace>
+    </plugin>
+  </gazebo>"""
+
+URDF_MINIMAL: Mapping[str, str] = {
+    "package.xml": MINIMAL["package.xml"].replace(NAME, URDF_NAME),
+    "config/control.yaml": """arm:
+  state_controller:
+    type: joint_state_controller/JointStateController
+    publish_rate: 50
+  shoulder_controller:
+    type: effort_controllers/JointPositionController
+    joint: shoulder
+    pid: {p: 10.0, i: 0.1, d: 0.0}
+""",
+    "launch/control.launch": f"""<launch>
+  <rosparam file="$(find {URDF_NAME})/config/control.yaml" command="load"/>
+  <node name="spawner" pkg="controller_manager" type="spawner" ns="/arm"
+        args="state_controller shoulder_controller"/>
+  <node name="states" pkg="robot_state_publisher" type="robot_state_publisher">
+    <remap from="/joint_states" to="/arm/joint_states"/>
+  </node>
+</launch>
+""",
+    "launch/spawn.launch": f"""<launch>
+  <param name="robot_description" textfile="$(find {URDF_NAME})/urdf/arm.urdf"/>
+  <node name="spawn" pkg="gazebo_ros" type="spawn_model"
+        args="-urdf -param robot_description -model arm"/>
+</launch>
+""",
+}
+
+
 def model_with(fragment: str) -> str:
     """Return a model.sdf that holds a fragment where its first element belongs."""
     first = re.search(r"<([A-Za-z_][\w:.-]*)", fragment)
@@ -105,9 +164,13 @@ def model_with(fragment: str) -> str:
 def write_example(example: str | Mapping[str, Any], workspace: Path) -> Path:
     """Write the package of an example below a folder and return its own folder."""
     changes = {"@fragment": example} if isinstance(example, str) else dict(example)
-    package = workspace / changes.pop("@name", NAME)
+    urdf = changes.pop("@urdf", None)
+    package = workspace / changes.pop("@name", NAME if urdf is None else URDF_NAME)
     links: Mapping[str, str] = changes.pop("@links", {})
     files: dict[str, str | bytes | None] = {**MINIMAL, "model.sdf": model_with("")}
+    if urdf is not None:
+        inside = _ARM_CONTROL if urdf is True else urdf
+        files = {**URDF_MINIMAL, "urdf/arm.urdf": _ARM.replace("@", inside)}
     for path, text in changes.items():
         if path == "@fragment":
             files["model.sdf"] = model_with(text)

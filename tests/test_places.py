@@ -29,6 +29,14 @@ ABOUT_SOMETHING_MISSING = {
     "SPW010": "the height is worked out from the marked pose",
     "SPW005": "the marked pose is what does not use the coordinate",
     "DRV010": "the thrust is worked out from the marked speed",
+    "CTL004": "the namespaces belong to the node whose controllers are marked",
+    "DOC001": "a missing section has no place in the sheet",
+    "DOC004": "the sensor is missing in the marked section",
+    "DOC008": "the link is missing in the marked item",
+    "BAT005": "the minutes are worked out from the marked time",
+    "SEN021": "the marked value says that the sensor is visualized",
+    "URD008": "interfaces may be written with the package in front",
+    "INE009": "the centre of mass is worked out; the marked place says where it is",
     "INE005": "the marked <inertial> is where the centre of mass stands, or could",
     "TRI003": "the whole robot moves; the plugin that moves it is marked",
     "TRI006": "the whole robot moves; the plugin that moves it is marked",
@@ -126,15 +134,21 @@ def names(message: str, text: str) -> bool:
 
     Either holds the other's words: the message has the marked value, the tag or the name of the
     marked element (of a class its last word), a number of the marked words; or the text has a
-    value that the message quotes.
+    value that the message quotes. What xacro and roslaunch work out cannot be compared.
     """
     plain = " ".join(text.replace("`", "").split())
     if plain and re.search(rf"(?<!\w){re.escape(plain)}(?!\w)", message):
         return True
+    if "$(" in plain or "${" in plain:  # the message has what is worked out of it
+        return True
     tag = re.match(r"<([\w:.-]+)", text)
     if tag:
         quoted = re.findall(r"=\s*[\"']([^\"']+)[\"']", text)
-        words = [tag[1], *quoted, *(value.rsplit("::", 1)[-1] for value in quoted)]
+        words = [
+            tag[1].rpartition(":")[2],
+            *quoted,
+            *(value.rsplit("::", 1)[-1] for value in quoted),
+        ]
         return any(word in message for word in words)
     values = re.findall(r"'([^']+)'|(\d+(?:\.\d+)?)", message)
     return any(value and value in plain for pair in values for value in pair)

@@ -31,7 +31,8 @@ def test_example(rule: Rule, kind: str, example: Any, tmp_path: Path) -> None:
     package = write_example(example, tmp_path)
     with open_input(package) as opened:
         subject = Subject(opened.packages[0], Cache(cache_folder()))
-        outcome = run_rules([rule], subject, profile("subt"), Settings(thorough=True))
+        judge = profile("subt") if profile("subt").includes(rule) else profile("urdf")
+        outcome = run_rules([rule], subject, judge, Settings(thorough=True))
     looked_away = [n for n in outcome.not_checked if n.cause is not Cause.NOT_APPLICABLE]
     assert not looked_away
     reported = {

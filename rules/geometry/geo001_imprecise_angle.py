@@ -11,13 +11,16 @@ high precision numbers".
 
 import math
 from collections.abc import Iterator
+from decimal import Decimal
 
-from checker.model.components import Pose
+from checker.model.components import Link, Pose, Sensor, Visual
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, replace_text, rule
+from checker.rule import Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 
 HALF_PI = math.pi / 2
+EXACT_HALF_PI = Decimal("1.57079632679489661923")
+"""To more digits than a float has, so that a multiple of it is right in every digit written."""
 
 
 @rule("GEO001", "imprecise-angle", Severity.INFO)
@@ -27,49 +30,46 @@ def check(
     tolerance: float = 1e-3,
     harmless: float = 1e-6,
     typos: tuple[str, ...] = ("3.14", "3.1459"),
+    digits: int = 16,
 ) -> Findings:
     """Report angles near a multiple of π/2: an error in a wheel's collision, else information."""
     wheels = {link.scoped_name for link in robot.wheels}
+    for pose, link in _poses(robot):
+        for angle, quarters, off in _near(pose, tolerance, typos):
+            grave = link in wheels and off > harmless
+            meant = {1: "π/2", 2: "π"}.get(abs(quarters), f"{abs(quarters)}·π/2")
+            where = "angle of a wheel's collision" if grave else "angle"
+            yield finding(
+                angle,
+                f"{where} is {angle.span.text}, "
+                f"off {'-' if quarters < 0 else ''}{meant} by {off:.1e} rad",
+                severity=Severity.ERROR if grave else Severity.INFO,
+                key="wheel" if grave else "elsewhere",
+                fix=replace_text(angle, f"{quarters * EXACT_HALF_PI:.{digits}f}"),
+            )
+
+
+def _poses(robot: Robot) -> Iterator[tuple[Pose, str]]:
+    """Yield every pose, those of collisions with the name of their link."""
     for link in robot.links:
-        for shape in link.collisions:
-            on_wheel = link.scoped_name in wheels
-            yield from _angles(shape.pose, tolerance, harmless, typos, on_wheel)
-        others = [link.pose, *(visual.pose for visual in link.visuals)]
-        others += [sensor.pose for sensor in link.sensors]
+        yield from ((shape.pose, link.scoped_name) for shape in link.collisions)
+        parts: tuple[Link | Visual | Sensor, ...] = (link, *link.visuals, *link.sensors)
+        yield from ((part.pose, "") for part in parts)
         if link.inertial is not None:
-            others.append(link.inertial.pose)
-        for pose in others:
-            yield from _angles(pose, tolerance, harmless, typos, False)
-    for joint in robot.joints:
-        yield from _angles(joint.pose, tolerance, harmless, typos, False)
+            yield link.inertial.pose, ""
+    yield from ((joint.pose, "") for joint in robot.joints)
 
 
-def _angles(
-    pose: Pose, tolerance: float, harmless: float, typos: tuple[str, ...], on_wheel: bool
-) -> Iterator[Finding]:
+def _near(
+    pose: Pose, tolerance: float, typos: tuple[str, ...]
+) -> Iterator[tuple[Located[float], int, float]]:
+    """Yield angles that mean quarter turns: which number of them, and how far off they are."""
     for angle in pose.numbers[3:6]:
         quarters = round(angle.value / HALF_PI)
-        exact = quarters * HALF_PI
-        off = abs(angle.value - exact)
+        off = abs(angle.value - quarters * HALF_PI)
         typo = angle.stated and angle.span.text.lstrip("+-") in typos
-        if quarters == 0 or off <= 1e-15 * abs(quarters) or not (off < tolerance or typo):
-            continue
-        grave = on_wheel and off > harmless
-        yield _finding(angle, exact, quarters, off, grave)
-
-
-def _finding(
-    angle: Located[float], exact: float, quarters: int, off: float, grave: bool
-) -> Finding:
-    meant = {1: "π/2", 2: "π"}.get(abs(quarters), f"{abs(quarters)}·π/2")
-    where = "angle of a wheel's collision" if grave else "angle"
-    return finding(
-        angle,
-        f"{where} is {angle.span.text}, off {'-' if quarters < 0 else ''}{meant} by {off:.1e} rad",
-        severity=Severity.ERROR if grave else Severity.INFO,
-        key="wheel" if grave else "elsewhere",
-        fix=replace_text(angle, f"{exact:.16f}"),
-    )
+        if quarters and off > 1e-15 * abs(quarters) and (off < tolerance or typo):
+            yield angle, quarters, off
 
 
 GOOD = [

@@ -10,11 +10,15 @@ Source: Gazebo, "Model structure and requirements"; Model Migration Guide, step 
 
 import posixpath
 from collections.abc import Iterator
+from xml.sax.saxutils import escape
 
+from checker.finding import Fix
 from checker.model.paperwork import ModelConfig
+from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.paperwork import Paperwork
 from checker.rule import (
+    Context,
     Finding,
     Findings,
     Safety,
@@ -24,10 +28,12 @@ from checker.rule import (
     rule,
     unchecked,
 )
+from checker.source.insertion import append_to
+from checker.source.xml import XmlDocument
 
 
 @rule("PKG004", "incomplete-model-config", Severity.ERROR)
-def check(package: Package, paperwork: Paperwork) -> Findings:
+def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Look up the model file, and list what is not stated."""
     if reason := paperwork.unread("model.config"):
         yield unchecked(reason)
@@ -35,7 +41,12 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
     if config is None:
         return
     if not config.sdf:
-        yield finding(config, "model.config names no model file: <sdf> is missing", key="sdf")
+        yield finding(
+            config,
+            "model.config names no model file: <sdf> is missing",
+            key="sdf",
+            fix=_named(package, context.sdf_version),
+        )
     yield from _lost(package, config)
     if missing := list(_missing(config)):
         words = f"{', '.join(missing[:-1])} and {missing[-1]}" if missing[1:] else missing[0]
@@ -47,16 +58,27 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
 def _lost(package: Package, config: ModelConfig) -> Iterator[Finding]:
     for entry in config.sdf:
         path = posixpath.normpath(entry.file.value)
-        found = package.resolve(path) if entry.file.value else None
+        written = entry.file.value
+        found = package.resolve(path) if written else None
         if found is not None and found.is_file:
             continue
         alike = [other for other in package.index.similar(path) if other != path]
+        model = next(iter(alike), own_model(package))
         yield finding(
             entry.file,
-            f"model.config names {entry.file.value or 'no file'}, which does not exist"
+            f"model.config names {written or 'no file'}, which does not exist"
             + (f"; there is {alike[0]}" if alike else ""),
-            fix=replace_text(entry.file, alike[0], Safety.UNSAFE) if alike else None,
+            fix=replace_text(entry.file, model, Safety.UNSAFE) if model and written else None,
         )
+
+
+def _named(package: Package, version: str) -> Fix | None:
+    """Return the fix that names the package's model."""
+    document, model = package.xml("model.config"), own_model(package)
+    if model is None or not version or not isinstance(document, XmlDocument):
+        return None
+    line = f'<sdf version="{version}">{escape(model)}</sdf>'
+    return Fix(Safety.UNSAFE, (append_to(document.root, [line]),))
 
 
 def _missing(config: ModelConfig) -> Iterator[str]:
@@ -79,5 +101,10 @@ GOOD = [{"model.config": f'<model>{_REST}<sdf version="1.6">model.sdf</sdf></mod
 BAD = [
     {"model.config": f"{_START}{_REST}</model>"},
     {"model.config": f"{_START}<name>Rover</name><sdf>model.sdf</sdf></model>"},
-    {"model.config": f"<model>{_REST}<sdf>Model.sdf</sdf></model>  <!-- ^ PKG004 -->"},
+    {
+        "model.config": f"""<model>{_REST}
+<sdf version="1.6">Model.sdf</sdf>  <!-- ^ PKG004 -->
+</model>
+"""
+    },
 ]

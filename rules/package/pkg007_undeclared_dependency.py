@@ -10,28 +10,30 @@ Source: REP 149, exec_depend; model reviews: the dependency on configuration 1 w
 from collections.abc import Iterator
 
 from checker.finding import Fix
-from checker.model.paperwork import PackageManifest
+from checker.model.paperwork import DEPENDENCY_TAGS, PackageManifest
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.package.uses import Use, uses_of
 from checker.paperwork import Paperwork
+from checker.resources import table
 from checker.rule import (
+    Context,
     Finding,
     Findings,
+    Safety,
     Severity,
     finding,
-    replace_text,
     rule,
     unchecked,
 )
-from checker.source.text import Span
+from checker.source.insertion import append_to, insert_behind
 from checker.source.xml import XmlDocument
 
 
 @rule("PKG007", "undeclared-dependency", Severity.WARNING)
-def check(package: Package, paperwork: Paperwork) -> Findings:
+def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Compare what is used with package.xml; packages of the distribution as information."""
     if reason := paperwork.unread("package.xml"):
         yield unchecked(reason)
@@ -49,7 +51,11 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
                 yield finding(use.place, message, key=name, fix=_declared(package, manifest, name))
         elif not manifest.depends_on(name):
             others.setdefault(name, use)
-    yield from _distribution(package, others)
+    # What the target calls otherwise is to be renamed first: ROS011.
+    renamed = table("renamed_packages")["releases"].get(context.release, {})
+    lacking = [name for name in sorted(others) if name not in renamed]
+    fix = _declared(package, manifest, *lacking) if lacking else None
+    yield from _distribution(package, others, fix)
     yield from _lender(package, manifest)
 
 
@@ -57,7 +63,7 @@ def _needed_at_run_time(manifest: PackageManifest, name: str) -> bool:
     return any(each.at_run_time and each.package.value == name for each in manifest.dependencies)
 
 
-def _distribution(package: Package, uses: dict[str, Use]) -> Iterator[Finding]:
+def _distribution(package: Package, uses: dict[str, Use], fix: Fix | None) -> Iterator[Finding]:
     if uses:
         names = ", ".join(sorted(uses))
         yield finding(
@@ -65,6 +71,7 @@ def _distribution(package: Package, uses: dict[str, Use]) -> Iterator[Finding]:
             f"{names}: used, and not among the dependencies in package.xml",
             severity=Severity.INFO,
             related=[(use.place, f"{name} is used") for name, use in sorted(uses.items())],
+            fix=fix,
         )
 
 
@@ -77,14 +84,16 @@ def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
         yield finding(manifest, "package has no model, and depends on no package that has one")
 
 
-def _declared(package: Package, manifest: PackageManifest, name: str) -> Fix | None:
-    """Return the fix that adds a dependency at the end of package.xml."""
+def _declared(package: Package, manifest: PackageManifest, *names: str) -> Fix | None:
+    """Return the fix that adds dependencies behind those that package.xml has."""
     document = package.xml("package.xml")
     if not isinstance(document, XmlDocument):
         return None
     tag = "run_depend" if manifest.format.value == 1 else "exec_depend"
-    end = document.root.position.end_start
-    return replace_text(Span(document.source, end, end), f"  <{tag}>{name}</{tag}>\n")
+    lines = [f"<{tag}>{name}</{tag}>" for name in names]
+    others = [child for child in document.root.children if child.tag in DEPENDENCY_TAGS]
+    edit = insert_behind(others[-1], lines) if others else append_to(document.root, lines)
+    return Fix(Safety.SAFE, (edit,))
 
 
 def _manifest(depends: str) -> str:

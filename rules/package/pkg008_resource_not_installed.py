@@ -7,14 +7,17 @@ Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`.
 Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo look for them there.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fnmatch import fnmatch
 
+from checker.finding import Fix
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.paperwork import Paperwork
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
-from checker.source.cmake import CMakeFile
+from checker.rule import Finding, Findings, Severity, finding, replace_text, rule, unchecked
+from checker.source.cmake import CMakeFile, Install
+from checker.source.insertion import newline_of
+from checker.source.text import Span
 
 FOLDERS = {
     "launch": Severity.ERROR,
@@ -25,6 +28,7 @@ FOLDERS = {
     "worlds": Severity.WARNING,
     "thumbnails": Severity.WARNING,
 }
+_CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 MODEL_FILES = ("model.sdf", "model.config")
 
 
@@ -43,15 +47,48 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
         entry = package.index.find(folder)
         if entry is None or not entry.is_folder or whole or _covers(installed, folder):
             continue
-        yield _finding(build, f"folder {folder}/ is not installed", severity)
+        message = f"folder {folder}/ is not installed"
+        yield _finding(build, message, severity, _added(build, "DIRECTORY", [folder]))
     model_files = [path for path in MODEL_FILES if package.index.find(path)]
     if model_files and not whole and not any(_covers(installed, path) for path in model_files):
-        yield _finding(build, f"neither of {' and '.join(model_files)} is installed", None)
+        message = f"neither of {' and '.join(model_files)} is installed"
+        yield _finding(build, message, None, _added(build, "FILES", model_files))
 
 
-def _finding(build: CMakeFile, message: str, severity: Severity | None) -> Finding:
+def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix | None) -> Finding:
     where = build.installs[0].span if build.installs else build.source.whole()
-    return finding(where, message, severity=severity, key=message)
+    return finding(where, message, severity=severity, key=message, fix=fix)
+
+
+def _added(build: CMakeFile, kind: str, paths: Sequence[str]) -> Fix | None:
+    """Return the fix that installs more; None where nothing goes to the package's share folder."""
+    fitting = [each for each in build.installs if _goes_to_share(each, build)]
+    for install in fitting:
+        last = install.items[-1]
+        if install.kind == kind and not install.filtered and install.writes(last):
+            before = build.source.text[install.span.start : last.span.start]
+            gap = before[len(before.rstrip()) :]
+            between = gap if "\n" in gap else " "
+            behind = Span(build.source, last.span.end, last.span.end)
+            return replace_text(behind, "".join(between + path for path in paths))
+    if not fitting:
+        return None
+    end = fitting[-1].span.end
+    end += len(build.source.text[end:].partition("\n")[0].rstrip("\r"))
+    newline = newline_of(build.source, end)
+    call = f"install({kind} {' '.join(paths)} DESTINATION {_destination(fitting[-1])})"
+    return replace_text(Span(build.source, end, end), newline + call)
+
+
+def _goes_to_share(install: Install, build: CMakeFile) -> bool:
+    if install.conditional or not install.items or install.kind == "TARGETS":
+        return False
+    name = build.project.value if build.project is not None else ""
+    return _destination(install) == _CATKIN or install.destination == f"share/{name}"
+
+
+def _destination(install: Install) -> str:
+    return _CATKIN if install.destination == _CATKIN else "share/${PROJECT_NAME}"
 
 
 def _installed(build: CMakeFile) -> set[str]:
@@ -81,13 +118,17 @@ BAD = [
     {
         "meshes/a.dae": "<COLLADA/>",
         "CMakeLists.txt": """project(acme_rover_sensor_config_1)
-install(DIRECTORY launch urdf worlds thumbnails DESTINATION share)  # ^ PKG008
+install(DIRECTORY  # ^ PKG008
+    launch
+    urdf worlds
+    thumbnails
+  DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(FILES model.sdf model.config DESTINATION share)
 """,
     },
     {
         "CMakeLists.txt": """project(acme_rover_sensor_config_1)
-install(DIRECTORY launch urdf worlds thumbnails DESTINATION share)  # ^ PKG008
+install(DIRECTORY launch urdf worlds thumbnails DESTINATION share/${PROJECT_NAME})  # ^ PKG008
 """,
     },
 ]

@@ -9,12 +9,14 @@ Source: CMake, tried: `cmake --install` ends with "cannot find" for a file or fo
 
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from checker.finding import Fix
 from checker.package.package import Package
 from checker.paperwork import Paperwork
 from checker.rule import Findings, Severity, finding, replace_text, rule
 from checker.source.cmake import CMakeFile, Install
+from checker.source.insertion import with_blanks
 from checker.source.text import Located
 
 _OPTIONAL = re.compile(r"\bOPTIONAL\b")
@@ -37,8 +39,23 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
             item,
             f"{what} {item.value} is installed and does not exist"
             + (f"; there is {alike[0]}" if alike else ""),
-            fix=replace_text(item, "") if item.span.text.strip('"') == item.value else None,
+            fix=_fix(package, install, item, alike),
         )
+
+
+def _fix(
+    package: Package, install: Install, item: Located[str], alike: Sequence[str]
+) -> Fix | None:
+    """Return the fix that writes the name right, or takes it out, with `install()` if need be."""
+    if not install.writes(item):
+        return None
+    same = [each for each in alike if each.lower() == posixpath.normpath(item.value).lower()]
+    for meant in (same, alike):
+        if len(meant) == 1:
+            return replace_text(item, meant[0])
+    there = any(package.exists(posixpath.normpath(each.value or ".")) for each in install.items)
+    unsure = any(_MADE_ELSEWHERE.search(each.value) for each in install.items)
+    return replace_text(with_blanks(item.span if there or unsure else install.span), "")
 
 
 def _items(build: CMakeFile) -> Iterator[tuple[Install, Located[str]]]:

@@ -12,9 +12,12 @@ Source: Model Migration Guide, "Remove/replace unsupported plugins".
 
 from typing import Any
 
+from checker.finding import Fix
+from checker.model.components import Plugin
 from checker.model.plugin_library import classic_plugin, library_stem
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Findings, Safety, Severity, finding, rule, unchecked
+from checker.source.insertion import removal
 
 
 @rule("PLG001", "classic-plugin", Severity.ERROR)
@@ -30,7 +33,14 @@ def check(robot: Robot) -> Findings:
             plugin.filename,
             f"{plugin.filename.value} is a plugin of Gazebo 9: {_advice(known)}",
             key=library_stem(plugin.filename.value),
+            fix=Fix(Safety.UNSAFE, (removal(plugin.element),)) if _in_vain(plugin, known) else None,
         )
+
+
+def _in_vain(plugin: Plugin, entry: dict[str, Any]) -> bool:
+    """Whether nothing but the plugin has to go: the sensor that it stands in works by itself."""
+    instead = (entry.get("replacement") or {}).get("sensor_type")
+    return entry.get("action") == "remove" or bool(plugin.owner and instead)
 
 
 def _advice(entry: dict[str, Any]) -> str:

@@ -7,40 +7,18 @@ switches off is only a leftover of another robot's launch file.
 Fix: name the link that carries the sensor and the sensor as the model spells them, and a topic
 that its type publishes.
 Source: topics that gz-sensors publishes by default; SubT review findings of IMUs bridged from
-`base_link` while they stood on a link of their own.
+`base_link` while they stood on a link of their own. What the launch files of subt_ros bridge is
+assumed (`models_common.json`).
 """
-
-from collections.abc import Mapping
 
 from checker.model.components import Link
 from checker.model.launch.bridge import Bridge, SensorTopic
 from checker.model.launch.graph import LaunchGraph
+from checker.model.launch.topics import suffixes
 from checker.model.robot import Robot
+from checker.model.sensing.kind import SensorType
 from checker.model.suggestions import Suggestions
 from checker.rule import Findings, Severity, finding, rule, unchecked
-
-_SCAN = frozenset({"scan", "scan/points"})
-_IMAGE = frozenset({"image", "camera_info"})
-_DEPTH = frozenset({"image", "depth_image", "points", "camera_info"})
-
-TOPICS: Mapping[str, frozenset[str]] = {
-    "air_pressure": frozenset({"air_pressure"}),
-    "altimeter": frozenset({"altimeter"}),
-    "camera": _IMAGE,
-    "depth": frozenset({"depth_image", "depth_image/points", "camera_info"}),
-    "depth_camera": frozenset({"depth_image", "depth_image/points", "camera_info"}),
-    "gpu_lidar": _SCAN,
-    "gpu_ray": _SCAN,
-    "imu": frozenset({"imu"}),
-    "magnetometer": frozenset({"magnetometer"}),
-    "rgbd": _DEPTH,
-    "rgbd_camera": _DEPTH,
-    "thermal": _IMAGE | {""},
-    "thermal_camera": _IMAGE | {""},
-}
-"""What a sensor of each type publishes below its own topic; thermal images come without suffix."""
-
-THERMAL = ("thermal", "thermal_camera")
 
 
 @rule("ROS002", "bridge-of-nothing", Severity.ERROR)
@@ -56,13 +34,19 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         if fault := _fault(robot, bridge, names):
             yield finding(bridge, _message(bridge, "listens", fault), key=bridge.ign_topic)
     for bridge in launch.dormant_bridges:
+        # A template that is switched off serves other configurations.
+        if bridge.node.assumed_from:
+            continue
         if fault := _fault(robot, bridge, names):
             said = _message(bridge, "is switched off and would listen", fault)
             yield finding(bridge, said, severity=Severity.WARNING, key=f"off {bridge.ign_topic}")
 
 
 def _message(bridge: Bridge, listens: str, fault: str) -> str:
-    return f"bridge {bridge.node.name!r} {listens} to {fault}"
+    node = bridge.node
+    if node.assumed_from:
+        return f"{node.assumed_from}, as it is assumed to be, {listens} to {fault}"
+    return f"bridge {node.name!r} {listens} to {fault}"
 
 
 def _fault(robot: Robot, bridge: Bridge, names: Suggestions) -> str | None:
@@ -85,7 +69,7 @@ def _nothing_at(robot: Robot, topic: SensorTopic, names: Suggestions) -> str | N
         return (
             f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic, names)}"
         )
-    published = TOPICS.get(sensor.type.value)
+    published = suffixes(sensor.kind)
     if published is None or sensor.topic.stated or topic.suffix in published:
         return None
     return (
@@ -96,7 +80,7 @@ def _nothing_at(robot: Robot, topic: SensorTopic, names: Suggestions) -> str | N
 
 def _has_thermal_camera(link: Link) -> bool:
     """Gazebo Dome drops the sensor's name from the camera_info topic of thermal cameras."""
-    return any(sensor.type.value in THERMAL for sensor in link.sensors)
+    return any(sensor.kind is SensorType.THERMAL_CAMERA for sensor in link.sensors)
 
 
 def _whereabouts(robot: Robot, topic: SensorTopic, names: Suggestions) -> str:

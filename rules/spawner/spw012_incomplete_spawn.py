@@ -38,6 +38,7 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
             yield finding(
                 world.text,
                 f"<world> is {world.text.value!r}, expected #{{{names[WORLD]}}}",
+                fix=replace_text(world.text, f"#{{{names[WORLD]}}}", Safety.UNSAFE),
             )
 
 

@@ -1,0 +1,87 @@
+"""The battery lasts longer or shorter than specifications.md says.
+
+Teams plan by the sheet. A `power_load` copied from another robot gives the endurance of that one.
+How long the model lasts is worked out from the plugin's charge, voltages and load; among accepted
+packages the result is within 17 % of the sheet.
+
+Fix: choose `power_load` so that the battery lasts as long as the sheet says, or correct the sheet.
+Source: endurances that SubT reviewers accepted, and the figures of the battery plugins with them
+(`subt_standards.json`).
+"""
+
+from checker.model.battery import RELEASE, batteries
+from checker.model.robot import Robot
+from checker.model.specification.sheet import Specification
+from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+
+SECONDS = 60.0
+
+
+@rule("BAT003", "endurance-against-specification", Severity.WARNING)
+def check(
+    robot: Robot, specification: Specification, context: Context, *, tolerance: float = 0.2
+) -> Findings:
+    """Compare endurances; `tolerance` is a share of what the sheet says."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    stated = specification.endurance
+    if stated is None or stated.value <= 0.0:
+        return
+    if context.release != RELEASE:
+        yield unchecked(f"how fast a battery drains is known of Gazebo {RELEASE.title()} alone")
+        return
+    for battery in batteries(robot):
+        if battery.minutes is None:
+            continue
+        seconds = battery.minutes * SECONDS
+        if abs(seconds - stated.value) > tolerance * stated.value + stated.resolution / 2:
+            yield finding(
+                stated,
+                f"the sheet says {_minutes(stated.value)}, the battery of the model lasts about "
+                f"{_minutes(seconds)}",
+                related=[(battery, "the load of the battery")],
+            )
+
+
+def _minutes(seconds: float) -> str:
+    return f"{seconds / SECONDS:.3g} minutes"
+
+
+def _battery(load: str, more: str = "") -> str:
+    return f"""
+<plugin filename="libp.so" name="ignition::gazebo::systems::LinearBatteryPlugin">
+  <open_circuit_voltage_constant_coef>12.694</open_circuit_voltage_constant_coef>
+  <open_circuit_voltage_linear_coef>-3.1424</open_circuit_voltage_linear_coef>
+  <initial_charge>78.4</initial_charge>
+  <capacity>78.4</capacity>
+  <power_load>{load}</power_load>{more}
+</plugin>
+"""
+
+
+_SHEET = "# Rover\n### Endurance Characteristics\n"
+_MARK = "<!-- ^ BAT003 -->"
+
+GOOD = [
+    {"@fragment": _battery("9.9"), "specifications.md": f"{_SHEET}* Battery life of 1 hour\n"},
+    {
+        "@fragment": _battery("9.9"),
+        "specifications.md": f"{_SHEET}A battery life of 4 hours, but the model has been limited "
+        "to have 1 hour endurance.\n",
+    },
+    {"@fragment": _battery("9.9"), "specifications.md": f"{_SHEET}Runs for the whole day.\n"},
+    {
+        "@fragment": _battery("2", "<fix_issue_225>true</fix_issue_225>"),
+        "specifications.md": f"{_SHEET}* Battery life of 1 hour\n",
+    },
+]
+BAD = [
+    {
+        "@fragment": _battery("4.95"),
+        "specifications.md": f"{_SHEET}* Battery life of 3600 seconds {_MARK}\n",
+    },
+    {
+        "@fragment": _battery("9.9"),
+        "specifications.md": f"{_SHEET}The battery lasts 7200 seconds. {_MARK}\n",
+    },
+]

@@ -1,0 +1,66 @@
+"""A battery that nothing makes drain.
+
+A full battery lasts for ever unless the plugin is told when to begin: by `start_on_motion`, or by a
+`power_draining_topic` whose first message starts it. Gazebo Dome begins with the first command to a
+joint; tracks command none, so a tracked robot needs the topic.
+
+Fix: write `<start_on_motion>true</start_on_motion>`; for tracks, `<power_draining_topic>` with the
+command topic of each track.
+Source: SubT reviews of tracked robots; the parameters that Dome's battery plugin asks for
+(`subt_plugins.json`).
+"""
+
+from checker.model.battery import batteries
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("BAT004", "never-drains", Severity.WARNING)
+def check(robot: Robot) -> Findings:
+    """Report batteries that nothing starts, and those of tracks without a topic."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    moved = robot.locomotion
+    on_tracks_alone = bool(moved.tracked_drives) and not (moved.wheel_drives or moved.copters)
+    for battery in batteries(robot):
+        if battery.draining_topics:
+            continue
+        if on_tracks_alone:
+            yield finding(
+                battery.plugin,
+                "LinearBatteryPlugin has no <power_draining_topic>: tracks command no joint, "
+                "so driving does not drain it",
+            )
+        elif not battery.starts_on_motion:
+            yield finding(
+                battery.plugin,
+                "LinearBatteryPlugin has neither <start_on_motion> nor <power_draining_topic>: "
+                "nothing tells it to drain",
+            )
+
+
+def _battery(parameter: str, mark: str = "") -> str:
+    return f"""
+<plugin filename="libp.so" name="ignition::gazebo::systems::LinearBatteryPlugin">{mark}
+  {parameter}
+</plugin>
+"""
+
+
+_MARK = " <!-- ^ BAT004 -->"
+_MOTION = "<start_on_motion>true</start_on_motion>"
+_TRACKS = """
+<plugin filename="libt.so" name="ignition::gazebo::systems::TrackedVehicle">
+  <left_track><link>base_link</link></left_track>
+</plugin>
+"""
+
+GOOD = [
+    _battery(_MOTION),
+    _battery("<power_draining_topic>/model/r/cmd_vel</power_draining_topic>") + _TRACKS,
+]
+BAD = [
+    _battery("", _MARK),
+    _battery("<start_on_motion>false</start_on_motion>", _MARK),
+    _battery(_MOTION, _MARK) + _TRACKS,
+]

@@ -1,0 +1,87 @@
+"""A battery that lasts long, and no measurement that proves it.
+
+Above an hour on the ground and ten minutes in the air the organisers want to see the real robot do
+it: a video or a log of an endurance test, linked in the sheet. Until then they ask for the standard
+endurance.
+
+Fix: link the video or the data in the section "Validation and Specification Links", or raise
+`power_load` until there is one.
+Source: SubT Model Preparation Guide; reviews limit robots to one hour "until endurance validation
+data can be provided" (`subt_standards.json`).
+"""
+
+from checker.model.battery import RELEASE, Battery, batteries
+from checker.model.robot import Robot
+from checker.model.specification.sheet import Specification
+from checker.rule import Context, Findings, HasSpan, Severity, finding, rule, unchecked
+
+
+@rule("BAT005", "long-endurance-without-proof", Severity.WARNING)
+def check(
+    robot: Robot,
+    specification: Specification,
+    context: Context,
+    *,
+    ground: float = 60.0,
+    air: float = 10.0,
+    tolerance: float = 0.1,
+) -> Findings:
+    """Report batteries beyond `ground` or `air`, minutes, without links to measurements.
+
+    `tolerance` is the share by which the figures of the model may be off.
+    """
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    if specification.validation_links:
+        return
+    if context.release != RELEASE:
+        yield unchecked(f"how fast a battery drains is known of Gazebo {RELEASE.title()} alone")
+        return
+    allowed = air if robot.locomotion.copters else ground
+    known = [(each.minutes, each) for each in batteries(robot) if each.minutes is not None]
+    for minutes, battery in known:
+        if minutes > allowed * (1 + tolerance):
+            yield finding(
+                _place(specification, battery),
+                f"the battery lasts about {minutes:.3g} minutes, more than {allowed:g}: expected "
+                "a link to a video or data that proves it",
+                related=[(battery, "the load of the battery")],
+            )
+
+
+def _place(sheet: Specification, battery: Battery) -> HasSpan:
+    """Return where the sheet speaks of endurance, else the battery."""
+    return sheet.endurance or sheet.section("endurance") or battery
+
+
+def _battery(load: str, charge: str = "78.4", mark: str = "") -> str:
+    return f"""
+<plugin filename="libp.so" name="ignition::gazebo::systems::LinearBatteryPlugin">
+  <open_circuit_voltage_constant_coef>12.694</open_circuit_voltage_constant_coef>
+  <open_circuit_voltage_linear_coef>-3.1424</open_circuit_voltage_linear_coef>
+  <initial_charge>{charge}</initial_charge>
+  <power_load>{load}</power_load>{mark}
+</plugin>
+"""
+
+
+_COPTER = '<plugin filename="libm.so" name="gz::sim::systems::MulticopterVelocityControl"/>'
+_LINK = "## Validation and Specification Links\n* Endurance test: https://youtu.be/H15Kpvpepv4\n"
+_MARK = "<!-- ^ BAT005 -->"
+
+GOOD = [
+    _battery("9.9"),
+    {"@fragment": _battery("4.95"), "specifications.md": f"# Rover\n{_LINK}"},
+    _battery("13.2", "18") + _COPTER,
+]
+BAD = [
+    _battery("4.95", mark=f" {_MARK}"),
+    {
+        "@fragment": _battery("4.95"),
+        "specifications.md": f"# Rover\n## Endurance Characteristics {_MARK}\nTwo hours or so.\n",
+    },
+    {
+        "@fragment": _battery("6.6", "18") + _COPTER,
+        "specifications.md": f"# R\n## Endurance\n* Battery life of 1200 seconds {_MARK}\n",
+    },
+]

@@ -1,0 +1,1 @@
+"""Breadcrumbs: the communication relays that a robot drops."""

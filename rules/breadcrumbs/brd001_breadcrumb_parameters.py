@@ -1,0 +1,111 @@
+"""Breadcrumbs with other parameters than the challenge's robots have.
+
+Teams plan their network by the number in the sheet, and robots carry 6 or 12. Without
+`<disable_physics_time>` every dropped relay is simulated until the end, which slows the run down;
+without `<topic>` the plugin listens to a topic that no launch file bridges.
+
+Fix: write `<topic>/model/#{_name}/breadcrumb/deploy</topic>`,
+`<disable_physics_time>3.0</disable_physics_time>` and the `<max_deployments>` that the sheet gives.
+Source: SubT reviews of breadcrumbs; all accepted robots with breadcrumbs carry 6 or 12
+(`subt_standards.json`).
+"""
+
+from collections.abc import Iterator
+
+from checker.model.breadcrumbs import Breadcrumbs, breadcrumbs
+from checker.model.robot import Robot
+from checker.model.specification.sensor_kinds import SensorKind
+from checker.model.specification.sensors import ListedSensor
+from checker.model.specification.sheet import Specification
+from checker.package.package import Package
+from checker.package.submissions import configuration_number
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+
+COUNTS = (6, 12)
+
+
+@rule("BRD001", "breadcrumb-parameters", Severity.WARNING)
+def check(
+    package: Package,
+    robot: Robot,
+    specification: Specification,
+    *,
+    counts: tuple[int, ...] = COUNTS,
+) -> Findings:
+    """Look at what each Breadcrumbs plugin states, and compare their number with the sheet."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    plugins = breadcrumbs(robot)
+    for plugin in plugins:
+        yield from _missing(plugin)
+    numbers = [each.max_deployments for each in plugins if each.max_deployments is not None]
+    if not numbers or len(numbers) < len(plugins):
+        return
+    total = sum(number.value for number in numbers)
+    if total not in counts:
+        expected = " or ".join(str(count) for count in counts)
+        yield finding(numbers[0], f"the robot carries {total:g} breadcrumbs, expected {expected}")
+    for item in _listed(specification, configuration_number(package.name)):
+        if item.count != total:
+            yield finding(
+                item,
+                f"the sheet lists {item.count} breadcrumbs, the robot carries {total:g}",
+                related=[(number, "stated here") for number in numbers],
+            )
+
+
+def _missing(plugin: Breadcrumbs) -> Iterator[Finding]:
+    """Report what a plugin does not state."""
+    expected = {
+        "topic": (plugin.topic, "the topic that drops one"),
+        "max_deployments": (plugin.max_deployments, "6 or 12; without it there is no limit"),
+        "disable_physics_time": (plugin.disable_physics_time, "3.0 (seconds)"),
+    }
+    for tag, (value, meaning) in expected.items():
+        if value is None:
+            message = f"Breadcrumbs has no <{tag}>: expected {meaning}"
+            yield finding(plugin, message, key=f"no {tag}")
+
+
+def _listed(sheet: Specification, number: int | None) -> list[ListedSensor]:
+    """Return what the sheet lists for a configuration, when all of it says one number."""
+    items = [
+        item
+        for item in sheet.sensors
+        if item.kind is SensorKind.BREADCRUMBS
+        and item.count is not None
+        and (not item.configurations or number in item.configurations)
+    ]
+    return items[:1] if len({item.count for item in items}) == 1 else []
+
+
+def _crumbs(number: str, mark: str = "", more: str = "", start: str = "") -> str:
+    return f"""
+<plugin filename="libignition-gazebo-breadcrumbs-system.so"
+        name="ignition::gazebo::systems::Breadcrumbs">{start}
+  <topic>/model/r/breadcrumb/deploy</topic>
+  <max_deployments>{number}</max_deployments>{mark}{more}
+</plugin>
+"""
+
+
+_TIME = "<disable_physics_time>3.0</disable_physics_time>"
+_SHEET = "# Rover\n### Sensors\n"
+_MARK = " <!-- ^ BRD001 -->"
+
+GOOD = [
+    _crumbs("12", more=_TIME),
+    {
+        "@fragment": _crumbs("6", more=_TIME),
+        "specifications.md": f"{_SHEET}* 12 communication breadcrumbs in sensor configuration 2\n",
+    },
+    _crumbs("6", more=_TIME) + _crumbs("6", more=_TIME),
+]
+BAD = [
+    _crumbs("7", _MARK, _TIME),
+    f'<plugin filename="libp.so" name="ignition::gazebo::systems::Breadcrumbs"/>{_MARK}',
+    {
+        "@fragment": _crumbs("6", more=_TIME),
+        "specifications.md": f"{_SHEET}* 12 communication breadcrumbs.{_MARK}\n",
+    },
+]

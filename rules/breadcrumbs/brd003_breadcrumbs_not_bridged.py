@@ -1,0 +1,130 @@
+"""Breadcrumbs that nothing on ROS's side can drop or count.
+
+A team drops a relay by `breadcrumb/deploy` and reads from `breadcrumb/remaining` how many are left.
+Launch files bridge both only when the spawner passes `breadcrumbs:=1`; without the bridges the
+relays stay on board. Where only the count is missing, this is a warning.
+
+Fix: bridge the plugin's topic and its `/remaining` in vehicle_topics.launch, or include
+`breadcrumbs.launch` of `subt_ros`, and pass `breadcrumbs:=1` in the spawner.
+Source: SubT reviews of breadcrumbs; topics of Gazebo's Breadcrumbs plugin.
+"""
+
+from collections.abc import Iterable, Iterator
+
+from checker.model.breadcrumbs import Breadcrumbs, breadcrumbs
+from checker.model.launch.bridge import Bridge
+from checker.model.launch.graph import LaunchGraph
+from checker.model.robot import Robot
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+
+DEPLOY = "/deploy"
+REMAINING = "/deploy/remaining"
+WITHOUT_BRIDGES = "description.launch "
+"""A launch file that only loads the robot's description."""
+_WORD = "breadcrumb"
+
+
+@rule("BRD003", "breadcrumbs-not-bridged", Severity.ERROR)
+def check(robot: Robot, launch: LaunchGraph) -> Findings:
+    """Look for bridges of each plugin's topics, and for a count beside each bridge that drops."""
+    if robot.unread_plugins:
+        yield unchecked(robot.unread_plugins)
+    bridged = any(_drops(each) for each in launch.bridges) or _is_included(launch)
+    plugins = () if bridged else breadcrumbs(robot)
+    unread = [reason for reason in launch.unread if not reason.startswith(WITHOUT_BRIDGES)]
+    for plugin in plugins:
+        if unread:
+            yield unchecked(unread[0])
+        else:
+            yield from _unbridged(plugin, launch)
+    yield from _uncounted((*launch.bridges, *launch.dormant_bridges))
+
+
+def _is_included(launch: LaunchGraph) -> bool:
+    """Whether a launch file of the challenge is included that bridges breadcrumbs."""
+    files = (each.file.rpartition("/")[2].lower() for each in launch.unresolved_includes)
+    return any(_WORD in file for file in files)
+
+
+def _unbridged(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
+    """Say why no bridge commands a plugin; one that is switched off counts as none."""
+    off = next((each for each in launch.dormant_bridges if _drops(each)), None)
+    if off is None:
+        yield finding(
+            plugin, "Breadcrumbs is not bridged: expected bridges of deploy and deploy/remaining"
+        )
+    else:
+        yield finding(
+            plugin,
+            "the bridges of Breadcrumbs are switched off: expected breadcrumbs:=1 in the command "
+            "that starts them",
+            related=[(off, "the bridge that is switched off")],
+        )
+
+
+def _uncounted(bridges: Iterable[Bridge]) -> Iterator[Finding]:
+    """Report launch files that drop breadcrumbs and do not tell how many remain."""
+    given = list(bridges)
+    counting = {each.ign_topic.removesuffix(REMAINING) for each in given if _counts(each)}
+    for bridge in given:
+        if _drops(bridge) and bridge.ign_topic.removesuffix(DEPLOY) not in counting:
+            yield finding(
+                bridge,
+                "breadcrumb/deploy is bridged and breadcrumb/deploy/remaining is not",
+                severity=Severity.WARNING,
+                key="remaining is not bridged",
+            )
+
+
+def _drops(bridge: Bridge) -> bool:
+    return bridge.ign_topic.endswith(DEPLOY) and _WORD in bridge.ign_topic
+
+
+def _counts(bridge: Bridge) -> bool:
+    return bridge.ign_topic.endswith(REMAINING) and _WORD in bridge.ign_topic
+
+
+_TOPICS = "launch/vehicle_topics.launch"
+_MARK = " <!-- ^ BRD003 -->"
+
+
+def _plugin(mark: str = "") -> str:
+    return f"""
+<plugin filename="libignition-gazebo-breadcrumbs-system.so" name="ignition::Breadcrumbs">{mark}
+  <topic>/model/r/breadcrumb/deploy</topic>
+</plugin>
+"""
+
+
+def _launch(condition: str, mark: str = "", remaining: bool = True) -> str:
+    topic = "/model/r/breadcrumb/deploy"
+    counted = f"""
+  <node pkg="ros_ign_bridge" type="parameter_bridge" name="left" {condition}
+        args="{topic}/remaining@std_msgs/Int32[ignition.msgs.Int32"/>"""
+    return f"""<launch>
+  <arg name="name"/>
+  <arg name="world_name"/>
+  <arg name="breadcrumbs" default="0"/>
+  <node pkg="ros_ign_bridge" type="parameter_bridge" name="drop" {condition}
+        args="{topic}@std_msgs/Empty]ignition.msgs.Empty"/>{mark}{counted if remaining else ""}
+</launch>
+"""
+
+
+_IF = 'if="$(arg breadcrumbs)"'
+_INCLUDE = """<launch>
+  <include file="$(find subt_ros)/launch/models_common/breadcrumbs.launch"/>
+</launch>
+"""
+
+GOOD = [
+    {"@fragment": _plugin(), _TOPICS: _launch("")},
+    {"@fragment": _plugin(), _TOPICS: _INCLUDE},
+    {_TOPICS: _launch(_IF)},
+]
+BAD = [
+    {"@fragment": _plugin(_MARK)},
+    {"@fragment": _plugin(_MARK), _TOPICS: _launch(_IF)},
+    {"@fragment": _plugin(), _TOPICS: _launch("", _MARK, remaining=False)},
+    {_TOPICS: _launch(_IF, _MARK, remaining=False)},
+]

@@ -1,0 +1,93 @@
+"""A controller of a joint that does not exist.
+
+The controller manager refuses such a controller, and the spawner ends with an error: the joint
+stays loose. Names are compared letter by letter. A fixed joint cannot be controlled either.
+
+Fix: write the joint as the URDF file spells it.
+Source: ros_control, `hardware_interface::ResourceManager::getHandle`: a joint that no transmission
+has registered is not found.
+"""
+
+from checker.model.controllers import Controller, ControlSystem
+from checker.model.suggestions import Suggestions
+from checker.rule import Findings, Safety, Severity, finding, replace_text, rule, unchecked
+from checker.source.text import Located
+
+
+@rule("CTL001", "controller-of-unknown-joint", Severity.ERROR)
+def check(control: ControlSystem) -> Findings:
+    """Report joints of controllers that no robot of the package has, or that do not move."""
+    if control.joints is None:
+        yield unchecked(control.unread_robot)
+        return
+    names = Suggestions(control.joints)
+    for controller in control.controllers:
+        for joint in controller.joints:
+            known = control.joints.get(joint.value)
+            if known is None:
+                near = names.near(joint.value)
+                yield finding(
+                    joint,
+                    f"{_who(controller)} controls joint {joint.value!r}, "
+                    f"which the robot does not have{names.hint(joint.value)}",
+                    severity=_severity(controller),
+                    fix=replace_text(joint, near, Safety.UNSAFE) if near and _bare(joint) else None,
+                )
+            elif not control.moves(joint.value):
+                yield finding(
+                    joint,
+                    f"{_who(controller)} controls joint {joint.value!r}, "
+                    f"which is {known.type.value}, expected one that a motor moves",
+                    severity=_severity(controller),
+                )
+
+
+def _who(controller: Controller) -> str:
+    return f"controller {controller.name!r}"
+
+
+def _severity(controller: Controller) -> Severity | None:
+    """Return what is no error: a file that nobody loads may be of another robot."""
+    return None if controller.loaded_by is not None else Severity.WARNING
+
+
+def _bare(joint: Located[str]) -> bool:
+    """Whether the text is the name itself, without quotes or an alias around."""
+    return joint.span.text == joint.value
+
+
+_CONFIG = "config/control.yaml"
+
+
+def _config(joint: str) -> str:
+    return f"""arm:
+  shoulder_controller:
+    type: effort_controllers/JointPositionController
+    joint: {joint}
+    pid: {{p: 10.0, i: 0.1, d: 0.0}}
+"""
+
+
+_FIXED = '<joint name="mount" type="fixed"><parent link="base_link"/><child link="plate"/></joint>'
+
+GOOD = [
+    {"@urdf": True},
+    {"@urdf": True, _CONFIG: _config('"shoulder"')},
+    {"@urdf": True, _CONFIG: "arm:\n  drive:\n    type: my_controllers/Drive\n    wheels: 4\n"},
+]
+BAD = [
+    {"@urdf": True, _CONFIG: _config("shoulder_joint  # ^ CTL001")},
+    {"@urdf": True, _CONFIG: _config("shuolder  # ^ CTL001")},
+    {"@urdf": f'<link name="plate"/>{_FIXED}', _CONFIG: _config("mount  # ^ CTL001")},
+    {
+        "@urdf": True,
+        _CONFIG: """arm:
+  arm_controller:
+    type: position_controllers/JointTrajectoryController
+    joints:
+      - shoulder
+      - elbow  # ^ CTL001
+""",
+    },
+    {"@urdf": True, "config/other.yaml": _config("elbow  # ^ CTL001")},
+]

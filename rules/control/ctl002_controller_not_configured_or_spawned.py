@@ -1,0 +1,170 @@
+"""A controller that is spawned but not configured, or configured and never spawned.
+
+The spawner of a controller without configuration ends with an error, and its joint stays loose.
+One that is configured and never spawned does nothing: the joint has no controller while the file
+looks as if it had.
+
+Fix: name the controller alike in the YAML file and in the spawner's args, state its `type`, and
+load the file before the spawner starts.
+Source: ros_control, `controller_manager::ControllerManager::loadController`: the type is read from
+`<namespace>/<controller>/type`.
+"""
+
+from checker.model.controllers import Controller, ControlSystem
+from checker.model.suggestions import Suggestions
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("CTL002", "controller-not-configured-or-spawned", Severity.ERROR)
+def check(control: ControlSystem) -> Findings:
+    """Report controllers that stand either in the YAML files or in the spawners' args alone."""
+    for fault in control.faults:
+        yield finding(fault, fault.message)
+    yield from _unconfigured(control)
+    yield from _without_type(control)
+    yield from _never_spawned(control)
+
+
+def _unconfigured(control: ControlSystem) -> Findings:
+    """Report spawned controllers; those configured in another namespace are another rule's."""
+    missing = [each for each in control.spawned if each.name not in control.namesakes]
+    if not missing or any(fault.hides for fault in control.faults):
+        return
+    if control.unread:
+        yield from map(unchecked, control.unread)
+        return
+    meant = _misspelt(control)
+    lying = {each.name: each for each in control.controllers if each.loaded_by is None}
+    for each in missing:
+        found, near = lying.get(each.name), meant.get(each.name)
+        hint = f"; did you mean {near.name!r}?" if near is not None else ""
+        if found is not None:
+            hint = f"; {found.span.source.file} does, and no launch file loads that"
+        yield finding(
+            each,
+            f"controller {each.name!r} is spawned and no file that is loaded configures it{hint}",
+            related=[(near, f"{near.name!r} is configured")] if near is not None else (),
+        )
+
+
+def _misspelt(control: ControlSystem) -> dict[str, Controller]:
+    """Return the controllers that are meant by names that are spawned and not configured."""
+    names = Suggestions(control.namesakes)
+    spawned = {each.name for each in control.spawned}
+    near = {name: names.near(name) for name in sorted(spawned - control.namesakes.keys())}
+    return {name: control.namesakes[meant] for name, meant in near.items() if meant}
+
+
+def _without_type(control: ControlSystem) -> Findings:
+    for each in control.spawned:
+        controller = control.namesakes.get(each.name)
+        if controller is not None and controller.type is None:
+            yield finding(
+                controller,
+                f"controller {controller.name!r} has no type, expected one such as "
+                "'effort_controllers/JointPositionController'",
+                key=f"type {controller.full_name}",
+            )
+
+
+def _never_spawned(control: ControlSystem) -> Findings:
+    started = {each.name for each in (*control.spawned, *control.dormant)}
+    # One that a spawner misspells is reported there.
+    started |= {each.name for each in _misspelt(control).values()}
+    idle = [each for each in control.controllers if each.name not in started and _is_one(each)]
+    if idle and control.unread:
+        yield from map(unchecked, control.unread)
+        return
+    for each in idle:
+        yield finding(
+            each,
+            f"controller {each.name!r} is configured and no launch file spawns it",
+            severity=Severity.WARNING,
+        )
+
+
+def _is_one(controller: Controller) -> bool:
+    """Whether the mapping is a controller without doubt: other things have a type, too."""
+    return "controller" in controller.family
+
+
+_CONFIG, _LAUNCH = "config/control.yaml", "launch/control.launch"
+_STATES = """arm:
+  state_controller:
+    type: joint_state_controller/JointStateController
+"""
+
+
+def _shoulder(name: str, kind: str = "    type: effort_controllers/JointPositionController") -> str:
+    return f"""{_STATES}  {name}
+{kind}
+    joint: shoulder
+    pid: {{p: 10.0}}
+"""
+
+
+def _launch(args: str, more: str = "", find: str = "$(find acme_arm_description)/config") -> str:
+    return f"""<launch>
+  <rosparam file="{find}/control.yaml"/>{more}
+  <node name="spawner" pkg="controller_manager" type="spawner" ns="arm" args="{args}
+</launch>
+"""
+
+
+_BOTH = 'state_controller shoulder_controller"/>'
+_MARK = "  <!-- ^ CTL002 -->"
+
+GOOD = [
+    {"@urdf": True},
+    {
+        "@urdf": True,
+        _LAUNCH: _launch(
+            f"--timeout 30 {_BOTH}",
+            '\n  <rosparam ns="arm">\n    planner: {type: geometric/RRT}\n  </rosparam>',
+        ),
+    },
+    {
+        "@urdf": True,
+        _CONFIG: _STATES,
+        _LAUNCH: _launch(
+            _BOTH,
+            """
+  <rosparam ns="arm/shoulder_controller" subst_value="true">
+    type: effort_controllers/JointPositionController
+    joint: shoulder
+  </rosparam>""",
+        ),
+    },
+    {
+        "@urdf": True,
+        _LAUNCH: _launch('state_controller"/>').replace(
+            "</launch>",
+            """  <node if="0" name="start" pkg="controller_manager" type="controller_manager"
+        ns="arm" args="spawn shoulder_controller"/>
+</launch>""",
+        ),
+    },
+]
+BAD = [
+    {"@urdf": True, _LAUNCH: _launch('state_controller"/>'), _CONFIG: _shoulder("c:  # ^ CTL002")},
+    {"@urdf": True, _LAUNCH: _launch(_BOTH + _MARK), _CONFIG: _shoulder("shoulder:  # ^ CTL002")},
+    {"@urdf": True, _CONFIG: _shoulder("shoulder_controller:  # ^ CTL002", "    rate: 5")},
+    {
+        "@urdf": True,
+        _LAUNCH: """<launch>
+  <node name="spawner" pkg="controller_manager" type="spawner"
+        args="--namespace=/arm state_controller shoulder_controller"/>  <!-- ^ CTL002 -->
+</launch>
+""",
+    },
+    {
+        "@urdf": True,
+        _LAUNCH: _launch(_BOTH + _MARK, find="$(find acme_arm_description)").replace(
+            'yaml"/>', 'yaml"/>  <!-- ^ CTL002 -->'
+        ),
+    },
+    {
+        "@urdf": True,
+        _CONFIG: "arm:\n  state_controller: {type: a/B\n  b: 1  # ^ CTL002\n",
+    },
+]

@@ -1,0 +1,91 @@
+"""A controller of another interface than the transmission offers.
+
+Controllers of `effort_controllers` ask for the EffortJointInterface of their joints, and so on.
+Where the transmission offers another one, or no transmission offers any, the controller manager
+does not find the joint and the spawner ends with an error.
+
+Fix: state the interface that the controller needs in the transmission's `<hardwareInterface>`, or
+take the controller from the package of that interface.
+Source: ros_control, `controller_interface::Controller<T>::initRequest`; ros_controllers;
+gazebo_ros_control, `DefaultRobotHWSim::initSim`.
+"""
+
+from collections.abc import Mapping
+
+from checker.model.controllers import Controller, ControlSystem
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+INTERFACES: Mapping[str, str] = {
+    "effort_controllers": "EffortJointInterface",
+    "position_controllers": "PositionJointInterface",
+    "velocity_controllers": "VelocityJointInterface",
+    "diff_drive_controller": "VelocityJointInterface",
+}
+"""What the controllers of a package ask for."""
+
+
+@rule("CTL003", "controller-of-another-interface", Severity.ERROR)
+def check(control: ControlSystem) -> Findings:
+    """Report controllers whose joints have no transmission of the interface they need."""
+    if control.unread_robot:
+        yield unchecked(control.unread_robot)
+        return
+    for controller in control.configured.values():
+        yield from _mismatches(control, controller)
+
+
+def _mismatches(control: ControlSystem, controller: Controller) -> Findings:
+    needed = INTERFACES.get(controller.family)
+    if needed is None or controller.type is None:
+        return
+    for joint in controller.joints:
+        offered = control.interfaces.get(joint.value)
+        if offered is None and control.moves(joint.value):
+            yield finding(
+                joint,
+                f"controller {controller.name!r} of type {controller.type.value} needs {needed} of "
+                f"joint {joint.value!r}, which no transmission offers",
+            )
+        if offered is None or offered.value == needed:
+            continue
+        yield finding(
+            controller.type,
+            f"controller {controller.name!r} of type {controller.type.value} needs {needed} of "
+            f"joint {joint.value!r}, whose transmission offers {offered.value}",
+            key=f"{controller.full_name} {needed}",
+            related=[(offered, f"the interface of joint {joint.value!r}")],
+        )
+
+
+def _config(kind: str) -> dict[str, object]:
+    return {
+        "@urdf": True,
+        "config/control.yaml": f"""arm:
+  shoulder_controller:
+    type: {kind}
+    joint: shoulder
+""",
+    }
+
+
+_ON_THE_ACTUATOR = """
+<transmission name="t">
+  <type>transmission_interface/SimpleTransmission</type>
+  <joint name="shoulder"/>
+  <actuator name="m"><hardwareInterface>PositionJointInterface</hardwareInterface></actuator>
+</transmission>
+"""
+
+GOOD = [
+    {"@urdf": True},
+    _config("my_controllers/Stepper"),
+    {**_config("position_controllers/JointPositionController"), "@urdf": _ON_THE_ACTUATOR},
+]
+BAD = [
+    _config("position_controllers/JointPositionController  # ^ CTL003"),
+    _config("diff_drive_controller/DiffDriveController  # ^ CTL003"),
+    {
+        **_config("effort_controllers/JointPositionController  # ^ CTL003"),
+        "@urdf": _ON_THE_ACTUATOR,
+    },
+]

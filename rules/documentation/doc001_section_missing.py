@@ -1,0 +1,94 @@
+"""A section of specifications.md is missing or empty.
+
+Teams choose a robot by these ten sections, and reviewers go through them one by one. A section with
+nothing to say still says so: "no additional restrictions".
+
+Fix: add the section, or write one sentence into it.
+Source: the template of the SubT challenge; 45 of 47 accepted sheets have all ten
+(`subt_standards.json`).
+"""
+
+from collections.abc import Sequence
+
+from checker.model.specification.sheet import Section, Specification
+from checker.resources import table
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+KEY = "sections"
+
+
+@rule("DOC001", "section-missing", Severity.WARNING)
+def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Findings:
+    """Look for headings that contain the words of `sections`; without any, the challenge's ten."""
+    wanted: Sequence[str] = sections or table("subt_standards")["specifications_md"]["required"]
+    found = {words: _sections(specification, words) for words in wanted}
+    missing = [words for words, having in found.items() if not having]
+    if missing and specification.unread:
+        yield unchecked(specification.unread)
+        missing = []
+    empty = [
+        having[0]
+        for having in found.values()
+        if having and all(specification.says_nothing(each) for each in having)
+    ]
+    said = []
+    if missing:
+        said.append(f"sections are missing: {', '.join(missing)}")
+    if empty:
+        said.append(f"sections are empty: {', '.join(each.title for each in empty)}")
+    for section in empty:
+        yield finding(section, "; ".join(said), key=KEY)
+    if missing and not empty:
+        yield finding(specification.source.whole(), said[0], key=KEY)
+
+
+def _sections(specification: Specification, words: str) -> list[Section]:
+    """Return the sections whose headings contain words, run together with others or not."""
+    words = words.casefold()
+    return [each for each in specification.sections if words in each.title.casefold()]
+
+
+_HEADINGS = (
+    "Description",
+    "Usage Instructions",
+    "Usage Rights",
+    "Cost and Scale",
+    "Sensors",
+    "Control",
+    "Motion Characteristics",
+    "Endurance Characteristics",
+    "Diversions from Physical Hardware of Rover",
+    '<a name="validation_links"></a>Rover Validation and Specification Links',
+)
+
+
+def _sheet(without: str = "", mark: str = "", empty: str = "") -> str:
+    sections = (
+        f"## {heading}\n" if heading == empty else f"## {heading}\nWords.\n"
+        for heading in _HEADINGS
+        if heading != without
+    )
+    return f"# Rover{mark}\n" + "\n".join(sections)
+
+
+_MARK = " <!-- ^ DOC001 -->"
+
+GOOD = [
+    {"specifications.md": _sheet()},
+    {"specifications.md": _sheet().replace("## Motion", "#### Rover's motion").lower()},
+    {
+        "specifications.md": _sheet().replace(
+            "Usage Instructions\nWords.", "Usage Instructions\n```\nroslaunch\n```"
+        )
+    },
+    {"specifications.md": _sheet().replace("## Control\nWords.", "## Control\n### A\nWords.")},
+]
+BAD = [
+    {"specifications.md": _sheet("Control", _MARK)},
+    {"specifications.md": _sheet().replace("Usage Rights\nWords.", f"Usage Rights{_MARK}")},
+    {
+        "specifications.md": _sheet("Control").replace(
+            "Usage Rights\nWords.", f"Usage Rights{_MARK}\n<!-- ask -->"
+        )
+    },
+]

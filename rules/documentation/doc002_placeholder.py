@@ -1,0 +1,64 @@
+"""A placeholder or struck-through text in specifications.md.
+
+What was to be filled in later is missing, and what was struck through still stands there: readers
+cannot tell which of the two counts.
+
+Fix: fill in the placeholder, or remove it; delete struck-through text.
+Source: SubT reviews ask to remove text that is struck through and links such as
+`https://youtu.be/xxxx` of the template (`subt_standards.json`).
+"""
+
+from checker.model.specification.leftovers import (
+    links_without_target,
+    placeholders,
+    struck_through,
+)
+from checker.model.specification.sheet import Specification
+from checker.rule import Findings, Severity, finding, rule
+
+SHOWN = 60
+
+
+@rule("DOC002", "placeholder-left", Severity.WARNING)
+def check(specification: Specification) -> Findings:
+    """Report placeholders, links without target and struck-through text."""
+    for left in placeholders(specification.markdown):
+        message = f"{_short(left.words)!r} is a placeholder"
+        yield finding(left, message, key=left.words.casefold()[:SHOWN])
+    for left in links_without_target(specification.markdown):
+        message = f"link {_short(left.words)!r} leads nowhere"
+        yield finding(left, message, key="leads nowhere")
+    for left in struck_through(specification.markdown):
+        yield finding(left, f"{_short(left.words)!r} is struck through: expected it to be deleted")
+
+
+def _short(words: str) -> str:
+    return words if len(words) <= SHOWN else f"{words[: SHOWN - 3]}..."
+
+
+_HEAD = "# Rover\n"
+_MARK = " <!-- ^ DOC002 -->"
+
+GOOD = [
+    {
+        "specifications.md": f"""{_HEAD}
+<!-- TODO: ask for the mass -->
+Commands go to `/<robot name>/cmd_vel` and `/<Robot Name>/odom`, about ~5 kg, ~6 W.
+```
+echo TODO > ~~list~~
+```
+[Video](https://youtu.be/xxkAt3xxx) <https://example.org/xx> \\<Test Link, https://youtu.be/abc/\\>
+<maximumLinearVelocity>5 5 2</maximumLinearVelocity>
+"""
+    },
+]
+BAD = [
+    {"specifications.md": f"{_HEAD}* Endurance test: TBD (May){_MARK}\n"},
+    {"specifications.md": f"{_HEAD}* [Video](https://youtu.be/xxxxxxxxx/){_MARK}\n"},
+    {"specifications.md": f"{_HEAD}See [Guide](https://example.com/\\<fix_me\\>).{_MARK}\n"},
+    {"specifications.md": f"{_HEAD}### Diversions of \\<Robot Name\\>{_MARK}\n"},
+    {"specifications.md": f"{_HEAD}* \\<Video Link(s), e.g.,https://youtu.be/abc/\\>{_MARK}\n"},
+    {"specifications.md": f"{_HEAD}* [Datasheet](){_MARK}\n"},
+    {"specifications.md": f"{_HEAD}Battery life of ~~5400~~ 3600 s{_MARK}\n"},
+    {"specifications.md": f"{_HEAD}Battery life of <del>5400 s{_MARK}\n\nand more</del> 1 h\n"},
+]

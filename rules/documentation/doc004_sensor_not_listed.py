@@ -1,0 +1,128 @@
+"""A sensor of the model that specifications.md does not list.
+
+Teams choose a robot by its sheet: a sensor that it does not list is one that nobody uses, or one
+that the real robot does not carry. Gas detector and barometer are on every robot and need no entry.
+
+Fix: list the sensor in the section "Sensors" with its device and what models it, or remove it from
+the model.
+Source: SubT maintainers compare model and sheet sensor by sensor; a review asked for the thermal
+camera to be listed.
+"""
+
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+
+from checker.model.components import Sensor
+from checker.model.known_devices import KnownDevices, known_devices
+from checker.model.robot import Robot
+from checker.model.specification.quantities import configurations_in
+from checker.model.specification.sensor_kinds import SensorKind, kinds_in
+from checker.model.specification.sensor_types import SUBSTITUTES, TYPES
+from checker.model.specification.sheet import Section, Specification
+from checker.package.package import Package
+from checker.package.submissions import configuration_number
+from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.source.markdown import PassageKind
+
+EXEMPT = ("air_pressure",)
+MOST_PASSAGES = 1000
+NOTED = 8
+_OTHER_SHEET = re.compile(r"\]\(([^()\s#]{1,200}\.md)[)#]", re.IGNORECASE)
+
+
+@rule("DOC004", "sensor-not-listed", Severity.WARNING)
+def check(
+    package: Package,
+    robot: Robot,
+    specification: Specification,
+    *,
+    exempt: tuple[str, ...] = EXEMPT,
+) -> Findings:
+    """Compare the model's types of sensors with what the section names for this configuration."""
+    section = specification.section("sensors")
+    if section is None or specification.says_nothing(section) or not specification.sensors:
+        return
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+    if elsewhere := _OTHER_SHEET.search(specification.stretch_of(section).text):
+        yield unchecked(f"the sheet leaves sensors to {elsewhere.group(1)}")
+        return
+    texts = list(_texts(section, configuration_number(package.name)))
+    listed = _types_in(texts)
+    devices = known_devices()
+    unlisted = defaultdict(list)
+    for sensor in robot.sensors:
+        kind = _kind(sensor)
+        if kind is not None and sensor.type.value not in (*exempt, *listed):
+            unlisted[kind].append(sensor)
+    for kind, sensors in unlisted.items():
+        if not _is_named(devices, texts, sensors[0]):
+            name = kind.value.replace("_", " ")
+            yield finding(
+                section,
+                f"the model has {len(sensors)} × {name}, and no {name} is listed",
+                related=[(each, f"sensor {each.name.value!r}") for each in sensors[:NOTED]],
+            )
+
+
+def _texts(section: Section, number: int | None) -> Iterator[str]:
+    """Yield what the section says of one configuration, or of all."""
+    lead: frozenset[int] = frozenset()
+    for passage in section.passages[:MOST_PASSAGES]:
+        named = configurations_in(passage.words)
+        if passage.kind is not PassageKind.ITEM:
+            lead = named
+        # Later configurations add to earlier ones: `Sensor Config 2 adds 12 breadcrumbs`.
+        applies = named or lead
+        if not applies or number is None or min(applies) <= number:
+            yield passage.words
+
+
+def _types_in(texts: list[str]) -> frozenset[str]:
+    """Return the types of `<sensor>` that words may mean."""
+    kinds = {kind for text in texts for kind in kinds_in(text, text)}
+    types = (TYPES.get(kind, frozenset()) | SUBSTITUTES.get(kind, frozenset()) for kind in kinds)
+    return frozenset().union(*types)
+
+
+def _is_named(devices: KnownDevices, texts: list[str], sensor: Sensor) -> bool:
+    """Whether a device is named that may be a sensor, without a word of what it is."""
+    types = {sensor.type.value}
+    return any(devices.named_in(text, types) is not None for text in texts)
+
+
+def _kind(sensor: Sensor) -> SensorKind | None:
+    """Return the kind of sensor in the words of a sheet; None for types that have none."""
+    kinds = (kind for kind, types in TYPES.items() if sensor.type.value in types)
+    return next(kinds, None)
+
+
+_SHEET = "# Rover\n### Sensors{mark}\n"
+_MARK = " <!-- ^ DOC004 -->"
+_THERMAL = '<sensor name="t" type="thermal"/><sensor name="i" type="imu"/>'
+
+
+def _example(sensors: str, items: str, mark: str = "") -> dict[str, str]:
+    return {
+        "@fragment": sensors,
+        "specifications.md": _SHEET.format(mark=mark) + items,
+    }
+
+
+GOOD = [
+    _example(_THERMAL, "* IMU: Microstrain GX5\n* 1 x thermal camera\n"),
+    _example(_THERMAL, "It has an IMU.\n* FLIR Boson thermography\n"),
+    _example('<sensor name="p" type="air_pressure"/>', "* IMU\n"),
+    _example('<sensor name="c" type="rgbd_camera"/>', "* 2 x cameras that measure depth\n"),
+    _example('<sensor name="l" type="gpu_lidar"/>', "* IMU\n* Velodyne VLP-16\n"),
+    _example('<sensor name="l" type="gpu_lidar"/>', ""),
+    _example('<sensor name="c" type="contact"/>', "* IMU\n"),
+]
+BAD = [
+    _example(_THERMAL, "* IMU: Microstrain GX5\n", _MARK),
+    _example(_THERMAL, "* IMU\n* Sensor configurations 3 and 4 carry a thermal camera\n", _MARK),
+    _example(
+        '<sensor name="c" type="camera"/>' + _THERMAL, "* thermal camera, IMU\n* IMU\n", _MARK
+    ),
+]

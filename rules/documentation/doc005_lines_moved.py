@@ -1,0 +1,182 @@
+"""Lines that specifications.md names and that no longer hold what it says.
+
+Reviewers look up each limit where the sheet says it stands. Line numbers go wrong with the next
+edit of the file, or come from another robot's sheet. One line above and below is allowed.
+
+Fix: correct the line numbers, or name the parameter instead: `max_velocity` in spawner.rb.
+Source: SubT sheets give file and line of each limit; the numbers are from their authors.
+"""
+
+import posixpath
+import re
+from collections.abc import Iterator, Sequence
+from itertools import islice
+
+from checker.model.specification.line_references import LineReference
+from checker.model.specification.motion import Limit
+from checker.model.specification.sheet import Specification
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.source.text import SourceText
+
+_LIMITS = ("vel", "accel", "effort", "limit", "lower", "upper", "speed", "steer", "power")
+TAGS = (
+    (r"velocit|speed", ("vel", "speed")),
+    (r"accelerat", ("accel",)),
+    (r"torque|effort|force", ("effort", "torque", "force")),
+    (r"turning radius|steering|knuckle", ("steer", "radius", "wheel_base", "upper", "lower")),
+    (r"\bangle|rotation", ("lower", "upper", "angle", "angular", "steer")),
+    (r"spring", ("spring",)),
+    (r"damping", ("damping",)),
+    (r"friction", ("friction", "mu")),
+    (r"batter|endurance|run ?time", ("power_load", "capacity", "charge", "battery")),
+    (r"colou?r", ("ambient", "diffuse", "specular", "emissive", "colo")),
+    (r"\bmass|weight", ("mass",)),
+    (r"limit|constraint", _LIMITS),
+)
+"""Words of a sheet, and what the names of parameters hold that they may mean."""
+
+_EARLIER = re.compile(r".*\blines?\s+\d[\d\s,to&–-]*(?:and\s+\d+)?", re.IGNORECASE)
+_NUMBER = re.compile(r"(?<![\w.])-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?(?!\w)", re.IGNORECASE)
+_LONGEST = 400
+_MOST_LINES = 200
+MOST_REFERENCES = 200
+
+
+@rule("DOC005", "lines-moved", Severity.WARNING)
+def check(
+    package: Package, specification: Specification, *, around: int = 1, tolerance: float = 0.02
+) -> Findings:
+    """Read the lines that the sheet names, `around` more on each side, and look for what it says.
+
+    `tolerance` is the share by which numbers may differ.
+    """
+    for reference in specification.line_references[:MOST_REFERENCES]:
+        path = _path(package, specification, reference.file.value)
+        source = package.read(path) if path else None
+        if not isinstance(source, SourceText):
+            yield unchecked(f"{reference.file.value}, which the sheet names, is not at hand")
+            continue
+        text = "\n".join(_lines(source, reference, around)).casefold()
+        tags = _tags(reference)
+        where = f"{path}, {_written(reference)}"
+        if not text:
+            yield finding(reference, f"{where}: the file has {_length(source)} lines")
+        elif tags and not any(tag in text for tag in tags):
+            yield finding(reference, f"{where}: expected {_expected(reference)} there")
+        elif wrong := _other_number(_claimed(specification, reference), text, tolerance):
+            yield finding(reference, f"{where}: expected {wrong} there, as the sheet says")
+
+
+def _path(package: Package, sheet: Specification, written: str) -> str | None:
+    """Return the file that a sheet means, which names it from its own folder or by its name."""
+    folder = posixpath.dirname(sheet.source.file)
+    for path in (written, f"launch/{written}"):
+        if package.exists(joined := posixpath.normpath(posixpath.join(folder, path))):
+            return joined
+    name = posixpath.basename(written)
+    named = [each.path for each in package.index.files if posixpath.basename(each.path) == name]
+    return named[0] if len(named) == 1 else None
+
+
+def _lines(source: SourceText, reference: LineReference, around: int) -> Iterator[str]:
+    """Yield the lines that are named, those around among them, 200 at most."""
+    last_line = _length(source)
+    numbers = (
+        number
+        for first, last in reference.ranges
+        if first <= last_line
+        for number in range(max(first - around, 1), min(last + around, last_line) + 1)
+    )
+    for number in islice(numbers, _MOST_LINES):
+        yield source.line(number)[:_LONGEST]
+
+
+def _length(source: SourceText) -> int:
+    return source.text.count("\n") + (not source.text.endswith("\n"))
+
+
+def _claim(reference: LineReference) -> str:
+    """Return the words of this reference alone, without those of one in front of it."""
+    return _EARLIER.sub("", reference.claim).casefold()
+
+
+def _tags(reference: LineReference) -> Sequence[str]:
+    claim = _claim(reference)
+    if not re.search(r"\w{3}", claim):
+        return _LIMITS
+    return [tag for words, tags in TAGS if re.search(words, claim) for tag in tags]
+
+
+def _expected(reference: LineReference) -> str:
+    claim = _claim(reference)
+    found = (re.search(words, claim) for words, _ in TAGS)
+    words = dict.fromkeys(_whole_word(claim, each) for each in found if each)
+    return " or ".join(words) or "a limit"
+
+
+def _whole_word(text: str, found: re.Match[str]) -> str:
+    rest = re.match(r"\w*", text[found.end() :])
+    return found.group() + (rest.group() if rest else "")
+
+
+def _claimed(sheet: Specification, reference: LineReference) -> Limit | None:
+    """Return the last limit that the sheet states on the same line in front of a reference."""
+    start = reference.span.start
+    text = sheet.source.text
+    before = [
+        limit
+        for limit in sheet.limits
+        if limit.span.end <= start and "\n" not in text[limit.span.end : start]
+    ]
+    return before[-1] if before else None
+
+
+def _other_number(limit: Limit | None, text: str, tolerance: float) -> str:
+    """Return the number that the lines should hold and do not; empty when they do."""
+    numbers = [abs(float(each)) for each in _NUMBER.findall(text)]
+    if limit is None or not numbers:
+        return ""
+    wanted = {abs(each) for each in (limit.minimum, limit.maximum) if each is not None}
+    near = any(abs(n - each) <= tolerance * max(each, n) for n in numbers for each in wanted)
+    return "" if near else f"{limit.maximum:g}"
+
+
+def _written(reference: LineReference) -> str:
+    ranges = [str(a) if a == b else f"{a}-{b}" for a, b in reference.ranges]
+    return f"{'line' if len(ranges) == 1 and '-' not in ranges[0] else 'lines'} {', '.join(ranges)}"
+
+
+_MODEL = """<joint name="w" type="revolute">
+  <parent>base_link</parent>
+  <child>wheel</child>
+  <axis>
+    <limit>
+      <effort>20</effort>
+      <velocity>5</velocity>
+    </limit>
+  </axis>
+</joint>
+<link name="wheel"/>
+"""
+_HEAD = "# Rover\n### Motion Characteristics\n"
+_MARK = " <!-- ^ DOC005 -->"
+
+
+def _example(line: str) -> dict[str, str]:
+    return {"@fragment": _MODEL, "specifications.md": f"{_HEAD}{line}\n"}
+
+
+GOOD = [
+    _example("* Front wheel velocity and torque &mdash; model.sdf, lines 10 and 11"),
+    _example("* Front wheel velocity and torque &mdash; model.sdf, lines 11-13"),
+    _example("* What follows stands in model.sdf, line 2"),
+    _example("* Velocity of up to 5 m/s (model.sdf, lines 10 and 11)"),
+    _example("* model.sdf, lines 8-12"),
+]
+BAD = [
+    _example(f"* Front wheel velocity and torque &mdash; model.sdf, lines 5 and 6{_MARK}"),
+    _example(f"* Velocity limits in `model.sdf`, lines 1415 and 1417{_MARK}"),
+    _example(f"* _x_ velocity range from -1 m/s to 1 m/s (model.sdf, line 11){_MARK}"),
+    _example(f"* model.sdf, lines 1-3{_MARK}"),
+]

@@ -1,0 +1,129 @@
+"""Title or commands of specifications.md are about another robot or configuration.
+
+A sheet that begins as a copy keeps the other's number or starts the other robot: whoever follows
+it drives something else. Words about other configurations are fine; what counts is what the sheet
+says of itself. Other names in its text are PKG012's.
+
+Fix: write this package's name and number.
+Source: SubT reviews of sheets that were copied from another configuration.
+"""
+
+import re
+from collections.abc import Iterator
+
+from checker.model.specification.sheet import Specification
+from checker.package.package import Package
+from checker.package.submissions import NAME, configuration_number, is_same_robot
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.text import Span
+
+_NUMBERED = r"(?:sensor[\s_]+)?config(?:uration)?[\s_#]+(\d{1,3})\b(?!\s*(?:to|and|-|,|&|or)\s*\d)"
+_TITLE = re.compile(_NUMBERED, re.IGNORECASE)
+_ITSELF = re.compile(
+    rf"\b(?:this|the)\s+(?:[\w-]+\s+){{1,4}}with\s+{_NUMBERED}(?=[\s,]+(?:includes|carries|has|is)\b)"
+    rf"|\bvalidation\s+for\b[^.]{{0,120}}?\bwith\s+{_NUMBERED}"
+    rf"|\bthis\s+{_NUMBERED}",
+    re.IGNORECASE,
+)
+_COMMAND = re.compile(
+    r"\b(?:roslaunch|ign\s+launch|rosrun|robotConfig\d*:=|modelName:=)[^\n]{0,500}", re.IGNORECASE
+)
+_VARIABLE = re.compile(r"\bvariable\s+name\s+`{0,2}(\w{1,200})", re.IGNORECASE)
+
+
+@rule("DOC006", "other-configuration", Severity.WARNING)
+def check(package: Package, specification: Specification) -> Findings:
+    """Compare title, commands, and what the sheet says of itself, with the package's name."""
+    source = specification.source
+    # An inherited sheet speaks of the package that it lies in.
+    owner = source.file.split("/")[1] if source.file.startswith("../") else package.name
+    number = configuration_number(owner)
+    if number is None:
+        return
+    yield from _title(specification, owner, number)
+    yield from _commands(specification, owner)
+    yield from _of_itself(specification, owner, number)
+
+
+def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
+    """Report another number in the title; a title of several numbers describes them all."""
+    title = sheet.sections[0].span if sheet.sections else sheet.source.whole()
+    numbers = [int(found) for found in _TITLE.findall(title.text)]
+    if len(numbers) == 1 and numbers[0] != number:
+        message = f"title says configuration {numbers[0]}, the package is {owner}"
+        yield finding(title, message, severity=Severity.ERROR)
+
+
+def _commands(sheet: Specification, owner: str) -> Iterator[Finding]:
+    """Report names of other robots in commands, and in what the sheet calls its variable."""
+    text = sheet.source.text[: len(sheet.markdown.text)]
+    stretches = [found.span() for found in _COMMAND.finditer(text)]
+    stretches += [found.span(1) for found in _VARIABLE.finditer(sheet.markdown.text)]
+    commands = [(start, list(NAME.finditer(_apart(text[start:end])))) for start, end in stretches]
+    own = [any(_is(name, owner) for name in names) for _, names in commands]
+    reported: set[int] = set()
+    for (start, names), names_itself in zip(commands, own, strict=True):
+        for name in names:
+            at = start + name.start()
+            other = not is_same_robot(name.group(), owner)
+            # A command may start a team, and a sheet may show how each configuration starts.
+            if names_itself or at in reported or (any(own) and not other):
+                continue
+            reported.add(at)
+            yield finding(
+                Span(sheet.source, at, start + name.end()),
+                f"starts {name.group()}, the package is {owner}",
+                severity=Severity.ERROR if other else Severity.WARNING,
+                key=f"starts {name.group().casefold()}",
+            )
+
+
+def _is(name: re.Match[str], owner: str) -> bool:
+    return name.group().casefold() == owner.casefold()
+
+
+def _apart(command: str) -> str:
+    """Return a command with its paths apart, so that names in them are found as well."""
+    return command.replace("/", " ")
+
+
+def _of_itself(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
+    """Report where the sheet says which configuration it describes, and it is another one."""
+    for passage in sheet.markdown.passages:
+        for found in _ITSELF.finditer(passage.text):
+            group = next(i for i, each in enumerate(found.groups(), 1) if each)
+            if int(found.group(group)) != number:
+                yield finding(
+                    passage.part(*found.span()),
+                    f"the sheet says that it is about configuration {found.group(group)}, the "
+                    f"package is {owner}",
+                    key="about another configuration",
+                )
+
+
+_MARK = " <!-- ^ DOC006 -->"
+
+
+def _sheet(*lines: str) -> dict[str, str]:
+    return {"specifications.md": "\n".join(lines) + "\n"}
+
+
+GOOD = [
+    _sheet(
+        "# Acme Rover Sensor Config 1",
+        "Validation for the Rover with Sensor Configuration 1. It is launched using an",
+        "`ign launch` command with the variable name `ACME_ROVER_SENSOR_CONFIG_1`.",
+        "```",
+        "ign launch competition.ign robotConfig1:=ACME_ROVER_SENSOR_CONFIG_1",
+        "```",
+        "This rover with sensor configuration 1 includes an IMU.",
+        "Sensor configuration 2 adds 12 breadcrumbs. Based on x1_sensor_config_4.",
+    ),
+    _sheet("# Acme Rover Sensor Config 1 to 4", "Acme Rover with sensor configuration 3 flies."),
+]
+BAD = [
+    _sheet(f"# Acme Rover Sensor Config 2{_MARK}"),
+    _sheet("# R", f"ign launch c.ign robotConfig1:=X1_SENSOR_CONFIG_4{_MARK}"),
+    _sheet("# R", f"Use the variable name `acme_rover_sensor_config_3`.{_MARK}"),
+    _sheet("# R", f"This rover with sensor configuration 2 includes an IMU.{_MARK}"),
+]

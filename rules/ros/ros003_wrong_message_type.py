@@ -1,0 +1,162 @@
+"""A bridge with another message type or direction than its topic has.
+
+The bridge starts, finds no message that it can convert, and its ROS topic stays silent. A bridge
+of `cmd_vel` that leads from Gazebo to ROS leaves the robot standing. And where the types fit, a
+LaserScan holds but one row of a lidar that has many, and no lidar of Gazebo gives a Range.
+
+Fix: write the types of the message, and `[` for Gazebo to ROS, `]` for ROS to Gazebo; bridge
+`scan/points` of a lidar with several rows as PointCloud2.
+Source: message types of gz-sensors and Gazebo's systems, conversions of ros_ign_bridge; a review
+had the LaserScan of a lidar with 16 rows replaced.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+
+from checker.model.components import Plugin, Sensor
+from checker.model.launch.bridge import Bridge, Direction
+from checker.model.launch.graph import LaunchGraph
+from checker.model.launch.topics import Channel, by_topic, channels
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+_WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}
+_RANGE = "sensor_msgs/Range"
+_VECTOR, _SINGLE = "ignition.msgs.Pose_V", "ignition.msgs.Pose"
+
+
+@rule("ROS003", "wrong-message-type", Severity.ERROR)
+def check(robot: Robot, launch: LaunchGraph) -> Findings:
+    """Report bridges whose types or direction do not fit what they bridge."""
+    for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):
+        if reason:
+            yield unchecked(reason)
+    ends = _ends(robot)
+    bridged = by_topic(launch.bridges)
+    for topic, bridges in bridged.items():
+        here = ends.get(topic, ())
+        for bridge in bridges:
+            for fault in _faults(bridge, here):
+                yield finding(bridge, f"{_named(bridge)} {fault}")
+        fault = _one_row_of_many(here)
+        if fault and f"{topic}/points" not in bridged:
+            yield finding(bridges[0], f"{_named(bridges[0])} {fault}")
+
+
+def _ends(robot: Robot) -> dict[str, list[Channel]]:
+    """Return what of the robot is behind each topic; several plugins may have one in common."""
+    ends: dict[str, list[Channel]] = defaultdict(list)
+    for channel in channels(robot):
+        for topic in channel.topics:
+            ends[topic].append(channel)
+    return ends
+
+
+def _named(bridge: Bridge) -> str:
+    assumed = bridge.node.assumed_from
+    return f"{assumed}, as it is assumed to be," if assumed else f"bridge {bridge.node.name!r}"
+
+
+def _faults(bridge: Bridge, ends: Sequence[Channel]) -> Iterator[str]:
+    ros, ign = _ros(bridge.ros_type), _ign(bridge.ign_type)
+    ros_types = list(dict.fromkeys(each for end in ends for each in end.ros_types))
+    if not ros_types:
+        if ros == _RANGE:
+            yield f"gives {_RANGE}, which nothing in Gazebo publishes; expected LaserScan"
+        return
+    whose = f"{ends[0].what} of {ends[0].owner_name}"
+    ign_types = list(dict.fromkeys(each for end in ends for each in _stated_types(end)))
+    if ign not in ign_types:
+        yield f"takes {whose} as {bridge.ign_type}, expected {' or '.join(ign_types)}"
+    elif ros not in ros_types:
+        yield f"passes {whose} as {bridge.ros_type}, expected {ros_types[0]}"
+    ways = {end.direction for end in ends}
+    if bridge.direction not in (*ways, Direction.BOTH):
+        found, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
+        yield f"passes {whose} from {found}, expected {expected}"
+
+
+def _stated_types(channel: Channel) -> tuple[str, ...]:
+    """Return Gazebo's types of a channel; PosePublisher states which of two it publishes."""
+    plugin = channel.owner
+    if not isinstance(plugin, Plugin) or _VECTOR not in channel.ign_types:
+        return channel.ign_types
+    stated = next((text.value.lower() for text in plugin.at("use_pose_vector_msg")), "false")
+    return (_VECTOR,) if stated in ("1", "true") else (_SINGLE,)
+
+
+def _one_row_of_many(ends: Sequence[Channel]) -> str:
+    sensor = ends[0].owner if ends and ends[0].what == "scan" else None
+    if not isinstance(sensor, Sensor) or sensor.lidar is None:
+        return ""
+    rows = sensor.lidar.rows
+    if rows <= 1:
+        return ""
+    return (
+        f"passes the LaserScan of {ends[0].owner_name}, which holds one of its {rows:g} rows; "
+        "expected its scan/points as PointCloud2"
+    )
+
+
+def _ros(message: str) -> str:
+    """Return a message type as ROS 1 spells it."""
+    return message.replace("/msg/", "/")
+
+
+def _ign(message: str) -> str:
+    """Return a message type as Gazebo Dome spells it."""
+    return "ignition." + message.removeprefix("gz.") if message.startswith("gz.") else message
+
+
+_TOPICS = "launch/vehicle_topics.launch"
+_LIDAR = """<sensor name="lidar" type="gpu_lidar"><lidar><scan>
+  <horizontal><samples>440</samples></horizontal><vertical><samples>{}</samples></vertical>
+</scan></lidar></sensor>"""
+_HERE = "/world/w/model/m/link/base_link/sensor/lidar/scan"
+_SCAN = f"{_HERE}@sensor_msgs/LaserScan[ignition.msgs.LaserScan"
+_POINTS = f"{_HERE}/points@sensor_msgs/PointCloud2[ignition.msgs.PointCloudPacked"
+_POINTS_OF_GZ = f"{_HERE}/points@sensor_msgs/msg/PointCloud2[gz.msgs.PointCloudPacked"
+_CAMERA = '<sensor name="lidar" type="camera"/>'
+_INFO = "/world/w/model/m/link/base_link/sensor/lidar/camera_info"
+
+
+def _plugin(name: str, content: str = "") -> str:
+    return f'<plugin filename="p.so" name="ignition::gazebo::systems::{name}">{content}</plugin>'
+
+
+def _robot(fragment: str, *bridges: str, program: str = "parameter_bridge") -> dict[str, str]:
+    nodes = (
+        f'<node pkg="ros_ign_bridge" type="{program}" name="b{number}"\n args="{args}"/>'
+        for number, args in enumerate(bridges)
+    )
+    lines = "\n".join(("<launch>", *nodes, "</launch>"))
+    marked = lines.replace('MARK"/>', '"/>  <!-- ^ ROS003 -->')
+    return {"@fragment": fragment, _TOPICS: marked}
+
+
+_MARK = "MARK"
+_TWIST = "/model/m/cmd_vel@geometry_msgs/Twist{}ignition.msgs.Twist"
+_POSE = "/model/m/pose@{}[{}"
+_POSES = "<use_pose_vector_msg>true</use_pose_vector_msg>"
+
+GOOD = [
+    _robot(_LIDAR.format(1), _SCAN),
+    _robot(_LIDAR.format(16), _POINTS),
+    _robot(_LIDAR.format(16), _SCAN, _POINTS),
+    _robot(_LIDAR.format(16), _POINTS_OF_GZ),
+    _robot(_plugin("DiffDrive"), _TWIST.format("]")),
+    _robot(_plugin("DiffDrive"), _TWIST.format("@")),
+    _robot(_plugin("PosePublisher", _POSES), _POSE.format("tf2_msgs/TFMessage", _VECTOR)),
+    _robot(_plugin("PosePublisher"), _POSE.format("geometry_msgs/TransformStamped", _SINGLE)),
+]
+BAD = [
+    _robot(_LIDAR.format(16), _SCAN + _MARK),
+    _robot(_LIDAR.format(1), f"{_HERE}@sensor_msgs/Range[ignition.msgs.LaserScan{_MARK}"),
+    _robot(_LIDAR.format(1), f"/range@sensor_msgs/Range[ignition.msgs.LaserScan{_MARK}"),
+    _robot(_plugin("DiffDrive"), _TWIST.format("[") + _MARK),
+    _robot(_CAMERA, _INFO + _MARK, program="image_bridge"),
+    _robot(
+        _plugin("PosePublisher", _POSES),
+        _POSE.format("geometry_msgs/TransformStamped", _SINGLE) + _MARK,
+    ),
+]

@@ -1,0 +1,168 @@
+"""An optical_frame_publisher whose remaps are missing, swapped or copied.
+
+It takes whatever its remaps name: without one, or with that of another camera, it waits for a
+topic that nobody gives, or gives one camera's picture out under the name of another.
+
+Fix: remap `input/image` and `input/camera_info` to the topics of one camera's bridges, and
+`output/image` and `output/camera_info` to names of their own; with `args="depth"` the images
+alone.
+Source: a SubT review that had the remaps of four copied publishers corrected; the remaps of 99
+packages.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+
+from checker.model.launch.bridge import Bridge, Direction
+from checker.model.launch.graph import LaunchGraph
+from checker.model.launch.optical import OpticalFrame, optical_frames
+from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.spawner.reader import SAMPLE_NAME
+
+_TYPES = {"input/image": "Image", "input/camera_info": "CameraInfo"}
+_RENAMES = "topic_tools"
+"""Package of nodes that give topics out under other names."""
+
+_Given = Mapping[str, Sequence[Bridge]]
+
+
+@rule("ROS007", "wrong-optical-remap", Severity.ERROR)
+def check(launch: LaunchGraph) -> Findings:
+    """Report optical_frame_publishers that do not take what a bridge gives."""
+    for reason in launch.unread:
+        yield unchecked(reason)
+    frames = [frame for frame in optical_frames(launch.nodes) if not frame.node.assumed_from]
+    given: dict[str, list[Bridge]] = defaultdict(list)
+    for bridge in (*launch.bridges, *(launch.dormant_bridges if launch.unread else ())):
+        if bridge.direction is not Direction.TO_IGN:
+            given[bridge.ros_topic].append(bridge)
+    complete = not launch.unseen_bridges and not (launch.unread and launch.dormant_includes)
+    renamed = any(node.package == _RENAMES for node in launch.nodes)
+    for frame in frames:
+        for fault in _faults(frame, given, sure=complete and not renamed):
+            yield finding(frame.node, f"{_shown(frame.node.full_name)} {fault}")
+    yield from _copies(frames)
+    if launch.unseen_bridges and any(_takes_unknown(frame, given) for frame in frames):
+        yield unchecked(launch.unseen_bridges[0])
+
+
+def _takes_unknown(frame: OpticalFrame, given: _Given) -> bool:
+    topics = (frame.remapped.get(name) for name in _TYPES)
+    return any(topic is not None and topic not in given for topic in topics)
+
+
+def _faults(frame: OpticalFrame, given: _Given, *, sure: bool) -> Iterator[str]:
+    """Say what is wrong with one publisher.
+
+    Args:
+        frame: The publisher.
+        given: Bridges by the ROS topic that they give.
+        sure: Whether nothing but the bridges gives topics.
+    """
+    missing = [name for name in frame.needed if name not in frame.remapped]
+    if missing:
+        yield f"has no remap of {' and '.join(missing)}"
+    for name, message in _TYPES.items():
+        topic = frame.remapped.get(name)
+        if topic is None or "$(" in topic:
+            continue
+        output = frame.remapped.get(name.replace("input", "output"), "")
+        if output == topic:
+            yield f"gives {name} out under the topic that it takes it from, {_shown(topic)}"
+        elif topic not in given and output in given:
+            yield f"has {name} and {name.replace('input', 'output')} swapped"
+        elif topic not in given and sure:
+            yield f"takes {name} from {_shown(topic)}, which no bridge gives"
+        elif topic in given and not any(_is(bridge, message) for bridge in given[topic]):
+            yield f"takes {name} from {_shown(topic)}, which is no {message}"
+    if _of_two_cameras(frame, given):
+        yield "takes image and camera_info of different sensors"
+
+
+def _shown(name: str) -> str:
+    return name.replace(SAMPLE_NAME, "<name>")
+
+
+def _is(bridge: Bridge, message: str) -> bool:
+    return bridge.ros_type.rsplit("/", 1)[-1] == message
+
+
+def _of_two_cameras(frame: OpticalFrame, given: _Given) -> bool:
+    images, infos = (
+        {
+            (topic.link, topic.sensor)
+            for bridge in given.get(frame.remapped.get(name, ""), ())
+            if (topic := bridge.sensor) is not None and topic.suffix
+        }
+        for name in _TYPES
+    )
+    return bool(images and infos) and not images & infos
+
+
+def _copies(frames: Sequence[OpticalFrame]) -> Findings:
+    """Report publishers that take or give the same picture as an earlier one."""
+    first: dict[tuple[str, str], OpticalFrame] = {}
+    for frame in frames:
+        for name, does in (("input/image", "takes"), ("output/image", "gives")):
+            topic = frame.remapped.get(name, "")
+            earlier = first.setdefault((name, topic), frame) if topic else frame
+            if earlier is not frame:
+                yield finding(
+                    frame.node,
+                    f"{_shown(frame.node.full_name)} {does} {_shown(topic)}, as "
+                    f"{_shown(earlier.node.full_name)} does",
+                    related=[(earlier.node, "the first of them")],
+                )
+                break
+
+
+_TOPICS = "launch/vehicle_topics.launch"
+_PREFIX = "/world/w/model/m/link/l/sensor"
+
+
+def _bridges(camera: str) -> str:
+    return f"""<node pkg="ros_ign_image" type="image_bridge" name="{camera}_image"
+  args="{_PREFIX}/{camera}/image">
+  <remap from="{_PREFIX}/{camera}/image" to="{camera}/image_raw"/>
+</node>
+<node pkg="ros_ign_bridge" type="parameter_bridge" name="{camera}_info"
+  args="{_PREFIX}/{camera}/camera_info@sensor_msgs/CameraInfo[ignition.msgs.CameraInfo">
+  <remap from="{_PREFIX}/{camera}/camera_info" to="{camera}/camera_info"/>
+</node>"""
+
+
+def _optical(*remaps: str, args: str = "", mark: str = "") -> str:
+    """Make a publisher of remaps to an image, its output, a camera_info and its output."""
+    names = ("input/image", "output/image", "input/camera_info", "output/camera_info")
+    lines = [
+        f'<remap from="{name}" to="{topic}"/>'
+        for name, topic in zip(names, remaps, strict=False)
+        if topic
+    ]
+    head = f'<node pkg="subt_ros" type="optical_frame_publisher" name="o{mark}" args="{args}">'
+    return "\n".join((head + ("  <!-- ^ ROS007 -->" if mark else ""), *lines, "</node>"))
+
+
+def _launch(*nodes: str) -> dict[str, str]:
+    return {_TOPICS: "\n".join(("<launch>", *nodes, "</launch>"))}
+
+
+_BOTH = _bridges("a") + _bridges("b")
+_FINE = ("a/image_raw", "a/optical/image_raw", "a/camera_info", "a/optical/camera_info")
+_RELAY = '<node pkg="topic_tools" type="relay" name="relay" args="a/image_raw c/image_raw"/>'
+
+GOOD = [
+    _launch(_BOTH, _optical(*_FINE)),
+    _launch(_BOTH, _optical(*_FINE[:2], args="depth")),
+    _launch(_BOTH, _RELAY, _optical("c/image_raw", *_FINE[1:])),
+]
+BAD = [
+    _launch(_BOTH, _optical(*_FINE[:2], mark="1")),
+    _launch(_BOTH, _optical("", *_FINE[1:], mark="1")),
+    _launch(_BOTH, _optical(_FINE[1], _FINE[0], *_FINE[2:], mark="1")),
+    _launch(_BOTH, _optical(_FINE[0], _FINE[0], *_FINE[2:], mark="1")),
+    _launch(_BOTH, _optical("c/image_raw", *_FINE[1:], mark="1")),
+    _launch(_BOTH, _optical("a/camera_info", *_FINE[1:], mark="1")),
+    _launch(_BOTH, _optical(*_FINE[:2], "b/camera_info", _FINE[3], mark="1")),
+    _launch(_BOTH, _optical(*_FINE), _optical(_FINE[0], "b/optical", *_FINE[2:], mark="1")),
+]

@@ -1,0 +1,75 @@
+"""Two nodes of one name.
+
+ROS knows a node by its full name: roslaunch refuses a file that starts two of one name, and of two
+files the second node shuts down the first. Its topics are then silent.
+
+Fix: give each node a name of its own, or put the nodes into groups with different `ns`.
+Source: ROS names (wiki.ros.org/Names), roslaunch XML specification; review findings of cameras
+whose `optical_frame_publisher` was copied with its name.
+"""
+
+from collections import defaultdict
+
+from checker.model.launch.graph import LaunchGraph, Node
+from checker.model.launch.substitution import is_known
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+_SHOWN = 20
+"""Further nodes of the name that are pointed at."""
+
+
+@rule("ROS008", "node-name-twice", Severity.ERROR)
+def check(launch: LaunchGraph) -> Findings:
+    """Report every name that more than one node gets."""
+    for reason in launch.unread:
+        yield unchecked(reason)
+    named: dict[str, list[Node]] = defaultdict(list)
+    for node in launch.nodes:
+        if node.name and is_known(node.full_name):
+            named[node.full_name].append(node)
+    for name, (first, *others) in named.items():
+        if others:
+            again = "again" if len(others) == 1 else f"{len(others)} times again"
+            yield finding(
+                others[0],
+                f"the node name {name!r} is used {again}; the first is {_program(first)}",
+                related=[
+                    (first, "the first node of the name"),
+                    *((node, "and here") for node in others[1 : _SHOWN + 1]),
+                ],
+            )
+
+
+def _program(node: Node) -> str:
+    return f"{node.type!r} of {node.package!r}"
+
+
+def _launch(*nodes: str) -> dict[str, str]:
+    lines = "\n".join(nodes)
+    text = f'<launch>\n<arg name="name"/>\n<group ns="$(arg name)">\n{lines}\n</group>\n</launch>\n'
+    return {"launch/vehicle_topics.launch": text}
+
+
+def _node(name: str, rest: str = "") -> str:
+    return f'<node pkg="subt_ros" type="optical_frame_publisher" name="{name}"/>{rest}'
+
+
+_MARK = "  <!-- ^ ROS008 -->"
+
+GOOD = [
+    _launch(_node("front"), _node("rear")),
+    _launch(_node("image"), f'<group ns="rear">{_node("image")}</group>'),
+    _launch(_node("$(anon image)"), _node("$(anon image)")),
+    _launch(f'<group if="0">{_node("image")}</group>', _node("image")),
+]
+BAD = [
+    _launch(_node("image"), _node("rear"), _node("image", _MARK)),
+    _launch(
+        '<node ns="rear" pkg="p" type="t" name="image"/>',
+        f'<group ns="rear">{_node("image")}{_MARK}</group>',
+    ),
+    _launch(
+        _node("image"),
+        f'<node>{_MARK}\n  pkg="subt_ros" type="optical_frame_publisher" name="image">\n</node>',
+    ),
+]

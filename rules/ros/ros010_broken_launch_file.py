@@ -1,0 +1,114 @@
+"""A launch file that roslaunch refuses.
+
+roslaunch reads everything before it starts anything. An undeclared arg, an include without an arg
+that it requires or of a file that is not there: the robot comes up without any of its topics.
+Files of packages that are not at hand are not judged.
+
+Fix: declare the arg with `<arg name="…"/>`, hand it over with `<arg name="…" value="…"/>` inside
+the include, or correct the path.
+Source: roslaunch XML specification, substitution args and `<include>`.
+"""
+
+from collections.abc import Collection, Iterator, Mapping
+
+from checker.model.launch.graph import LaunchFault, LaunchFaultKind, LaunchGraph, Param
+from checker.model.launch.include import target_of
+from checker.package.package import Package
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+
+_FATAL: Mapping[LaunchFaultKind, str] = {
+    LaunchFaultKind.UNDECLARED_ARG: "roslaunch stops",
+    LaunchFaultKind.MISSING_ARG: "roslaunch stops",
+    LaunchFaultKind.UNKNOWN_ARG: "roslaunch stops",
+    LaunchFaultKind.CONSTANT_ARG: "roslaunch stops",
+    LaunchFaultKind.REPEATED_ARG: "roslaunch stops",
+    LaunchFaultKind.CONDITION: "roslaunch stops",
+    LaunchFaultKind.SUBSTITUTION: "roslaunch stops",
+    LaunchFaultKind.MISSING_FILE: "roslaunch stops",
+    LaunchFaultKind.INCLUDE_LOOP: "roslaunch never comes to its end",
+    LaunchFaultKind.BRIDGE: "the bridge ends at once",
+}
+"""What happens; a limit of our own reader is no fault of the file."""
+
+_OF_COMMANDS = (
+    LaunchFaultKind.UNDECLARED_ARG,
+    LaunchFaultKind.MISSING_ARG,
+    LaunchFaultKind.CONSTANT_ARG,
+)
+_FILES = ("load", "textfile", "binfile")
+
+
+@rule("ROS010", "broken-launch-file", Severity.ERROR)
+def check(package: Package, launch: LaunchGraph) -> Findings:
+    """Report what keeps roslaunch from starting, in the files that are started."""
+    if launch.unknown_commands:
+        yield unchecked(launch.unknown_commands)
+    absent = [each.message for each in launch.faults if each.kind is LaunchFaultKind.MISSING_FILE]
+    for reason in launch.unread:
+        if reason != launch.unknown_commands and not reason.endswith(tuple(absent)):
+            yield unchecked(reason)
+    included = {include.file for include in launch.includes}
+    for fault in launch.faults:
+        if fault.kind is LaunchFaultKind.LIMIT:
+            yield unchecked(f"{fault.span.source.file} is not read to its end: {fault.message}")
+        elif not (launch.unknown_commands and _may_be_given(fault, included)):
+            yield finding(fault, f"{fault.message}: {_FATAL[fault.kind]}", key=fault.message)
+    for param in launch.params:
+        if param.kind in _FILES:
+            yield from _missing_file(package, param)
+
+
+def _may_be_given(fault: LaunchFault, included: Collection[str]) -> bool:
+    """Whether an arg is missing that the command may give."""
+    return fault.kind in _OF_COMMANDS and fault.span.source.file not in included
+
+
+def _missing_file(package: Package, param: Param) -> Iterator[Finding]:
+    """Report a parameter read from a file that a package at hand does not have."""
+    name, path = target_of(param.value)
+    holder = package.workspace.package(name) if name and name != package.name else package
+    if path and holder is not None and not holder.exists(path):
+        named = f"{path} of {name}" if name else path
+        yield finding(param, f"{named} does not exist, which {param.name} is read from")
+
+
+_TOPICS = "launch/vehicle_topics.launch"
+_ARGS = '<arg name="name"/>\n<arg name="world_name"/>\n'
+_MARK = "  <!-- ^ ROS010 -->"
+_HERE = "acme_rover_sensor_config_1"
+
+
+def _launch(content: str, more: str = "") -> dict[str, str]:
+    return {
+        _TOPICS: f"<launch>\n{_ARGS}{content}\n</launch>\n",
+        "launch/camera.launch": f'<launch>\n<arg name="side"/>\n{more}\n</launch>\n',
+    }
+
+
+def _include(args: str, mark: str = "", file: str = "$(dirname)/camera.launch") -> dict[str, str]:
+    return _launch(f'<include file="{file}">{mark}\n{args}\n</include>')
+
+
+_SIDE = '<arg name="side" value="left"/>'
+
+GOOD = [
+    _include(_SIDE),
+    {_TOPICS: '<launch>\n<param name="a" value="$(arg name)"/>\n</launch>\n'},
+    _include(_SIDE, file=f"$(find {_HERE})/launch/camera.launch"),
+    _include("", file="$(find subt_ros)/launch/models_common/set_rate_relay.launch"),
+    _launch('<group if="0"><param name="a" value="$(arg nobody)"/></group>'),
+    _launch('<rosparam file="$(find acme_params)/config/a.yaml"/>'),
+]
+BAD = [
+    _launch(f'<param name="a" value="$(arg nobody)"/>{_MARK}'),
+    _include("", _MARK),
+    _include(f'{_SIDE}\n<arg name="sied" value="left"/>{_MARK}'),
+    _include(_SIDE, _MARK, f"$(find {_HERE})/launch/camara.launch"),
+    _launch(f'<include file="$(dirname)/vehicle_topics.launch" pass_all_args="true"/>{_MARK}'),
+    _launch(f'<arg name="name"/>{_MARK}'),
+    _launch(f'<group if="maybe"/>{_MARK}'),
+    _launch(f'<rosparam file="$(find {_HERE})/config/a.yaml"/>{_MARK}'),
+    _launch(
+        f'<node pkg="ros_ign_bridge" type="parameter_bridge" name="b" args="/topic@type"/>{_MARK}'
+    ),
+]

@@ -1,0 +1,151 @@
+"""Transforms that do not change are published by nobody.
+
+Where a sensor sits on the robot is sent once, apart from the poses that change. Without it sensor
+data cannot be placed on the robot. Fixed joints of a description of one's own are not in the SDF
+model at all: the conversion joins their links, and only `robot_state_publisher` knows them.
+
+Fix: bridge `/model/<name>/pose_static`, and start `robot_state_publisher` when the description has
+fixed frames that the model lacks.
+Source: a review that had `robot_state_publisher` added; parameters of PosePublisher (gz-sim): with
+`<static_publisher>` static poses come on a topic of their own.
+"""
+
+from collections.abc import Iterator
+
+from checker.finding import Place
+from checker.model.launch.description import fixed_frames, robot_descriptions
+from checker.model.launch.graph import LaunchGraph
+from checker.model.launch.transforms import state_publishers, static_transforms
+from checker.model.robot import Robot
+from checker.package.inheritance import Found
+from checker.package.package import Package
+from checker.rule import Findings, HasSpan, Severity, finding, rule, unchecked
+from checker.source.xml import XmlDocument
+
+_TOPICS = "launch/vehicle_topics.launch"
+_TRUE = ("true", "1")
+
+
+@rule("ROS012", "no-static-transforms", Severity.WARNING)
+def check(
+    package: Package,
+    robot: Robot,
+    launch: LaunchGraph,
+    *,
+    published_elsewhere: str = "optical",
+    shown: int = 8,
+) -> Findings:
+    """Report static poses that are not bridged, and fixed frames that only a description has.
+
+    Frames with `published_elsewhere` in their names come from optical_frame_publisher; of several
+    frames `shown` are pointed at.
+    """
+    if state_publishers(launch):
+        return
+    reasons = [reason for reason in launch.unread if reason != launch.unknown_commands]
+    for reason in reasons:
+        yield unchecked(reason)
+    if reasons:
+        return
+    held = package.part(_TOPICS)
+    where = package.place(held.path) if isinstance(held, Found) else package.folder_place()
+    if not static_transforms(launch):
+        yield from _static_poses(robot, where)
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
+    parts = (*robot.sensors, *robot.frames)
+    known = {*robot.links_by_name, *(part.name.value for part in parts)}
+    frames = {
+        name: joint
+        for name, joint in _described(package, launch)
+        if name not in known and published_elsewhere not in name
+    }
+    if frames:
+        number = f"{len(frames)} fixed frames" if len(frames) > 1 else "a fixed frame"
+        yield finding(
+            where,
+            f"the description has {number} that the model lacks ({_listed(list(frames))}), and "
+            "no robot_state_publisher is started",
+            key="description",
+            related=[(joint, "fixed here") for joint in list(frames.values())[:shown]],
+        )
+
+
+def _static_poses(robot: Robot, where: Place) -> Findings:
+    publishers = [each for each in robot.all_plugins if each.class_name == "PosePublisher"]
+    apart = [
+        value
+        for plugin in publishers
+        for value in plugin.at("static_publisher")
+        if value.value.lower() in _TRUE
+    ]
+    if apart:
+        yield finding(
+            where,
+            "no bridge of /model/<name>/pose_static, where PosePublisher sends static poses",
+            key="pose_static",
+            related=[(apart[0], "sent apart because of this")],
+        )
+    elif robot.unread_plugins and not publishers:
+        yield unchecked(robot.unread_plugins)
+
+
+def _described(package: Package, launch: LaunchGraph) -> Iterator[tuple[str, HasSpan]]:
+    """Yield the frames that the robot's description fixes."""
+    for description in robot_descriptions(launch):
+        for file in description.files:
+            prefix = f"../{file.package}/" if file.package not in ("", package.name) else ""
+            document = package.xml(f"{prefix}{file.path}")
+            if isinstance(document, XmlDocument):
+                yield from fixed_frames(document).items()
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names[:3]) + (", …" if len(names) > 3 else "")
+
+
+_HERE = "acme_rover_sensor_config_1"
+_PUBLISHER = """
+<plugin filename="ignition-gazebo-pose-publisher-system"
+        name="ignition::gazebo::systems::PosePublisher">
+  <static_publisher>{}</static_publisher>
+</plugin>
+"""
+_STATIC = """<node pkg="ros_ign_bridge" type="parameter_bridge" name="pose_static"
+  args="/model/$(arg name)/pose_static@tf2_msgs/TFMessage[ignition.msgs.Pose_V"/>"""
+_RSP = '<node pkg="robot_state_publisher" type="robot_state_publisher" name="$(anon rsp)"/>'
+
+
+def _files(line: str, frame: str = "base_link", static: str = "true") -> dict[str, str]:
+    return {
+        "@fragment": _PUBLISHER.format(static),
+        _TOPICS: f'<launch>\n<arg name="name"/>\n<arg name="world_name"/>\n{line}\n</launch>\n',
+        "launch/description.launch": f"""<launch>
+<arg name="name"/>
+<param name="$(arg name)/robot_description" command="$(find xacro)/xacro '$(find
+{_HERE})/urdf/robot.xacro' name:=$(arg name)"/>
+</launch>
+""",
+        "urdf/robot.xacro": f"""<robot name="rover" xmlns:xacro="http://ros.org/wiki/xacro">
+<joint name="j" type="fixed">
+<parent link="$(arg name)/base_link"/><child link="$(arg name)/{frame}"/>
+</joint>
+</robot>
+""",
+    }
+
+
+_BAD = {"@reported": [f"{_TOPICS}:1"]}
+
+GOOD = [
+    _files(_STATIC),
+    _files("", static="false"),
+    _files(_STATIC, frame="${side}_mount"),
+    _files(_STATIC, frame="camera_optical_frame"),
+    _files(_RSP, frame="mast"),
+]
+BAD = [
+    {**_files(""), **_BAD},
+    {**_files(_STATIC, frame="mast"), **_BAD},
+]

@@ -1,0 +1,86 @@
+"""The relays to the mapping server are missing, or not told the robot's name.
+
+A robot's map reaches the challenge's mapping server through topics that
+`mapping_server_relays.launch` of subt_ros passes on. Without it everything else works and the map
+is lost; without `name` it passes on the topics of no robot.
+
+Fix: inside the group of the robot's name, `<include file="$(find
+subt_ros)/launch/models_common/mapping_server_relays.launch"><arg name="name" value="$(arg name)"/>
+</include>`.
+Source: two reviews had it added; all accepted packages at hand include it, whatever their drive.
+What the file itself does is general knowledge: subt_ros is not at hand.
+"""
+
+import posixpath
+
+from checker.model.launch.graph import Include, LaunchGraph, UnresolvedInclude
+from checker.model.launch.substitution import is_known
+from checker.package.inheritance import Found
+from checker.package.package import Package
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+_TOPICS = "launch/vehicle_topics.launch"
+
+
+@rule("ROS013", "mapping-server-relays", Severity.WARNING)
+def check(
+    package: Package, launch: LaunchGraph, *, relays: str = "mapping_server_relays.launch"
+) -> Findings:
+    """Look for the include of the file `relays` among all that is started."""
+    started: tuple[Include | UnresolvedInclude, ...] = launch.includes + launch.unresolved_includes
+    includes = [include for include in started if posixpath.basename(include.file) == relays]
+    named = launch.arguments.get("name")
+    for include in includes:
+        given = include.arguments.get("name")
+        if given is None:
+            yield finding(include, f"{relays} is included without the arg 'name'")
+        elif named is not None and is_known(given) and given != named.value:
+            yield finding(
+                include,
+                f"{relays} is given the name {given!r}, expected the robot's: $(arg name)",
+            )
+    if includes:
+        return
+    reasons = [reason for reason in launch.unread if reason != launch.unknown_commands]
+    for reason in reasons:
+        yield unchecked(reason)
+    if not reasons:
+        part = package.part(_TOPICS)
+        place = package.place(part.path) if isinstance(part, Found) else package.folder_place()
+        off = [each for each in launch.dormant_includes if posixpath.basename(each.file) == relays]
+        yield finding(
+            place,
+            f"nothing includes {relays} of subt_ros",
+            related=[(each, "switched off") for each in off],
+        )
+
+
+_FILE = "$(find subt_ros)/launch/models_common/mapping_server_relays.launch"
+_NAME = '<arg name="name" value="$(arg name)"/>'
+
+
+def _launch(content: str, mark: str = "", arguments: str = "") -> dict[str, str]:
+    return {
+        _TOPICS: f"""<launch>
+<arg name="name"/>
+<arg name="world_name"/>
+<include {arguments} file="{_FILE}">{mark}
+{content}
+</include>
+</launch>
+"""
+    }
+
+
+_MARK = "  <!-- ^ ROS013 -->"
+
+GOOD = [
+    _launch(_NAME),
+    _launch("", arguments='pass_all_args="true"'),
+]
+BAD = [
+    _launch("", _MARK),
+    _launch('<arg name="name" value="X1"/>', _MARK),
+    {**_launch(_NAME, arguments='if="0"'), "@reported": [f"{_TOPICS}:1"]},
+    {"@reported": [f"{_TOPICS}:1"]},
+]

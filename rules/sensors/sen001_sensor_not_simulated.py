@@ -1,0 +1,48 @@
+"""A sensor of a type that the target does not simulate, or that there is not.
+
+It publishes nothing, and nothing says so: the robot drives on without the satellite receiver or
+the sonar that its sheet promises. A type that SDFormat does not know keeps the file from loading.
+
+Fix: use a type that the target simulates, or leave the sensor out and say so in the sheet.
+Source: types that SDFormat reads, and systems that make sensors of them, per release
+(`gazebo_sensors.json`).
+"""
+
+from checker.model.robot import Robot
+from checker.model.sensing.release import sensor_types
+from checker.model.suggestions import Suggestions
+from checker.rule import Context, Findings, Severity, finding, rule
+
+
+@rule("SEN001", "sensor-not-simulated", Severity.ERROR)
+def check(robot: Robot, context: Context) -> Findings:
+    """Report types of sensors that are unknown or not simulated by the target release."""
+    types = sensor_types(context.release)
+    target = f"Gazebo {context.release.capitalize()}" if context.release else "SDFormat"
+    suggestions = Suggestions(sorted(types.known - types.lost))
+    for sensor in robot.sensors:
+        type = sensor.type.value
+        said = f"sensor {sensor.name.value!r} has the type {type!r}"
+        if not sensor.type.stated:
+            continue  # the required attribute is for SDF005
+        if type not in types.known:
+            hint = suggestions.hint(type)
+            yield finding(
+                sensor.type, f"{said}, which {target} does not know{hint}", key=f"unknown {type}"
+            )
+        elif type in types.lost:
+            yield finding(
+                sensor.type, f"{said}, which {target} does not simulate", key=f"lost {type}"
+            )
+
+
+def _sensor(type: str) -> str:
+    return f'<sensor name="s" type="{type}"/>'
+
+
+_MARK = "  <!-- ^ SEN001 -->"
+GOOD = [
+    *map(_sensor, ("camera", "gpu_lidar", "imu", "thermal", "rgbd", "logical_camera", "contact")),
+    _sensor("ray"),
+]
+BAD = [_sensor(type) + _MARK for type in ("gps", "sonar", "wireless_receiver", "gpu_lida", "")]

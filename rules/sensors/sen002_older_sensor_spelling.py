@@ -1,0 +1,85 @@
+"""A lidar whose type is spelled as in older releases, or that is simulated by none.
+
+`ray` and `lidar` are lidars of the processor, and in Ignition Gazebo nothing simulates them: their
+topics stay silent. `gpu_ray` still works and is the older name of `gpu_lidar`; a file with both
+names hides that they are one thing.
+
+Fix: write the type `gpu_lidar`, and `<lidar>` for `<ray>`.
+Source: Model Migration Guide; src/Sensor.cc of sdformat, which reads `gpu_ray` as `gpu_lidar`; no
+system of gz-sim makes a lidar of the processor (`gazebo_sensors.json`).
+"""
+
+from collections.abc import Iterator
+
+from checker.finding import Fix
+from checker.model.components import Sensor
+from checker.model.robot import Robot
+from checker.model.sdf.version import sdf_version
+from checker.model.sensing.kind import SensorType
+from checker.rule import Context, Findings, Safety, Severity, finding, rule
+from checker.source.text import Span
+
+_OLD = {"gpu_ray": "gpu_lidar", "ray": "lidar"}
+_CLASSIC = "classic"
+_FIRST_GPU_LIDAR = (1, 6)
+"""SDF version from which on there is a `<lidar>`."""
+
+
+@rule("SEN002", "older-sensor-spelling", Severity.WARNING)
+def check(robot: Robot, context: Context) -> Findings:
+    """Report older spellings of lidars, and lidars that the target release does not simulate."""
+    if context.release == _CLASSIC or (
+        not context.release and sdf_version(robot.document) < _FIRST_GPU_LIDAR
+    ):
+        return
+    for sensor in robot.sensors:
+        type = sensor.type.value
+        if context.release and sensor.kind is SensorType.CPU_LIDAR:
+            yield finding(
+                sensor.type,
+                f"sensor {sensor.name.value!r} has the type {type!r}, which "
+                f"Gazebo {context.release.capitalize()} does not simulate: expected 'gpu_lidar'",
+                key=f"lost {type}",
+                fix=_renamed(sensor, "gpu_lidar", Safety.UNSAFE),
+            )
+        elif type in _OLD:
+            yield finding(
+                sensor.type,
+                f"sensor {sensor.name.value!r} has the type {type!r}, "
+                f"the older name of {_OLD[type]!r}",
+                severity=None if context.release else Severity.INFO,
+                key=f"old {type}",
+                fix=_renamed(sensor, _OLD[type], Safety.SAFE),
+            )
+
+
+def _renamed(sensor: Sensor, type: str, safety: Safety) -> Fix:
+    """Return the fix that writes another type, and `<lidar>` for `<ray>`."""
+    edits = [sensor.type.span.replaced_by(type)]
+    edits += [name.replaced_by("lidar") for name in _old_names(sensor)]
+    return Fix(safety, tuple(edits))
+
+
+def _old_names(sensor: Sensor) -> Iterator[Span]:
+    # With a <lidar> beside it, a second one would be one too many.
+    if sensor.element.child("lidar") is None:
+        for element in sensor.element.all("ray")[:1]:
+            yield element.name_span
+            if element.end_name_span is not None:
+                yield element.end_name_span
+
+
+def _sensor(type: str, mark: str = "") -> str:
+    return f"""
+<sensor name="front_laser" type="{type}">{mark}
+  <ray><range><min>0.1</min><max>100</max></range></ray>
+</sensor>
+"""
+
+
+_MARK = "  <!-- ^ SEN002 -->"
+GOOD = [_sensor("gpu_lidar"), '<sensor name="imu" type="imu"/>']
+BAD = [
+    *(_sensor(type, _MARK) for type in ("gpu_ray", "ray", "lidar")),
+    '<sensor name="front_laser" type="gpu_ray"><ray/></sensor>  <!-- ^ SEN002 -->',
+]

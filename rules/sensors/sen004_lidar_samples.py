@@ -1,0 +1,155 @@
+"""A lidar with other samples than its device gives at that rate.
+
+A VLP-16 measures 1800 points a row at 10 Hz and 900 at 20 Hz; who gives it 10000 sees far more
+than the real robot and slows the simulation down for everybody. That number stands in an old
+template together with a scan resolution of 0.1, and was copied into many robots.
+A scan over a part of the turn may have its part of the samples. Figures that nobody compared with
+a datasheet are information.
+
+Fix: write the samples that the device gives at the model's `<update_rate>`.
+Source: reviews of SubT models; the seed tutorial "Simulating the Ouster OS-1"; `devices.json`
+names others, figure by figure.
+"""
+
+import math
+from collections.abc import Iterator
+
+from checker.model.components import Sensor
+from checker.model.devices import Device, SensorDevice, SensorDevices
+from checker.model.listing import either
+from checker.model.robot import Robot
+from checker.model.sensing.lidar import Lidar
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+
+@rule("SEN004", "lidar-samples", Severity.WARNING)
+def check(
+    robot: Robot, devices: SensorDevices, *, copied: float = 10_000, tolerance: float = 0.02
+) -> Findings:
+    """Report rows of `copied` samples or more, and those off the device's by over `tolerance`."""
+    for sensor in robot.sensors:
+        lidar = sensor.lidar
+        if lidar is None or not sensor.kind.is_lidar:
+            continue
+        known = devices.of(sensor)
+        if known is not None and "rays" in known.device.values:
+            yield from _rays(sensor, lidar, known.device)
+            continue
+        expected = _expected(sensor, lidar, known.device) if known is not None else []
+        samples = lidar.horizontal.samples
+        too_many = samples.value >= copied
+        if too_many or (expected and not _fits(samples.value, expected, tolerance)):
+            yield _finding(sensor, lidar, known, expected, too_many)
+
+
+def _rays(sensor: Sensor, lidar: Lidar, device: Device) -> Iterator[Finding]:
+    """Compare the rays that spread over the beam of a device that measures one distance."""
+    rays = device.values["rays"]
+    if lidar.rays not in (rays, 1):
+        yield finding(
+            lidar.horizontal.samples,
+            f"lidar {sensor.name.value!r} has {lidar.rays:g} rays, expected {rays:g} "
+            f"({device.name})",
+            severity=Severity.INFO if device.is_from_memory("rays") else None,
+            key=f"{device.id} {lidar.rays:g} rays",
+        )
+
+
+def _expected(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
+    """Return what the device gives at the sensor's rate; at any, where it has no such rate."""
+    by_rate = {
+        float(rate): samples for rate, samples in device.values.get("samples_by_rate", {}).items()
+    }
+    at_rate = by_rate.get(sensor.update_rate.value)
+    listed = at_rate or [each for samples in by_rate.values() for each in samples]
+    share = _share_of_turn(lidar, device)
+    expected = [float(each) for each in listed]
+    if share < 1 and max(expected, default=1) > 1:
+        expected += [float(round(each * share)) for each in listed]
+    defaults = device.values.get("seed_defaults", {})
+    if expected and "samples" in defaults and sensor.update_rate.value == defaults.get("rate"):
+        expected.append(float(defaults["samples"]))
+    return sorted(set(expected))
+
+
+def _share_of_turn(lidar: Lidar, device: Device) -> float:
+    """Return how much of its field of view a sensor covers; 1 for all."""
+    whole = device.values.get("hfov_deg")
+    if not whole or whole <= 0:
+        return 1.0
+    share = math.degrees(lidar.horizontal.angle) / float(whole)
+    return share if 0 < share < 0.99 else 1.0
+
+
+def _fits(samples: float, expected: list[float], tolerance: float) -> bool:
+    return any(abs(samples - each) <= max(1.0, tolerance * each) for each in expected)
+
+
+def _finding(
+    sensor: Sensor,
+    lidar: Lidar,
+    known: SensorDevice | None,
+    expected: list[float],
+    too_many: bool,
+) -> Finding:
+    samples, rate = lidar.horizontal.samples, sensor.update_rate.value
+    said = f"lidar {sensor.name.value!r} has {samples.value:g} samples a row"
+    said += f" at {rate:g} Hz" if rate > 0 else ""
+    if known is None or not expected:
+        return finding(samples, f"{said}: a number copied from an old template", key="copied")
+    from_memory = known.device.is_from_memory("samples_by_rate") and not too_many
+    return finding(
+        samples,
+        f"{said}, expected {either(expected)} ({known.device.name})",
+        severity=Severity.INFO if from_memory else None,
+        key=f"{known.device.id} {samples.value:g} {rate:g}",
+        related=[(known.said, "says which device it is")],
+    )
+
+
+def _lidar(
+    samples: str, rate: float = 10, name: str = "vlp16", angle: float = 3.14159, rows: int = 16
+) -> str:
+    return f"""
+<sensor name="{name}" type="gpu_lidar">
+  <update_rate>{rate}</update_rate>
+  <lidar>
+    <scan>
+      <horizontal>
+        <samples>{samples}
+        <min_angle>{-angle}</min_angle>
+        <max_angle>{angle}</max_angle>
+      </horizontal>
+      <vertical><samples>{rows}</samples></vertical>
+    </scan>
+  </lidar>
+</sensor>
+"""
+
+
+_END, _MARK = "</samples>", "</samples>  <!-- ^ SEN004 -->"
+_SHEET = "# Rover\n### Sensors\n* Velodyne VLP-16 lidar, modeled by `gpu_lidar` plugin\n"
+
+GOOD = [
+    _lidar("1800" + _END),
+    _lidar("900" + _END, rate=20),
+    _lidar("900" + _END, angle=1.5708),
+    _lidar("512" + _END, name="os1_lidar"),
+    _lidar("720" + _END, name="scanner"),
+    _lidar("1" + _END, rate=50, name="lidar_lite", angle=0.0, rows=1),
+    _lidar("3" + _END, name="tf_mini", angle=0.03, rows=3),
+    {"@fragment": _lidar("1800" + _END, name="front_laser"), "specifications.md": _SHEET},
+    {
+        "@fragment": _lidar("720" + _END, name="front_laser"),
+        "specifications.md": _SHEET + "* Ouster OS0 lidar, modeled by `gpu_lidar` plugin\n",
+    },
+]
+BAD = [
+    _lidar("10000" + _MARK, name="scanner"),
+    _lidar("10000" + _MARK),
+    _lidar("1200" + _MARK),
+    _lidar("1800" + _MARK, name="os1_lidar"),
+    _lidar("7" + _MARK, name="tf_mini", angle=0.03, rows=3),
+    "<!-- Based on RPLidar S1 -->" + _lidar("720" + _MARK, name="front_laser", rows=1),
+    {"@fragment": _lidar("720" + _MARK, name="front_laser"), "specifications.md": _SHEET},
+]

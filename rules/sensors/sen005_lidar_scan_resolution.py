@@ -1,0 +1,53 @@
+"""A lidar whose scan resolution is other than 1.
+
+The resolution multiplies the samples: with 0.1 the sensor gives a tenth of the points that it
+measures, with 0.03 a row of 920 samples becomes one of 28. It is no angle and no distance, as
+its name suggests; that of distances stands in `<range>`.
+
+Fix: write `<resolution>1</resolution>`, and as many samples as the device gives.
+Source: reviews of SubT models, which had 0.1 and 0.03 corrected to 1; sdformat, lidar.sdf.
+"""
+
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, replace_text, rule
+
+
+@rule("SEN005", "lidar-scan-resolution", Severity.WARNING)
+def check(robot: Robot, *, expected: float = 1.0) -> Findings:
+    """Report lidars whose rows have another resolution than `expected`."""
+    for sensor in robot.sensors:
+        if sensor.lidar is None or not sensor.kind.is_lidar:
+            continue
+        resolution = sensor.lidar.horizontal.resolution
+        if resolution.stated and resolution.value != expected:
+            yield finding(
+                resolution,
+                f"lidar {sensor.name.value!r} has the scan resolution {resolution.value:g}, "
+                f"expected {expected:g}",
+                key=f"{resolution.value:g}",
+                fix=replace_text(resolution, f"{expected:g}"),
+            )
+
+
+def _lidar(resolution: str) -> str:
+    return f"""
+<sensor name="front_laser" type="gpu_lidar">
+  <lidar>
+    <scan>
+      <horizontal>
+        <samples>1800</samples>
+        {resolution}
+      </horizontal>
+    </scan>
+    <range><resolution>0.01</resolution></range>
+  </lidar>
+</sensor>
+"""
+
+
+_MARK = "  <!-- ^ SEN005 -->"
+GOOD = [_lidar(""), _lidar("<resolution>1</resolution>"), _lidar("<resolution>1.0</resolution>")]
+BAD = [
+    _lidar("<resolution>0.1</resolution>" + _MARK),
+    _lidar("<resolution>0.03</resolution>" + _MARK),
+]

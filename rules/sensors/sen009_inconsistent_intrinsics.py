@@ -1,0 +1,128 @@
+"""Intrinsics that disagree with the picture.
+
+The picture is rendered from width, height and `horizontal_fov`, and `camera_info` is published from
+`<intrinsics>`: where they disagree, all that is measured in the picture is wrong. On later
+releases the intrinsics shape the picture, and it does not show the field of view that is stated.
+Intrinsics copied from a camera of another resolution are the usual cause. Those of a calibrated
+camera, whose centre is no half pixel, are only mentioned while their focal length is right.
+
+Fix: write fx = fy = width / (2·tan(horizontal_fov / 2)), cx = (width - 1) / 2,
+cy = (height - 1) / 2 and s = 0, or correct `horizontal_fov`.
+Source: projection of a pinhole camera; SubT review findings of wrong focal lengths. How releases
+use the intrinsics is from memory of gz-sensors.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from checker.finding import Fix
+from checker.model.robot import Robot
+from checker.model.sensing.camera import Intrinsics, Pinhole
+from checker.model.sensing.kind import SensorType
+from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.source.insertion import append_to
+from checker.source.text import Located
+
+
+class _Wrong(NamedTuple):
+    """A figure that is not as the picture has it; `tag` is its element."""
+
+    tag: str
+    value: Located[float]
+    expected: float
+
+
+@rule("SEN009", "inconsistent-intrinsics", Severity.WARNING)
+def check(robot: Robot, *, tolerance: float = 0.01, centre_tolerance: float = 1.0) -> Findings:
+    """Compare intrinsics with the picture.
+
+    Focal lengths may differ by `tolerance`, as a share, the centre by `centre_tolerance`, pixels.
+    """
+    for sensor in robot.sensors:
+        camera = sensor.camera
+        if camera is None or camera.intrinsics is None or not sensor.kind.takes_pictures:
+            continue
+        if sensor.kind is SensorType.WIDE_ANGLE_CAMERA or camera.pinhole is None:
+            continue
+        given, picture = camera.intrinsics, camera.pinhole
+        lengths = list(_wrong_lengths(given, picture, tolerance))
+        others = list(_wrong_centre(given, picture, centre_tolerance))
+        wrong = [*lengths, *others]
+        if not wrong:
+            continue
+        said = ", ".join(f"{each.tag} = {each.value.value:.6g}" for each in wrong)
+        expected = ", ".join(f"{each.tag} = {each.expected:.6g}" for each in wrong)
+        calibrated = given.are_measured and not lengths
+        yield finding(
+            given,
+            f"camera {sensor.name.value!r} has the intrinsics {said}; a picture of "
+            f"{camera.width.value:g} × {camera.height.value:g} px that spans "
+            f"{camera.horizontal_fov.value:g} rad has {expected} px",
+            severity=Severity.INFO if calibrated else None,
+            key="calibrated" if calibrated else f"{said}; {expected}",
+            fix=_fix(given, wrong),
+        )
+
+
+def _wrong_lengths(given: Intrinsics, picture: Pinhole, tolerance: float) -> Iterator[_Wrong]:
+    for tag, value, expected in (("fx", given.fx, picture.fx), ("fy", given.fy, picture.fy)):
+        if not math.isclose(value.value, expected, rel_tol=tolerance):
+            yield _Wrong(tag, value, expected)
+
+
+def _wrong_centre(given: Intrinsics, picture: Pinhole, tolerance: float) -> Iterator[_Wrong]:
+    """Yield what is off the middle; it is given with and without half a pixel, from 0 or from 1."""
+    for tag, value, expected in (("cx", given.cx, picture.cx), ("cy", given.cy, picture.cy)):
+        if not abs(value.value - (expected + 0.5)) <= tolerance:
+            yield _Wrong(tag, value, expected)
+    if given.skew.value != 0.0:
+        yield _Wrong("s", given.skew, 0.0)
+
+
+def _fix(given: Intrinsics, wrong: Sequence[_Wrong]) -> Fix:
+    edits = [
+        each.value.span.replaced_by(f"{each.expected:.6g}") for each in wrong if each.value.stated
+    ]
+    missing = [f"<{w.tag}>{w.expected:.6g}</{w.tag}>" for w in wrong if not w.value.stated]
+    if missing:
+        edits.append(append_to(given.element, missing))
+    return Fix(Safety.UNSAFE, tuple(edits))
+
+
+def _camera(intrinsics: str, mark: str = "", *, fov: float = 1.0472, kind: str = "camera") -> str:
+    return f"""
+<sensor name="front" type="{kind}">
+  <camera>
+    <horizontal_fov>{fov}</horizontal_fov>
+    <lens>
+      <intrinsics>{mark}
+        {intrinsics}
+      </intrinsics>
+    </lens>
+    <image><width>1280</width><height>960</height></image>
+  </camera>
+</sensor>
+"""
+
+
+def _figures(fx: float, fy: float, cx: float, cy: float, s: float = 0.0) -> str:
+    return f"<fx>{fx}</fx><fy>{fy}</fy><cx>{cx}</cx><cy>{cy}</cy><s>{s}</s>"
+
+
+_MARK = "  <!-- ^ SEN009 -->"
+
+GOOD = [
+    _camera(_figures(1108.5, 1108.5, 640.5, 480.5)),
+    _camera(_figures(1108.5, 1108.5, 639.5, 479.5), kind="rgbd_camera"),
+    _camera(_figures(1110, 1105, 640, 480)),
+    _camera(_figures(300, 300, 640, 480), kind="wideanglecamera"),
+    _camera(_figures(300, 300, 640, 480), fov=4),
+]
+BAD = [
+    _camera(_figures(554.3, 554.3, 320.5, 240.5), _MARK),
+    _camera(_figures(1108.5, 1108.5, 660.5, 480.5), _MARK),
+    _camera(_figures(1108.5, 1108.5, 640.5, 480.5, 1), _MARK),
+    _camera(_figures(1108.95, 1110.66, 649.534, 484.9857), _MARK),
+    _camera("<fx>1108.5</fx><fy>1108.5</fy>", _MARK),
+]

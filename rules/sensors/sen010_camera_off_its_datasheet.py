@@ -1,0 +1,193 @@
+"""A camera that is set to what its device cannot do.
+
+Teams plan with the camera that the sheet names. More pixels, a higher rate or a wider view than it
+has make the robot better than the real one, and fewer pixels make it worse; both are asked about.
+Colour pictures with depth have at most 640 × 480 pixels in the SubT challenge, so that the
+simulation keeps pace.
+
+Fix: set size, rate and horizontal_fov as the datasheet of the device gives them, or name the device
+that is modelled in specifications.md.
+Source: figures of `devices.json`, each with its source; those from memory, and differences of which
+the sheet speaks under diversions, give information only. A device of a family is compared when the
+sheet names its model. SubT review findings for 640 × 480
+and 640 × 360.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from checker.model.components import Sensor
+from checker.model.devices import Device, SensorDevice, SensorDevices
+from checker.model.robot import Robot
+from checker.model.sensing.camera import Camera
+from checker.model.sensing.kind import SensorType
+from checker.rule import Context, Finding, Findings, HasSpan, Severity, finding, rule
+
+_SIZE = r"resolution|pixel|image size"
+_RATE = r"\brates?\b|\bHz\b|\bfps\b"
+_VIEW = r"\bh?fov\b|field of view|\blens"
+
+
+class _Gap(NamedTuple):
+    """What a camera has and its device has not.
+
+    `field` is the device's figure that says so, `words` an expression for how people call it.
+    """
+
+    where: HasSpan
+    field: str
+    words: str
+    has: str
+    expected: str
+
+
+@rule("SEN010", "camera-off-its-datasheet", Severity.WARNING)
+def check(
+    robot: Robot,
+    devices: SensorDevices,
+    context: Context,
+    *,
+    rgbd_pixels: int = 640 * 480,
+    rate_tolerance: float = 0.01,
+    view_tolerance: float = 0.02,
+) -> Findings:
+    """Compare cameras with their devices, and RGBD cameras of SubT with `rgbd_pixels`.
+
+    Rates may exceed the device's, and views differ from it, by the tolerances, as shares.
+    """
+    for sensor in robot.sensors:
+        camera = sensor.camera
+        if camera is None or not sensor.kind.takes_pictures:
+            continue
+        is_limited = context.profile == "subt" and sensor.kind is SensorType.RGBD_CAMERA
+        if is_limited and camera.pixels > rgbd_pixels:
+            yield finding(
+                camera.width,
+                f"RGBD camera {sensor.name.value!r} has {_size(camera)}; expected the SubT "
+                "standard, 640 × 480 or 640 × 360 px",
+                key=f"rgbd {_size(camera)}",
+            )
+            continue
+        known = devices.of(sensor)
+        if known is not None and known.names_the_model:
+            gaps = [
+                *_size_gap(camera, known.device),
+                *_rate_gap(sensor, known.device, rate_tolerance),
+                *_view_gap(camera, known.device, view_tolerance),
+            ]
+            for gap in gaps:
+                explained = devices.are_diverted(known.device, gap.words)
+                yield _said(sensor, known, gap, explained)
+
+
+def _said(sensor: Sensor, known: SensorDevice, gap: _Gap, explained: bool) -> Finding:
+    device = known.device
+    slight = explained or device.is_from_memory(gap.field)
+    return finding(
+        gap.where,
+        f"camera {sensor.name.value!r} has {gap.has}; {device.name} has {gap.expected}",
+        severity=Severity.INFO if slight else None,
+        key=f"{device.id} {gap.has}",
+        related=[(known.said, "names the device")],
+    )
+
+
+def _size(camera: Camera) -> str:
+    return f"{camera.width.value:g} × {camera.height.value:g} px"
+
+
+def _size_gap(camera: Camera, device: Device) -> Iterator[_Gap]:
+    """Yield the size if it is none of the device's; a camera may stand on its side."""
+    sizes = [tuple(size) for size in device.values.get("image_sizes", ())]
+    given = (camera.width.value, camera.height.value)
+    if sizes and given not in sizes and given[::-1] not in sizes:
+        expected = " or ".join(f"{width:g} × {height:g}" for width, height in sizes)
+        yield _Gap(camera.width, "image_sizes", _SIZE, _size(camera), f"{expected} px")
+
+
+def _rate_gap(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Gap]:
+    """Yield the rate if it is above all of the device's; slower ones spare the simulation."""
+    values, rate = device.values, sensor.update_rate
+    field = "rate_max" if "rate_max" in values else "rates"
+    rates = [*values.get("rates", ()), *([values["rate_max"]] if "rate_max" in values else ())]
+    if rates and rate.value > max(rates) * (1.0 + tolerance):
+        yield _Gap(rate, field, _RATE, f"a rate of {rate.value:g} Hz", f"up to {max(rates):g} Hz")
+
+
+def _view_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap]:
+    """Yield the view if it is none of the device's; a fisheye lens cannot be modelled."""
+    values, view = device.values, camera.horizontal_fov
+    degrees = dict(values.get("hfov_deg_by_size", {}))
+    angles = [math.radians(each) for each in degrees.values()]
+    fields = [field for field in ("hfov_rad", "hfov_deg", "hfov_deg_by_size") if field in values]
+    if "hfov_deg" in values:
+        angles.append(math.radians(values["hfov_deg"]))
+    if "hfov_rad" in values:
+        angles.append(values["hfov_rad"])
+    if not angles or values.get("fisheye"):
+        return
+    accepted = [*angles, *values.get("hfov_rad_seen", ())]
+    if not any(math.isclose(view.value, each, rel_tol=tolerance) for each in accepted):
+        expected = " or ".join(dict.fromkeys(f"{each:.4g}" for each in sorted(angles)))
+        said = f"a horizontal_fov of {view.value:.4g} rad"
+        yield _Gap(view, fields[0], _VIEW, said, f"{expected} rad")
+
+
+def _model(width: int, height: int, rate: float = 25, fov: float = 1.658, mark: int = 0) -> str:
+    marks = ["  <!-- ^ SEN010 -->" if mark == number else "" for number in (1, 2, 3)]
+    return f"""
+<sensor name="camera_front" type="camera">
+  <update_rate>{rate}</update_rate>{marks[1]}
+  <camera>
+    <horizontal_fov>{fov}</horizontal_fov>{marks[2]}
+    <image>
+      <width>{width}</width>{marks[0]}
+      <height>{height}</height>
+    </image>
+  </camera>
+</sensor>
+"""
+
+
+def _named(model: str, device: str = "Arducam B0203 with LN008 lens", links: str = "") -> object:
+    sheet = f"# Rover\n## Sensors\n* Color camera - {device}, modeled by camera plugin\n{links}"
+    return {"@fragment": model, "specifications.md": sheet}
+
+
+def _rgbd(width: int, height: int, mark: str = "") -> str:
+    return f"""
+<sensor name="rgbd_front" type="rgbd_camera">
+  <camera>
+    <image>
+      <width>{width}</width>{mark}
+      <height>{height}</height>
+    </image>
+  </camera>
+</sensor>
+"""
+
+
+_FAMILY = "FLIR Blackfly S"
+_MODEL_LINK = "\n## Links\n* [camera](https://www.flir.com/?model=BFS-U3-16S2C-CS)\n"
+
+GOOD = [
+    _named(_model(720, 1080)),
+    _named(_model(1080, 720, 20)),
+    _named(_model(4096, 2160), _FAMILY),
+    _named(_model(1440, 1080), _FAMILY, _MODEL_LINK),
+    _named(_model(848, 800, 30, 2.8), "Intel RealSense T265"),
+    _model(1280, 960),
+    _rgbd(640, 360),
+]
+BAD = [
+    _named(_model(480, 640, mark=1)),
+    _named(_model(720, 1080, 30, mark=2)),
+    _named(_model(720, 1080, 25, 1.2, mark=3)),
+    _named(_model(1280, 960, mark=1), _FAMILY, _MODEL_LINK),
+    _named(
+        _model(480, 640, mark=1),
+        links="\n## Diversions from Physical Hardware\n* The B0203 runs at half its resolution.\n",
+    ),
+    _rgbd(1280, 720, "  <!-- ^ SEN010 -->"),
+]

@@ -1,0 +1,105 @@
+"""A camera that sees up to where it should not, or nothing at all.
+
+Between `<near>` and `<far>` lies all that a camera sees: where near is not below far, nothing is
+rendered. In the SubT challenge depth cameras measure up to 10 m and thermal cameras see up to
+100 m; a copied 300 m gives a robot eyes that no device has.
+
+Fix: write near below far; `<depth_camera><clip><far>10` for depth, `<clip><far>100` for heat.
+Source: SDFormat specification, camera/clip; SubT review findings (`subt_standards.json`: rgbd,
+thermal).
+"""
+
+from collections.abc import Iterator
+
+from checker.model.components import Sensor
+from checker.model.robot import Robot
+from checker.model.sensing.camera import Camera, Clip
+from checker.model.sensing.kind import SensorType
+from checker.rule import Context, Finding, Findings, Severity, finding, rule
+
+
+@rule("SEN011", "camera-clip", Severity.WARNING)
+def check(
+    robot: Robot, context: Context, *, depth_far: float = 10.0, thermal_far: float = 100.0
+) -> Findings:
+    """Report empty ranges, and in SubT those beyond `depth_far` and `thermal_far`, metres."""
+    farthest = {SensorType.RGBD_CAMERA: depth_far, SensorType.THERMAL_CAMERA: thermal_far}
+    for sensor in robot.sensors:
+        camera = sensor.camera
+        if camera is None or not sensor.kind.takes_pictures:
+            continue
+        yield from _empty(sensor, camera)
+        if context.profile == "subt" and sensor.kind in farthest:
+            yield from _too_far(sensor, camera, farthest[sensor.kind])
+
+
+def _empty(sensor: Sensor, camera: Camera) -> Iterator[Finding]:
+    measured = Clip(camera.depth_near, camera.depth_far, camera.span)
+    clips = {"sees": camera.clip, "measures depth": measured}
+    for what, clip in clips.items():
+        near, far = clip.near, clip.far
+        if near.value < far.value:
+            continue
+        yield finding(
+            near if near.stated else far,
+            f"camera {sensor.name.value!r} {what} from {near.value:g} m to {far.value:g} m, which "
+            "is nothing; expected near below far",
+            severity=Severity.ERROR,
+        )
+        return
+
+
+def _too_far(sensor: Sensor, camera: Camera, limit: float) -> Iterator[Finding]:
+    depth = sensor.kind.measures_depth
+    far = camera.depth_far if depth else camera.clip.far
+    if far.value <= limit:
+        return
+    tag = "<depth_camera><clip><far>" if depth else "<clip><far>"
+    yield finding(
+        far,
+        f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} "
+        f"{'measures' if depth else 'sees'} up to {far.value:g} m; the SubT standard is "
+        f"{limit:g} m in {tag}",
+        key=f"{sensor.kind} {far.value:g}",
+    )
+
+
+def _camera(kind: str, clip: str) -> str:
+    return f"""
+<sensor name="front" type="{kind}">
+  <camera>
+    {clip}
+  </camera>
+</sensor>
+"""
+
+
+def _clip(near: str, far: str) -> str:
+    return f"<clip><near>{near}</near>\n<far>{far}\n</far></clip>"
+
+
+_MARK = "  <!-- ^ SEN011 -->"
+
+GOOD = [
+    _camera("camera", _clip("0.01", "300")),
+    _camera("thermal", _clip("0.1", "100")),
+    _camera(
+        "rgbd_camera", f"{_clip('0.01', '300')}<depth_camera>{_clip('0.1', '10')}</depth_camera>"
+    ),
+    _camera("depth_camera", _clip("0.1", "4")),
+]
+BAD = [
+    _camera("camera", f"<clip><near>5</near>{_MARK}\n<far>2</far></clip>"),
+    _camera("camera", f"<clip>\n<near>200</near>{_MARK}\n</clip>"),
+    _camera("thermal_camera", _clip("0.1", f"300{_MARK}")),
+    _camera("rgbd_camera", _clip("0.01", f"300{_MARK}")),
+    _camera(
+        "rgbd_camera",
+        f"{_clip('0.01', '300')}<depth_camera>{_clip('0.1', f'25{_MARK}')}</depth_camera>",
+    ),
+    _camera(
+        "rgbd_camera",
+        f"{_clip('0.01', '300')}<depth_camera><clip><near>9</near>{_MARK}<far>3</far></clip>"
+        "</depth_camera>",
+    ),
+]

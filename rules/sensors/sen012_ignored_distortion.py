@@ -1,0 +1,51 @@
+"""Lens distortion that the simulator does not show.
+
+Gazebo Dome renders an undistorted picture whatever `<distortion>` says, and still publishes the
+coefficients in `camera_info`: whoever rectifies the picture distorts it.
+
+Fix: write 0 for all coefficients, or take `<distortion>` out.
+Source: SubT review findings of distortion that "is not supported". That later releases render it
+is from memory of gz-sensors.
+"""
+
+from checker.model.robot import Robot
+from checker.rule import Context, Findings, Severity, finding, rule
+
+
+@rule("SEN012", "ignored-distortion", Severity.WARNING)
+def check(robot: Robot, context: Context, *, releases: tuple[str, ...] = ("dome",)) -> Findings:
+    """Report coefficients other than 0 on `releases` that ignore them."""
+    if context.release not in releases:
+        return
+    for sensor in robot.sensors:
+        if sensor.camera is None or not sensor.kind.takes_pictures:
+            continue
+        bent = {name: k for name, k in sensor.camera.distortion.items() if k.value != 0.0}
+        if bent:
+            said = ", ".join(f"{name} = {k.value:g}" for name, k in bent.items())
+            yield finding(
+                next(iter(bent.values())),
+                f"camera {sensor.name.value!r} has distortion {said}, which Gazebo "
+                f"{context.release.capitalize()} publishes and does not render; expected 0",
+                key="distortion",
+            )
+
+
+def _camera(distortion: str) -> str:
+    return f"""
+<sensor name="front" type="camera">
+  <camera>
+    <distortion>
+      {distortion}
+      <center>0.5 0.5</center>
+    </distortion>
+  </camera>
+</sensor>
+"""
+
+
+GOOD = [
+    _camera("<k1>0.0</k1><k2>0</k2><p1>0</p1>"),
+    '<sensor name="front" type="camera"><camera/></sensor>',
+]
+BAD = [_camera("<k1>0</k1>\n<k2>0.04</k2>  <!-- ^ SEN012 -->\n<p1>0.001</p1>")]

@@ -1,0 +1,99 @@
+"""An IMU that gives away its true orientation.
+
+Unless `<imu><enable_orientation>` is 0, the message carries the orientation of the robot in the
+world without any error: ground truth, which no team may have.
+
+Fix: write `<enable_orientation>0</enable_orientation>` into `<imu>`; below `<sensor>` nothing reads
+it.
+Source: SubT maintainers add it to every model; SDFormat specification, imu/enable_orientation.
+"""
+
+from checker.finding import Fix
+from checker.model.components import Sensor
+from checker.model.robot import Robot
+from checker.model.sensing.kind import SensorType
+from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.source.insertion import insert_into, removal
+
+_OFF = "<enable_orientation>0</enable_orientation>"
+
+
+@rule("SEN014", "imu-orientation", Severity.ERROR)
+def check(robot: Robot) -> Findings:
+    """Report IMUs whose orientation is not switched off."""
+    for sensor in robot.sensors:
+        if sensor.kind is not SensorType.IMU:
+            continue
+        imu = sensor.imu
+        if imu is not None and not imu.enable_orientation.value:
+            continue
+        yield finding(
+            imu.enable_orientation if imu is not None else sensor,
+            f"IMU {sensor.name.value!r} gives its true orientation{_why(sensor)}; "
+            "expected <enable_orientation>0 in <imu>",
+            key="orientation",
+            fix=_fix(sensor),
+        )
+
+
+def _why(sensor: Sensor) -> str:
+    if sensor.element.child("enable_orientation") is not None:
+        return ": <enable_orientation> is not read below <sensor>"
+    stated = sensor.imu is not None and sensor.imu.enable_orientation.stated
+    return "" if stated else ", which is the default"
+
+
+def _fix(sensor: Sensor) -> Fix:
+    imu = sensor.imu
+    within = imu.element.child("enable_orientation") if imu is not None else None
+    if imu is None:
+        edit = insert_into(sensor.element, ["<imu>", f"  {_OFF}", "</imu>"])
+    elif within is None:
+        edit = insert_into(imu.element, [_OFF])
+    elif within.text.stated:
+        edit = within.text.span.replaced_by("0")
+    else:
+        edit = within.whole_span.replaced_by(_OFF)
+    misplaced = (removal(each) for each in sensor.element.all("enable_orientation"))
+    return Fix(Safety.SAFE, (edit, *misplaced))
+
+
+GOOD = [
+    """
+<sensor name="imu" type="imu">
+  <imu>
+    <enable_orientation>0</enable_orientation>
+  </imu>
+</sensor>
+<sensor name="front" type="camera"/>
+""",
+    """
+<sensor name="imu" type="imu">
+  <imu><enable_orientation>false</enable_orientation></imu>
+</sensor>
+""",
+]
+BAD = [
+    '<sensor name="imu" type="imu"/>  <!-- ^ SEN014 -->',
+    """
+<sensor name="imu" type="imu">
+  <imu>  <!-- ^ SEN014 -->
+    <angular_velocity/>
+  </imu>
+</sensor>
+""",
+    """
+<sensor name="imu" type="imu">
+  <enable_orientation>0</enable_orientation>
+  <imu>  <!-- ^ SEN014 -->
+  </imu>
+</sensor>
+""",
+    """
+<sensor name="imu" type="imu">
+  <imu>
+    <enable_orientation>1</enable_orientation>  <!-- ^ SEN014 -->
+  </imu>
+</sensor>
+""",
+]

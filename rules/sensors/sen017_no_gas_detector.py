@@ -1,0 +1,70 @@
+"""A robot without the gas detector.
+
+Gas is one of the artifacts of the SubT challenge, and every robot smells it: without the plugin a
+robot drives through it and reports nothing.
+
+Fix: add the plugin `subt::GasDetector` of `libGasEmitterDetectorPlugin.so` to the spawner, with
+topic `/model/<name>/gas_detected`, update_rate 10 and type gas; bridge that topic.
+Source: SubT maintainers had it added to every robot (`subt_standards.json`, gas_sensor).
+"""
+
+from checker.finding import Place
+from checker.model.plugin_library import library_stem
+from checker.model.robot import Robot
+from checker.package.inheritance import SPAWNER
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.resources import table
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+_ROBOTS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
+
+
+@rule("SEN017", "no-gas-detector", Severity.ERROR)
+def check(package: Package, robot: Robot) -> Findings:
+    """Report robots without the gas detector; what others build on may leave it to them."""
+    standard = table("subt_standards")["gas_sensor"]["plugin"]
+    wanted = (standard["name"].rsplit("::", 1)[-1], library_stem(standard["filename"]))
+    if package.kind not in _ROBOTS:
+        return
+    for plugin in robot.all_plugins:
+        if plugin.class_name == wanted[0] or library_stem(plugin.filename.value) == wanted[1]:
+            return
+    reason = robot.unread_plugins or robot.missing_parts
+    if reason:
+        yield unchecked(reason)
+        return
+    yield finding(
+        Place(SPAWNER) if package.exists(SPAWNER) else robot,
+        f"robot {robot.name.value!r} has no gas detector; expected the plugin "
+        f"{standard['name']!r} of {standard['filename']!r}",
+    )
+
+
+_DETECTOR = '<plugin filename="libGasEmitterDetectorPlugin.so" name="subt::GasDetector"/>'
+_SPAWNER = """def spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)
+  <<-HEREDOC
+  <spawn name="#{_name}">
+    <sdf version="1.6">
+      <include>
+        <uri>#{_modelURI}</uri>
+        {plugin}
+      </include>
+    </sdf>
+  </spawn>
+  HEREDOC
+end
+"""
+
+GOOD = [
+    _DETECTOR,
+    {"launch/spawner.rb": _SPAWNER.replace("{plugin}", _DETECTOR)},
+    {"@name": "acme_rover_base", "launch/spawner.rb": None, "launch/vehicle_topics.launch": None},
+]
+BAD = [
+    {"@reported": ["launch/spawner.rb:1"]},
+    {
+        "launch/spawner.rb": "# No plugin.  ^ SEN017\n" + _SPAWNER.replace("{plugin}", ""),
+        "@fragment": '<plugin filename="libGasEmitter.so" name="subt::GasEmitter"/>',
+    },
+]

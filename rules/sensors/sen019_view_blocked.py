@@ -1,0 +1,181 @@
+"""A camera or lidar that looks into its own robot.
+
+What a sensor sees of its own robot is lost for what it is there for: a camera that stands inside
+its housing shows plastic, a lidar behind a mast reports the mast all around, and maps and obstacle
+detection take it for a wall that goes along. Where a visual is nearer than the near clip, pictures
+show it cut open.
+
+Rays are cast over the view at the robot's visuals, boxes and meshes alike, with all joints where
+they start. Simulators draw only the outer side of a surface, beyond the near clip or the least
+range; so a sensor within its own closed housing sees through it. Parts that one can see through do
+not count.
+
+Fix: move the sensor to the front of its housing, as the real lens is, or the visual out of its way;
+for a lidar raise `<range><min>` over the radius of its own housing.
+Source: SubT review findings (a RealSense whose pose was that of its frame, inside its visual).
+In 18 accepted packages the robot fills up to 42 % of a camera's view, up to 10 % within 10 cm, and
+up to 29 % of a lidar's; the shares allowed here are set above that.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.sensing.view import SensorViews, View
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("SEN019", "view-blocked", Severity.WARNING)
+def check(
+    seen: SensorViews,
+    *,
+    most: float = 0.3,
+    most_of_picture: float = 0.5,
+    close: float = 0.1,
+) -> Findings:
+    """Report views of which the robot takes more than a share.
+
+    Args:
+        seen: The robot and the views of its sensors.
+        most: Share of a lidar's view, of what a camera sees nearer than `close`, and of what the
+            near clip of a camera cuts open.
+        most_of_picture: Share of a camera's whole view: it may see its own robot below.
+        close: Metres.
+    """
+    for view in seen.views:
+        fault = next(_faults(view, most, most_of_picture, close), None)
+        if fault is None:
+            continue
+        sensor = view.mounted.sensor
+        by = f", most of it visual {view.by[1].name.value!r}" if view.by is not None else ""
+        yield finding(
+            sensor.pose,
+            f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} {fault}{by}",
+            related=[(view.by[1], "this visual")] if view.by is not None else (),
+        )
+    if seen.robot.missing_parts:
+        yield unchecked(seen.robot.missing_parts)
+    if seen.unseen:
+        others = len(seen.unseen) - 1
+        more = f", and {others} more that may stand in a view are not known" if others else ""
+        yield unchecked(seen.unseen[0] + more)
+
+
+def _faults(view: View, most: float, most_of_picture: float, close: float) -> Iterator[str]:
+    """Say what is wrong with a view, the worst first."""
+    if view.mounted.sensor.kind.is_lidar:
+        if view.hidden > most:
+            yield _said(view.hidden, "of its rays meet the robot itself", most)
+        return
+    near = view.hidden_within(close)
+    if near > most:
+        yield _said(near, f"of its view is filled by the robot within {close:g} m", most)
+    if view.cut > most:
+        yield _said(view.cut, "of its view goes through what its near clip cuts open", most)
+    if view.hidden > most_of_picture:
+        yield _said(view.hidden, "of its view is filled by the robot itself", most_of_picture)
+
+
+def _said(share: float, what: str, most: float) -> str:
+    return f"is blocked: {share:.0%} {what}, expected {most:.0%} or less"
+
+
+def _head(sensor: str, visual: str, more: str = "") -> str:
+    return f"""
+<link name="head">
+  <visual name="housing">{visual}{more}</visual>
+  {sensor}
+</link>
+"""
+
+
+def _camera(pose: str, mark: str = "") -> str:
+    return f"""
+  <sensor name="front" type="camera">
+    <pose>{pose}</pose>{mark}
+    <camera><horizontal_fov>1.2</horizontal_fov><clip><near>0.01</near></clip></camera>
+  </sensor>
+"""
+
+
+def _lidar(pose: str, mark: str = "") -> str:
+    return f"""
+  <sensor name="top" type="gpu_lidar">
+    <pose>{pose}</pose>{mark}
+    <lidar>
+      <scan>
+        <horizontal>
+          <samples>900</samples><min_angle>-3.14159</min_angle><max_angle>3.14159</max_angle>
+        </horizontal>
+        <vertical><samples>4</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle></vertical>
+      </scan>
+      <range><min>0.1</min><max>100</max></range>
+    </lidar>
+  </sensor>
+"""
+
+
+def _box(size: str, pose: str = "0 0 0 0 0 0") -> str:
+    return f"<pose>{pose}</pose><geometry><box><size>{size}</size></box></geometry>"
+
+
+_MARK = "  <!-- ^ SEN019 -->"
+_WALL = _box("0.02 1 1", "0.05 0 0 0 0 0")
+_DRUM = "<geometry><cylinder><radius>0.05</radius><length>0.08</length></cylinder></geometry>"
+_MESH = "<geometry><mesh><uri>meshes/tetrahedron.stl</uri></mesh></geometry>"
+_STL = """solid tetrahedron
+facet normal 0 0 0
+outer loop
+vertex 0.05 -1 -1
+vertex 0.05 0 1
+vertex 0.05 1 -1
+endloop
+endfacet
+facet normal 0 0 0
+outer loop
+vertex 0.05 -1 -1
+vertex 0.3 0 0
+vertex 0.05 0 1
+endloop
+endfacet
+facet normal 0 0 0
+outer loop
+vertex 0.05 0 1
+vertex 0.3 0 0
+vertex 0.05 1 -1
+endloop
+endfacet
+facet normal 0 0 0
+outer loop
+vertex 0.05 1 -1
+vertex 0.3 0 0
+vertex 0.05 -1 -1
+endloop
+endfacet
+endsolid tetrahedron
+"""
+
+
+def _with_mesh(pose: str, mark: str = "") -> dict[str, str]:
+    return {"@fragment": _head(_camera(pose, mark), _MESH), "meshes/tetrahedron.stl": _STL}
+
+
+GOOD = [
+    # Inside its own housing, and in front of it.
+    _head(_camera("0 0 0 0 0 0"), _box("0.1 0.1 0.1")),
+    _head(_camera("0.051 0 0 0 0 0"), _box("0.1 0.1 0.1")),
+    _head(_lidar("0 0 0 0 0 0"), _DRUM),
+    # A window, and the floor of its own robot below.
+    _head(_camera("0 0 0 0 0 0"), _WALL, "<transparency>0.7</transparency>"),
+    _head(_camera("0 0 0.3 0 0.2 0"), _box("2 1 0.01")),
+    # A thin mast.
+    _head(_lidar("0 0 0 0 0 0"), _box("0.03 0.03 1", "0.3 0 0 0 0 0")),
+    _with_mesh("0.1 0 0 0 0 0"),
+    _with_mesh("0 0 0 0 0 3.14159"),
+]
+BAD = [
+    _head(_camera("0 0 0 0 0 0", _MARK), _WALL),
+    _head(_camera("0.035 0 0 0 0 0", _MARK), _WALL),
+    _head(_camera("0 0 0.3 0 1.2 0", _MARK), _box("2 2 0.01")),
+    _head(_lidar("0 0 0 0 0 0", _MARK), _box("0.02 4 1", "0.3 0 0 0 0 0")),
+    _head(_lidar("0 0 0 0 0 0", _MARK), _box("0.5 0.5 0.1", "0.4 0 0 0 0 0")),
+    _with_mesh("0 0 0 0 0 0", _MARK),
+]

@@ -1,0 +1,173 @@
+"""A light that shines from inside a body, from nowhere, without end, or one of too many.
+
+A light that casts shadows from inside a visual lights up that visual alone: the robot drives in
+the dark. Without shadows it shines through the body, and a light with no lamp at its place comes
+from nowhere; both puzzle whoever looks at the robot, and most are poses with a wrong sign or frame.
+Where the file states no range, a lamp ends at 10 m. Every light is worked out for every pixel of
+every camera, so a team of robots with many lights slows the whole run.
+
+Fix: put the light just in front of its lamp's visual, state `<attenuation><range>`, and keep to
+six lights.
+Source: SDFormat specification, light (attenuation/range: 10 by default); the robots of 18
+accepted packages have up to six lights, each within 8 cm of a visual.
+"""
+
+from collections.abc import Iterator
+from itertools import islice
+
+from checker.model.boxes import Box
+from checker.model.components import Light, Visual
+from checker.model.interpenetration import is_convex
+from checker.model.overlap import face_directions, overlap_depth
+from checker.model.placed import Placed, placed
+from checker.model.robot import Robot
+from checker.model.transform import Vector
+from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+
+_PLACED = 60
+"""After so many lights no more are placed: that there are too many is found."""
+
+
+@rule("SEN020", "light-placement", Severity.WARNING)
+def check(
+    robot: Robot,
+    *,
+    most: int = 6,
+    nearest: float = 0.1,
+    deepest: float = 0.05,
+    deepest_with_shadows: float = 0.01,
+) -> Findings:
+    """Count the lights, and compare their distance to visuals and depth in them, metres."""
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
+    lights = [(link, light) for link in robot.links for light in link.lights]
+    if not lights:
+        return
+    if len(lights) > most:
+        yield finding(
+            lights[most][1],
+            f"robot has {len(lights)} lights, expected {most} or fewer",
+            related=[(light, "another light") for _, light in lights[most + 1 :]],
+        )
+    yield from _without_range(light for _, light in lights)
+    visuals = [each for link in robot.links for each in placed(robot, link, link.visuals)]
+    for link, light in islice(lights, _PLACED):
+        pose = robot.pose_of_part(link, light.pose)
+        if pose is None or light.type == "directional":
+            continue
+        place = pose.translation
+        limit = deepest_with_shadows if light.casts_shadows else deepest
+        deep = [each for each in visuals if _is_inside(robot, each, place, limit)]
+        if deep:
+            yield _inside(light, deep[0], limit)
+        else:
+            yield from _alone(robot, light, place, visuals, nearest)
+
+
+def _without_range(lights: Iterator[Light]) -> Iterator[Finding]:
+    for light in lights:
+        attenuation = light.attenuation
+        if light.type == "directional" or (attenuation is not None and attenuation.range.stated):
+            continue
+        yield finding(
+            light if attenuation is None else attenuation,
+            f"light {light.name.value!r} states no <attenuation><range>, so that it ends at 10 m",
+            key="no range",
+        )
+
+
+def _is_inside(robot: Robot, visual: Placed, place: Vector, limit: float) -> bool:
+    """Say whether a point is deeper than a limit in a visual; concave ones do not count."""
+    if visual.box.gap(Box(place, place)) > 0.0 or not is_convex(robot, visual):
+        return False
+    if isinstance(visual.shape, Visual) and visual.shape.is_see_through:
+        return False
+
+    def point(direction: Vector) -> float:
+        return sum(a * b for a, b in zip(direction, place, strict=True))
+
+    def reach(direction: Vector) -> float:
+        return visual.support(robot, direction)
+
+    start = list(face_directions(visual.pose.rotation, visual.pose.rotation))
+    return overlap_depth(reach, point, start, limit) > limit
+
+
+def _inside(light: Light, visual: Placed, limit: float) -> Finding:
+    said = (
+        "which keeps its light in, as it casts shadows" if light.casts_shadows else "out of sight"
+    )
+    return finding(
+        light,
+        f"light {light.name.value!r} is more than {limit:g} m deep in visual "
+        f"{visual.shape.name.value!r}, {said}; expected in front of its lamp",
+        related=[(visual.shape, "the visual around it")],
+    )
+
+
+def _alone(
+    robot: Robot, light: Light, place: Vector, visuals: list[Placed], nearest: float
+) -> Iterator[Finding | Unchecked]:
+    here = Box(place, place)
+    gap = min((each.box.gap(here) for each in visuals), default=None)
+    if gap is not None and gap <= nearest:
+        return
+    unknown = next((use for use in robot.mesh_uses if not use.is_collision and not use.mesh), None)
+    if unknown is not None:
+        # A mesh that is missing will stand there again once its path is mended.
+        yield unchecked(f"how far {unknown.uri.value} reaches is not known")
+        return
+    away = "the robot has no visual" if gap is None else f"the nearest visual is {gap:.3g} m away"
+    yield finding(
+        light,
+        f"light {light.name.value!r} has no lamp: {away}, expected one within {nearest:g} m",
+    )
+
+
+def _light(
+    pose: str, more: str = "<attenuation><range>20</range></attenuation>", mark: str = ""
+) -> str:
+    return f"""
+  <light name="lamp" type="spot">{mark}
+    <pose>{pose}</pose>
+    {more}
+  </light>
+"""
+
+
+def _link(lights: str, visual: str = "") -> str:
+    return f"""
+<link name="mast">
+  <visual name="hull">
+    {visual}
+    <geometry><box><size>0.4 0.4 0.4</size></box></geometry>
+  </visual>{lights}
+</link>
+"""
+
+
+_MARK = "  <!-- ^ SEN020 -->"
+_SHADOWS = "<attenuation><range>20</range></attenuation><cast_shadows>1</cast_shadows>"
+_OTHERS = "\n".join(
+    f'<light name="{number}" type="point"><pose>0.2 0 0 0 0 0</pose>'
+    "<attenuation><range>9</range></attenuation></light>"
+    for number in range(6)
+)
+GOOD = [
+    _link(_light("0.21 0 0 0 0 0")),
+    _link(_light("0.18 0 0 0 0 0")),
+    _link(_light("0.21 0 0 0 0 0", _SHADOWS)),
+    _link(_light("0 0 0 0 0 0"), "<transparency>0.8</transparency>"),
+    _link(_OTHERS),
+    _link('<light name="sun" type="directional"><pose>0 0 9 0 0 0</pose></light>'),
+]
+BAD = [
+    _link(_light("0.1 0 0 0 0 0", mark=_MARK)),
+    _link(_light("0.18 0 0 0 0 0", _SHADOWS, _MARK)),
+    _link(_light("0.5 0 0 0 0 0", mark=_MARK)),
+    _light("0 0 0 0 0 0", mark=_MARK),
+    _link(f'<light name="lamp" type="spot">{_MARK}<pose>0.2 0 0 0 0 0</pose></light>'),
+    _link(_light("0.2 0 0 0 0 0", f"<attenuation>{_MARK}</attenuation>")),
+    _link(_OTHERS + _light("0.2 0 0 0 0 0", mark=_MARK)),
+]

@@ -1,0 +1,79 @@
+"""A light that is as dim as Gazebo Classic's lights are meant to be.
+
+Lights are darker in Ignition Gazebo than in Gazebo Classic for the same settings: with an
+attenuation from Classic, the robot's cameras see next to nothing in a mine. What lamps give is
+divided by constant + linear·d + quadratic·d²; Classic's usual 0.5 and more weaken it at the start.
+
+Fix: lower `<constant>` to about 0.1 and `<linear>` to 0, and set `<quadratic>` for the distance at
+which the light is to fade, such as 0.0025.
+Source: Model Migration Guide of SubT (light brightness is lower in ign-gazebo: adjust the
+parameters under `<attenuation>`); lights of accepted robots are divided by 0.04 to 0.21 at 1 m,
+those that Gazebo Classic makes by 0.51 (general knowledge).
+"""
+
+from checker.model.robot import Robot
+from checker.rule import Context, Findings, Severity, finding, rule
+
+_NOT_DARKER = ("", "classic")
+"""Releases of which that is not said: none in particular, and Gazebo Classic."""
+
+
+@rule("SEN023", "dim-light", Severity.INFO)
+def check(
+    robot: Robot,
+    context: Context,
+    *,
+    distance: float = 1.0,
+    largest_divisor: float = 0.5,
+    least_range: float = 5.0,
+) -> Findings:
+    """Report lights divided by more than `largest_divisor` at a distance, metres.
+
+    Those that reach less far than `least_range`, metres, are signals and not lamps.
+    """
+    if context.release in _NOT_DARKER:
+        return
+    for link in robot.links:
+        for light in link.lights:
+            attenuation = light.attenuation
+            if attenuation is None or light.type == "directional" or not attenuation.is_stated:
+                continue
+            if attenuation.range.value < least_range:
+                continue
+            divisor = attenuation.divisor(distance)
+            if divisor <= largest_divisor:
+                continue
+            yield finding(
+                attenuation,
+                f"light {light.name.value!r} is divided by {divisor:.3g} at {distance:g} m, as in "
+                f"Gazebo Classic; Ignition Gazebo renders it darker, expected {largest_divisor:g} "
+                "or less",
+                key=f"divided by {divisor:.3g}",
+            )
+
+
+def _light(attenuation: str, kind: str = "spot") -> str:
+    return f"""
+<light name="lamp" type="{kind}">
+  <attenuation>{attenuation}
+  </attenuation>
+</light>
+"""
+
+
+_CLASSIC = "<constant>0.9</constant><linear>0.01</linear><quadratic>0.001</quadratic>"
+_MARK = "  <!-- ^ SEN023 -->"
+GOOD = [
+    _light("<constant>0.1</constant><linear>0</linear><quadratic>0.0025</quadratic>"),
+    # Says only how far it shines: what weakens it is left to the simulator.
+    _light("<range>20</range>"),
+    _light(_CLASSIC, "directional"),
+    # A signal lamp.
+    _light(f"<range>2</range>{_CLASSIC}"),
+    '<light name="lamp" type="point"/>',
+]
+BAD = [
+    _light(f"{_MARK}<range>50</range>{_CLASSIC}"),
+    _light(f"{_MARK}<constant>0.5</constant><linear>0.01</linear><quadratic>0.001</quadratic>"),
+    _light(f"{_MARK}<constant>0.1</constant>"),
+]

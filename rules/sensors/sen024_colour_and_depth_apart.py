@@ -1,0 +1,91 @@
+"""A colour camera and a depth camera at one pose.
+
+They stand for one device, such as a RealSense, and are rendered twice: two sensors of Gazebo cost
+twice the time, their pictures are of different moments, and neither gives a coloured point cloud.
+An `rgbd_camera` renders once and gives all three; beside one, a colour camera adds nothing.
+
+Fix: replace both by one sensor of type `rgbd_camera`, and bridge its `image`, `depth_image` and
+`points`.
+Source: Model Migration Guide of SubT (RGBD cameras are natively supported via the sensor type
+`rgbd_camera`); colour and depth of a RealSense D435 are 15 mm apart (general knowledge).
+"""
+
+import math
+
+from checker.model.robot import Robot
+from checker.model.sensing.kind import SensorType
+from checker.model.sensing.mounting import Mounted, mounted_sensors
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+_COMPARED = 100
+"""Cameras of each kind; a robot has ten."""
+
+
+@rule("SEN024", "colour-and-depth-apart", Severity.WARNING)
+def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findings:
+    """Report pairs no more than `distance`, metres, apart that look one way within `angle`, rad."""
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
+    sensors = list(mounted_sensors(robot))
+    colours = [each for each in sensors if _sees_colours(each)]
+    depths = [each for each in sensors if each.sensor.kind.measures_depth]
+    for colour in colours[:_COMPARED]:
+        beside = (each for each in depths[:_COMPARED] if _together(colour, each, distance, angle))
+        depth = next(beside, None)
+        if depth is None:
+            continue
+        apart = math.dist(colour.pose.translation, depth.pose.translation)
+        kind = depth.sensor.kind.replace("_", " ")
+        yield finding(
+            colour.sensor,
+            f"camera {colour.sensor.name.value!r} is {1000 * apart:.3g} mm from {kind} "
+            f"{depth.sensor.name.value!r} and looks the same way; expected one rgbd_camera "
+            "for both",
+            related=[(depth.sensor, f"the {kind}")],
+        )
+
+
+def _sees_colours(mounted: Mounted) -> bool:
+    """Say whether a sensor is a camera for colours; infrared ones have pictures in grey."""
+    sensor = mounted.sensor
+    if sensor.kind is not SensorType.CAMERA:
+        return False
+    return sensor.camera is None or not sensor.camera.format.value.upper().startswith("L")
+
+
+def _together(one: Mounted, other: Mounted, distance: float, angle: float) -> bool:
+    if math.dist(one.pose.translation, other.pose.translation) > distance:
+        return False
+    ahead, beside = one.looking, other.looking
+    if ahead is None or beside is None:
+        return False
+    return math.dist(ahead, beside) <= angle
+
+
+def _cameras(one: str, other: str, pose: str, mark: str = "", image: str = "R8G8B8") -> str:
+    return f"""
+<link name="head">
+  <sensor name="colour" type="{one}">{mark}
+    <pose>0.1 0 0 0 0 0</pose>
+    <camera><image><format>{image}</format></image></camera>
+  </sensor>
+  <sensor name="depth" type="{other}"><pose>{pose}</pose></sensor>
+</link>
+"""
+
+
+_MARK = "  <!-- ^ SEN024 -->"
+GOOD = [
+    _cameras("camera", "depth_camera", "0.1 0.1 0 0 0 0"),
+    _cameras("camera", "depth_camera", "0.1 0 0 0 0 1.57"),
+    _cameras("camera", "camera", "0.1 0 0 0 0 0"),
+    _cameras("rgbd_camera", "rgbd_camera", "0.1 0 0 0 0 0"),
+    # Infrared.
+    _cameras("camera", "depth_camera", "0.1 0 0 0 0 0", image="L8"),
+]
+BAD = [
+    _cameras("camera", "depth_camera", "0.1 0 0 0 0 0", _MARK),
+    _cameras("camera", "depth", "0.1 0.015 0 0 0 0", _MARK),
+    _cameras("camera", "rgbd_camera", "0.1 0 0 0 0 0", _MARK),
+]

@@ -1,0 +1,102 @@
+"""A sensor that looks elsewhere than its name says.
+
+Whoever drives by `camera_rear` and is shown the front runs into a wall, and a map that is built
+from a turned lidar is turned as well. Most often a yaw is missing, or written in degrees.
+
+Fix: turn the sensor's pose (a camera looks along its x axis, and the robot's x axis points ahead),
+or give it the name of where it looks.
+Source: SDFormat specification, sensor/pose; REP 103 (x forward, y left, z up).
+"""
+
+import math
+
+from checker.model.robot import Robot
+from checker.model.sensing.called import called_directions
+from checker.model.sensing.mounting import mounted_sensors
+from checker.rule import Findings, Severity, finding, rule, unchecked
+
+
+@rule("SEN026", "sensor-looks-elsewhere", Severity.WARNING)
+def check(
+    robot: Robot,
+    *,
+    largest_angle: float = 60.0,
+    largest_angle_tilted: float = 80.0,
+    largest_angle_sideways: float = 120.0,
+) -> Findings:
+    """Compare where sensors look with their names; angles in degrees.
+
+    Left and right are also said of sensors that look ahead side by side, up and down of those that
+    are tilted a little; so there more is allowed.
+    """
+    if robot.missing_parts:
+        yield unchecked(robot.missing_parts)
+        return
+    for each in mounted_sensors(robot):
+        looking = each.looking
+        called = called_directions(each) if looking is not None else None
+        if looking is None or called is None:
+            continue
+        angle = math.degrees(called.angle_to(looking))
+        limit = largest_angle_tilted if called.tilted else largest_angle
+        if called.sideways:
+            limit = largest_angle_sideways
+        if angle <= limit:
+            continue
+        x, y, z = (round(part, 2) + 0.0 for part in looking)
+        yield finding(
+            each.sensor,
+            f"sensor {each.sensor.name.value!r} looks {angle:.0f}° away from where "
+            f"{called.word!r} in its {called.source} says, along ({x:g}, {y:g}, {z:g}) of the "
+            f"robot's frame; expected {limit:g}° or less",
+        )
+
+
+def _camera(name: str, pose: str, mark: str = "", link: str = "head") -> str:
+    return f"""
+<link name="{link}">
+  <sensor name="{name}" type="camera">{mark}
+    <pose>{pose}</pose>
+  </sensor>
+</link>
+"""
+
+
+def _laser(name: str, pose: str, angle: float, mark: str = "") -> str:
+    return f"""
+<sensor name="{name}" type="gpu_lidar">{mark}
+  <pose>{pose}</pose>
+  <lidar><scan><horizontal>
+    <min_angle>{-angle}</min_angle>
+    <max_angle>{angle}</max_angle>
+  </horizontal></scan></lidar>
+</sensor>
+"""
+
+
+_AHEAD, _BACK, _ASIDE = "0.2 0 0 0 0 0", "-0.2 0 0 0 0 3.14159", "0 0.2 0 0 0 1.5708"
+_MARK = "  <!-- ^ SEN026 -->"
+GOOD = [
+    _camera("camera_front", "0.2 0 0 0 0.5 0"),
+    _camera("rearCamera", _BACK),
+    _camera("front_left_camera", _ASIDE),
+    # The left one of two that look ahead.
+    _camera("left", _AHEAD) + _camera("right", _AHEAD, link="neck"),
+    _camera("camera_down", "0.2 0 0 0 0.4 0"),
+    # Words within words, and links named for where they are.
+    _camera("upper_copyright_camera", _BACK),
+    _camera("camera", _BACK, link="front_left_wheel"),
+    _camera("front_cliff", "0.2 0 0 0 1.5708 0"),
+    # Sees to all sides, so that it may be turned.
+    _laser("front_laser", "0.2 0 0 0 0 3.14159", 3.14159),
+    '<sensor name="rear_imu" type="imu"/>',
+]
+BAD = [
+    _camera("camera_front", _BACK, _MARK),
+    _camera("camera_rear", _AHEAD, _MARK),
+    _camera("left_camera", "0 -0.2 0 0 0 -1.5708", _MARK),
+    _camera("cameraDown", "0 0 0 0 -1.5708 0", _MARK),
+    _camera("camera_up", _AHEAD, _MARK),
+    _camera("camera", _AHEAD, _MARK, link="rear_camera_link"),
+    _laser("laser_rear", "-0.2 0 0 0 0 0", 1.0, _MARK),
+]

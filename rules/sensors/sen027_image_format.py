@@ -1,0 +1,78 @@
+"""A picture format that the simulator does not give.
+
+A camera of Gazebo Dome gives R8G8B8 and nothing else: with another format it complains, and the
+pixels are not what the topic says. A name that SDFormat does not know is no format at all.
+
+Fix: write `<format>R8G8B8</format>`; where grey is wanted, turn the picture grey on the robot.
+Source: `camera_formats.json`; which formats a release gives is from memory of gz-sensors.
+"""
+
+from collections.abc import Mapping, Sequence
+
+from checker.model.robot import Robot
+from checker.model.sensing.kind import SensorType
+from checker.model.suggestions import Suggestions
+from checker.resources import table
+from checker.rule import Context, Findings, Severity, finding, rule
+
+_SHOWN = 40
+
+
+@rule("SEN027", "image-format", Severity.WARNING)
+def check(robot: Robot, context: Context) -> Findings:
+    """Report formats that are unknown, and those of colour cameras that the release lacks."""
+    formats = table("camera_formats")
+    names: Mapping[str, str] = formats["names"]
+    rendered = formats["rendered"].get(context.release)
+    if rendered is None:
+        return
+    suggestions = Suggestions(names)
+    for sensor in robot.sensors:
+        camera = sensor.camera
+        if camera is None or not sensor.kind.takes_pictures or not camera.format.stated:
+            continue
+        given = camera.format.value
+        if given not in names:
+            fault = f", which SDFormat does not know{suggestions.hint(given)}"
+        elif sensor.kind is SensorType.CAMERA and names[given] not in rendered:
+            release = f"Gazebo {context.release.capitalize()}"
+            fault = f"; cameras of {release} give {_listed(rendered, names)}"
+        else:
+            continue
+        said = f"camera {sensor.name.value!r} has format {given[:_SHOWN]!r}{fault}"
+        yield finding(camera.format, said, key=given)
+
+
+def _listed(formats: Sequence[str], names: Mapping[str, str]) -> str:
+    """Return the formats by the names that people write: `R8G8B8` for `RGB_INT8`."""
+    usual = {meant: name for name, meant in reversed(list(names.items()))}
+    return ", ".join(usual[each] for each in formats)
+
+
+def _camera(format_: str, kind: str = "camera") -> str:
+    return f"""
+<sensor name="front" type="{kind}">
+  <camera>
+    <image>
+      {format_}
+    </image>
+  </camera>
+</sensor>
+"""
+
+
+_MARK = "  <!-- ^ SEN027 -->"
+
+GOOD = [
+    _camera("<format>R8G8B8</format>"),
+    _camera("<format>RGB_INT8</format>"),
+    _camera(""),
+    _camera("<format>R_FLOAT32</format>", "depth_camera"),
+    _camera("<format>L16</format>", "thermal"),
+]
+BAD = [
+    _camera(f"<format>B8G8R8</format>{_MARK}"),
+    _camera(f"<format>L8</format>{_MARK}"),
+    _camera(f"<format>RGB888</format>{_MARK}"),
+    _camera(f"<format>R8G8B</format>{_MARK}", "rgbd_camera"),
+]

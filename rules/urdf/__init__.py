@@ -1,0 +1,1 @@
+"""URD: URDF and xacro files, of packages that are made of them and beside SDF models."""

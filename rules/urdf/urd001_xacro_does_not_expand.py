@@ -1,0 +1,125 @@
+"""A URDF or xacro file of which no robot comes about.
+
+The launch file that loads it ends with an error, or loads a robot whose names still hold the
+expressions of xacro. A file that holds macros alone is none of these, nor one that only needs an
+argument that whoever starts it gives.
+
+Fix: correct what the message names; `xacro FILE name:=x` shows the same on the command line.
+Source: xacro, "unknown macro name", "Undefined substitution argument"; ROS Noetic and later expand
+no tag without the prefix `xacro:`.
+"""
+
+import re
+from collections.abc import Iterator
+
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.files import UrdfFiles, XacroFault, XacroFaultKind
+from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.source.xml import Element
+
+_BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
+_EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
+_WITHOUT_PREFIX = ("include", "insert_block", "macro", "property")
+"""Tags of xacro that no reader of URDF knows; they stand directly in the robot."""
+_FOREIGN = ("gazebo",)
+"""Below these stands what URDF does not define, so braces may mean anything."""
+
+
+@rule("URD001", "xacro-does-not-expand", Severity.ERROR)
+def check(files: UrdfFiles) -> Findings:
+    """Report files that xacro refuses, and what it leaves behind."""
+    for reason in files.unread:
+        yield unchecked(reason)
+    for fault in files.faults:
+        if fault.kind is XacroFaultKind.MALFORMED and "xmlns:" not in fault.hint:
+            yield unchecked(f"{fault.file} is not well-formed")
+        else:
+            yield _refused(fault)
+    for description in files.descriptions:
+        yield from _left_behind(description)
+
+
+def _refused(fault: XacroFault) -> Finding:
+    if fault.kind is XacroFaultKind.EMPTY:
+        return finding(fault, f"{fault.file} is empty, expected a robot")
+    hint = f": {fault.hint}" if fault.hint else ""
+    severity = Severity.WARNING if fault.kind is XacroFaultKind.ENVIRONMENT else None
+    said = f"{fault.file} does not expand: {fault.message}{hint}"
+    return finding(fault, said, severity=severity)
+
+
+def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
+    root = description.document.root
+    for child in root.children:
+        if child.tag in _WITHOUT_PREFIX:
+            yield finding(
+                child.span,
+                f"<{child.tag}> stays as it is: xacro expands <xacro:{child.tag}>",
+                key=f"<{child.tag}>",
+            )
+        elif child.tag not in _FOREIGN:
+            yield from _unexpanded(child)
+            for element in child.descendants():
+                yield from _unexpanded(element)
+
+
+def _unexpanded(element: Element) -> Iterator[Finding]:
+    for name, value in element.attributes.items():
+        where = element.attribute(name) or element
+        if found := _EXPRESSION.search(value):
+            yield finding(
+                where,
+                f"{found.group()} stays as it is: the file is loaded without xacro",
+                key="without xacro",
+            )
+        elif found := _BRACES.search(value):
+            yield finding(
+                where,
+                f"{name} is {value[:80]!r}; did you mean ${{{found[1]}}}?",
+                key=found.group(),
+            )
+
+
+_DESCRIPTION = "urdf/robot_from_sdf.xacro"
+_LAUNCH = "launch/description.launch"
+_LOADING = """<launch>
+  <arg name="name"/>
+  <arg name="world_name"/>
+  <param name="$(arg name)/robot_description"
+         command="$(find xacro)/xacro $(find acme_rover_sensor_config_1)/urdf/robot_from_sdf.xacro
+                  name:=$(arg name)"/>
+</launch>
+"""
+_HEAD = '<robot name="rover" xmlns:xacro="http://ros.org/wiki/xacro">\n'
+
+
+def _loaded(body: str, head: str = _HEAD) -> dict[str, str]:
+    return {_LAUNCH: _LOADING, _DESCRIPTION: f"{head}{body}\n</robot>\n"}
+
+
+_MARK = "  <!-- ^ URD001 -->"
+_MACROS = """
+<xacro:macro name="wheel" params="side"><link name="$(arg name)/${side}_wheel"/></xacro:macro>
+"""
+GOOD = [
+    _loaded(f'<xacro:arg name="name" default="x"/>{_MACROS}<xacro:wheel side="left"/>'),
+    _loaded('<link name="$(arg name)/base_link"/>'),
+    {"urdf/wheel.xacro": f"{_HEAD}{_MACROS}</robot>"},
+    {"urdf/arm.urdf.xacro": f'{_HEAD}<link name="$(arg arm)"/></robot>'},
+    _loaded('<link name="a"/><gazebo><plugin name="p" filename="f"><t>{x}</t></plugin></gazebo>'),
+]
+BAD = [
+    _loaded(f'<xacro:wheel side="left"/>{_MARK}'),
+    _loaded(f'<link name="$(arg nmae)/base_link"/>{_MARK}'),
+    _loaded(f'<link name="${{nmae}}/base_link"/>{_MARK}'),
+    _loaded(f'<link name="{{name}}/base_link"/>{_MARK}'),
+    _loaded(f'<xacro:property name="x" value="1"/>{_MARK}', '<robot name="rover">\n'),
+    _loaded(f'<xacro:include filename="wheel.xacro"/>{_MARK}'),
+    _loaded(f"{_MACROS}<xacro:wheel/>{_MARK}"),
+    _loaded(
+        f"""<property name="radius" value="1"/>{_MARK}
+<link name="a"/>"""
+    ),
+    {_LAUNCH: _LOADING, _DESCRIPTION: "", "@reported": [f"{_DESCRIPTION}:1"]},
+    {"@urdf": f'<link name="$(arg name)/hand"/>{_MARK}'},
+]

@@ -1,0 +1,98 @@
+"""A mesh of a URDF file that RViz or Gazebo cannot find.
+
+Both look for `package://<package>/<path>`. A path of the machine that it was written on, or one
+relative to the file, leads nowhere elsewhere, and the part is invisible.
+
+Fix: write `package://<package>/<path>`.
+Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo
+Classic reads `package://` as `model://`.
+"""
+
+import posixpath
+import re
+from collections.abc import Iterator
+
+from checker.model.urdf.description import UrdfDescription
+from checker.package.package import Package
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
+
+_PACKAGE = re.compile(r"package://([^/]+)/(.*)", re.DOTALL)
+_FETCHED = ("http://", "https://")
+
+
+@rule("URD002", "mesh-uri", Severity.ERROR)
+def check(package: Package, description: UrdfDescription) -> Findings:
+    """Report meshes without `package://`; for RViz, also those that do not exist.
+
+    In a URDF package REF002 looks for the files.
+    """
+    for uri in description.robot.file_uris:
+        if uri.value.startswith(_FETCHED):
+            continue
+        named = _PACKAGE.match(uri.value)
+        if named is None:
+            yield finding(
+                uri,
+                f"mesh {uri.value!r} does not begin with package://, so it is found on the machine "
+                "of its author at most",
+                severity=Severity.WARNING,
+                key="no package",
+            )
+        elif description.for_rviz:
+            yield from _missing(package, uri, *named.groups())
+
+
+def _missing(package: Package, uri: Located[str], name: str, path: str) -> Iterator[Finding]:
+    sibling = package.workspace.package(name)
+    own = name.casefold() == package.name.casefold() or sibling is package
+    if not own and sibling is None:
+        yield finding(
+            uri,
+            f"meshes of {name} are not at hand, so RViz needs that package as well",
+            severity=Severity.INFO,
+            key=name,
+        )
+        return
+    place = path if own or sibling is None else f"../{sibling.name}/{path}"
+    if not package.exists(posixpath.normpath(place)):
+        yield finding(uri, f"{uri.value} does not exist", key="missing")
+
+
+_DESCRIPTION = "urdf/robot_from_sdf.xacro"
+_MESH = "meshes/wheel.dae"
+
+
+def _visual(uri: str) -> str:
+    return f"""<robot name="rover">
+  <link name="base_link">
+    <visual>
+      <geometry>
+        <mesh filename="{uri}
+      </geometry>
+    </visual>
+  </link>
+</robot>
+"""
+
+
+def _example(uri: str) -> dict[str, str]:
+    return {_DESCRIPTION: _visual(uri), _MESH: "<COLLADA/>"}
+
+
+_OWN = "package://acme_rover_sensor_config_1/meshes"
+_MARK = '"/>  <!-- ^ URD002 -->'
+GOOD = [
+    _example(f'{_OWN}/wheel.dae"/>'),
+    _example('https://example.org/wheel.dae"/>'),
+    {
+        _MESH: "<COLLADA/>",
+        _DESCRIPTION: _visual('file://$(find acme_rover_sensor_config_1)/meshes/wheel.dae"/>'),
+    },
+]
+BAD = [
+    _example(f"{_OWN}/weel.dae{_MARK}"),
+    _example(f"meshes/wheel.dae{_MARK}"),
+    _example(f"file:///home/me/wheel.dae{_MARK}"),
+    _example(f"package://other_description/meshes/wheel.dae{_MARK}"),
+]

@@ -1,0 +1,42 @@
+"""A link for RViz without the robot's name in front.
+
+Teams run several robots at once, and all of them share one tree of frames. Links that are called
+the same in two robots jump between them; the frames that Gazebo publishes begin with the name.
+
+Fix: write `${name}/base_link`, in links and in the parents and children of joints.
+Source: Model Migration Guide: "Prefix each link in the xacro file with the robot's namespace".
+"""
+
+from checker.launching import SAMPLE_ARGUMENTS
+from checker.model.urdf.description import UrdfDescription
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("URD003", "link-without-name-in-front", Severity.WARNING)
+def check(description: UrdfDescription) -> Findings:
+    """Report links of a description for RViz whose name the robot's name does not begin."""
+    if not description.for_rviz:
+        return
+    prefix = f"{SAMPLE_ARGUMENTS['name']}/"
+    bare = [link for link in description.robot.links if not link.name.value.startswith(prefix)]
+    for link in bare:
+        others = f" ({len(bare)} links)" if len(bare) > 1 else ""
+        yield finding(
+            link.name,
+            f"link {link.name.value!r} does not begin with ${{name}}/{others}",
+            key="prefix",
+        )
+
+
+_FILE = "urdf/robot_from_sdf.xacro"
+_HEAD = '<robot name="rover" xmlns:xacro="http://ros.org/wiki/xacro">\n'
+_ARGUMENT = '<xacro:arg name="name" default="x"/><xacro:property name="ns" value="$(arg name)"/>\n'
+_MARK = "  <!-- ^ URD003 -->"
+GOOD = [
+    {_FILE: f'{_HEAD}{_ARGUMENT}<link name="${{ns}}/base_link"/></robot>'},
+    {"@urdf": True},
+]
+BAD = [
+    {_FILE: f'{_HEAD}<link name="base_link"/>{_MARK}\n<link name="wheel"/>{_MARK}\n</robot>'},
+    {_FILE: f'{_HEAD}{_ARGUMENT}<link name="${{ns}}_base_link"/>{_MARK}\n</robot>'},
+]

@@ -1,0 +1,91 @@
+"""A `gazebo` tag of a link or joint that does not exist, or one that does nothing.
+
+Gazebo says nothing about it: the friction, the sensor or the colour is just not there.
+
+Fix: write the link or joint as the robot spells it; put what is meant for a link under a link, and
+what is meant for a joint under a joint.
+Source: Gazebo Classic, "Using a URDF in Gazebo": elements for `<robot>`, `<link>` and `<joint>`.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.robot import Robot
+from checker.model.suggestions import Suggestions
+from checker.model.urdf.description import GazeboTag, UrdfDescription
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+OF_LINKS = frozenset(
+    {
+        *("dampingFactor", "fdir1", "gravity", "kd", "kp", "laserRetro", "material", "maxContacts"),
+        *("maxVel", "minDepth", "mu1", "mu2", "selfCollide", "self_collide", "sensor"),
+        *("turnGravityOff", "visual", "collision"),
+    }
+)
+OF_JOINTS = frozenset(
+    {
+        *("cfmDamping", "disableFixedJointLumping", "fudgeFactor", "implicitSpringDamper"),
+        *("preserveFixedJoint", "provideFeedback", "provide_feedback", "springReference"),
+        *("springStiffness", "stopCfm", "stopErp"),
+    }
+)
+
+
+@rule("URD006", "gazebo-tag-in-vain", Severity.ERROR)
+def check(description: UrdfDescription) -> Findings:
+    """Report `<gazebo>` tags that refer to nothing, and what is of no use where it stands."""
+    if description.for_rviz:
+        return
+    robot = description.robot
+    names = Suggestions([*robot.links_by_name, *robot.joints_by_name])
+    for tag in description.gazebo:
+        name = tag.reference.value
+        known = name in robot.links_by_name or name in robot.joints_by_name
+        if tag.reference.stated and not known:
+            yield finding(
+                tag.reference,
+                f"<gazebo> refers to {name!r}, which is no link and no joint{names.hint(name)}",
+                key=name,
+            )
+        else:
+            yield from _useless(tag, robot)
+
+
+def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
+    if not tag.element.children:
+        yield finding(tag, "<gazebo> holds nothing", severity=Severity.INFO, key="nothing")
+        return
+    name = tag.reference.value
+    for child in tag.element.children:
+        if not tag.reference.stated and child.tag in OF_LINKS | OF_JOINTS:
+            what = "a link" if child.tag in OF_LINKS else "a joint"
+            said = f"<{child.tag}> is for {what}, and this <gazebo> has no reference to one"
+        elif child.tag in OF_JOINTS and name and name not in robot.joints_by_name:
+            said = f"<{child.tag}> is for a joint, {name!r} is a link"
+        elif child.tag in OF_LINKS and name and name not in robot.links_by_name:
+            said = f"<{child.tag}> is for a link, {name!r} is a joint"
+        else:
+            continue
+        yield finding(child, said, severity=Severity.WARNING)
+
+
+def _tag(inside: str, reference: str = "") -> dict[str, str]:
+    attribute = f' reference="{reference}"' if reference else ""
+    return {"@urdf": f"<gazebo{attribute}>\n{inside}\n</gazebo>"}
+
+
+_MARK = "  <!-- ^ URD006 -->"
+_PLUGIN = '<plugin name="p" filename="libgazebo_ros_control.so"/>'
+GOOD = [
+    {"@urdf": True},
+    _tag("<mu1>1</mu1><own_extension/>", "upper_arm"),
+    _tag("<provideFeedback>true</provideFeedback>", "shoulder"),
+    _tag("<static>true</static>" + _PLUGIN),
+    {"urdf/rviz.urdf": '<robot name="r"><link name="a"/><gazebo reference="b"/></robot>'},
+]
+BAD = [
+    {"@urdf": f'<gazebo reference="uper_arm">{_MARK}\n<mu1>1</mu1>\n</gazebo>'},
+    _tag(f"<mu1>1</mu1>{_MARK}"),
+    _tag(f"<stopErp>0.2</stopErp>{_MARK}", "upper_arm"),
+    _tag(f"<selfCollide>true</selfCollide>{_MARK}", "shoulder"),
+    {"@urdf": f'<gazebo reference="upper_arm"/>{_MARK}'},
+]

@@ -1,0 +1,177 @@
+"""A transmission that moves nothing.
+
+gazebo_ros_control registers a joint with the controllers by its transmission. One without a joint,
+without an actuator or without an interface is skipped, and the controller does not find its joint.
+
+Fix: give the transmission one joint of the robot with its hardware interface, and one actuator.
+Source: transmission_interface, TransmissionParser: a transmission without name, type, joint or
+actuator is skipped; gazebo_ros_control, DefaultRobotHWSim: takes the first interface of the joint.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+
+from checker.model.robot import Robot
+from checker.model.suggestions import Suggestions
+from checker.model.urdf.description import Transmission, TransmissionEnd, UrdfDescription
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
+
+_MOVING = ("continuous", "prismatic", "revolute")
+_PREFIX = "hardware_interface/"
+
+
+@rule("URD008", "broken-transmission", Severity.ERROR)
+def check(description: UrdfDescription) -> Findings:
+    """Report transmissions without effect, and joints that alone of their kind have none."""
+    if description.for_rviz:
+        return
+    robot = description.robot
+    names = Suggestions(robot.joints_by_name)
+    for transmission in description.transmissions:
+        yield from _broken(transmission)
+        for end in transmission.joints:
+            yield from _joint(transmission, end, robot, names)
+    yield from _twice(description)
+    yield from _left_without(description)
+
+
+def _broken(transmission: Transmission) -> Iterator[Finding]:
+    missing = [
+        word
+        for word, there in (
+            ("type", transmission.type.value),
+            ("joint", transmission.joints),
+            ("actuator", transmission.actuators),
+        )
+        if not there
+    ]
+    if missing:
+        yield finding(
+            transmission,
+            f"transmission {transmission.name.value!r} has no {' and no '.join(missing)}",
+        )
+
+
+def _joint(
+    transmission: Transmission, end: TransmissionEnd, robot: Robot, names: Suggestions
+) -> Iterator[Finding]:
+    name, own = end.name.value, transmission.name.value
+    joint = robot.joints_by_name.get(name)
+    if joint is None:
+        said = f"moves joint {name!r}, which does not exist{names.hint(name)}"
+        yield finding(end.name, f"transmission {own!r} {said}")
+    elif joint.type.value not in _MOVING:
+        said = f"moves joint {name!r}, which is {joint.type.value}"
+        yield finding(end.name, f"transmission {own!r} {said}", severity=Severity.WARNING)
+    if not end.interfaces:
+        yield finding(end, f"joint {name!r} of transmission {own!r} has no <hardwareInterface>")
+        return
+    wanted = {_plain(interface) for interface in end.interfaces}
+    for actuator in transmission.actuators:
+        for interface in actuator.interfaces:
+            if _plain(interface) not in wanted:
+                yield finding(
+                    interface,
+                    f"actuator {actuator.name.value!r} has {_plain(interface)}, "
+                    f"joint {name!r} has {', '.join(sorted(wanted))}: expected the same",
+                    related=[(end.interfaces[0], "the joint's interface")],
+                )
+
+
+def _plain(interface: Located[str]) -> str:
+    return interface.value.removeprefix(_PREFIX)
+
+
+def _twice(description: UrdfDescription) -> Iterator[Finding]:
+    seen: dict[str, TransmissionEnd] = {}
+    for transmission in description.transmissions:
+        for end in transmission.joints:
+            first = seen.setdefault(end.name.value, end)
+            if first is not end and end.name.value:
+                yield finding(
+                    end.name,
+                    f"joint {end.name.value!r} has a second transmission, expected one",
+                    related=[(first.name, "the first one")],
+                )
+
+
+def _left_without(description: UrdfDescription) -> Iterator[Finding]:
+    """Yield joints without transmission where most joints of their type have one."""
+    moved = {end.name.value for each in description.transmissions for end in each.joints}
+    robot = description.robot
+    moved |= {each.text.value for plugin in robot.plugins for each in plugin.element.descendants()}
+    joints = [joint for joint in robot.joints if joint.type.value in _MOVING and not joint.mimics]
+    driven = Counter(joint.type.value for joint in joints if joint.name.value in moved)
+    loose = Counter(joint.type.value for joint in joints if joint.name.value not in moved)
+    for joint in joints:
+        kind, name = joint.type.value, joint.name.value
+        if name not in moved and driven[kind] > loose[kind]:
+            yield finding(
+                joint,
+                f"{kind} joint {name!r} has no transmission, unlike {driven[kind]} others",
+                severity=Severity.WARNING,
+            )
+
+
+_TYPE = "<type>transmission_interface/SimpleTransmission</type>"
+_INTERFACE = "<hardwareInterface>EffortJointInterface</hardwareInterface>"
+_MARK = "  <!-- ^ URD008 -->"
+
+
+def _transmission(inside: str, mark: str = "") -> str:
+    return f'<transmission name="t">{mark}{_TYPE}\n{inside}\n</transmission>\n'
+
+
+def _shoulder(interface: str = _INTERFACE, mark: str = "") -> str:
+    return f'<joint name="shoulder">{mark}\n{interface}\n</joint>'
+
+
+_MOTOR = '<actuator name="m"/>'
+_SOUND = _transmission(_shoulder() + _MOTOR)
+
+
+def _hinge(name: str, mark: str = "", kind: str = "revolute") -> str:
+    ends = f'<parent link="base_link"/><child link="{name}_link"/>'
+    return f'<link name="{name}_link"/><joint name="{name}" type="{kind}">{ends}</joint>{mark}\n'
+
+
+GOOD = [
+    {"@urdf": True},
+    {
+        "@urdf": _transmission(
+            _shoulder(_INTERFACE.replace(">E", ">hardware_interface/E"))
+            + f'<actuator name="m">{_INTERFACE}</actuator>'
+        )
+    },
+    {"@urdf": _SOUND + _hinge("elbow")},
+]
+BAD = [
+    {"@urdf": _transmission(_shoulder(), _MARK)},
+    {"@urdf": _transmission(_MOTOR, _MARK)},
+    {
+        "@urdf": _transmission(_shoulder().replace("shoulder", "elbow") + _MOTOR).replace(
+            '<joint name="elbow">', f'<joint name="elbow">{_MARK}'
+        )
+    },
+    {"@urdf": _transmission(_shoulder("", _MARK) + _MOTOR)},
+    {
+        "@urdf": _transmission(
+            _shoulder()
+            + f"""<actuator name="m">
+<hardwareInterface>VelocityJointInterface</hardwareInterface>{_MARK}
+</actuator>"""
+        )
+    },
+    {"@urdf": _SOUND + _transmission(_shoulder(mark=_MARK) + _MOTOR)},
+    {
+        "@urdf": _hinge("mount", kind="fixed")
+        + _transmission(f'<joint name="mount">{_MARK}\n{_INTERFACE}</joint>{_MOTOR}')
+    },
+    {
+        "@urdf": _SOUND
+        + _transmission(f'<joint name="elbow">{_INTERFACE}</joint>{_MOTOR}')
+        + _hinge("elbow")
+        + _hinge("wrist", _MARK)
+    },
+]

@@ -1,0 +1,101 @@
+"""A name that Gazebo no longer knows once fixed joints are merged.
+
+Gazebo Classic merges the links that fixed joints tie: the link below is gone, and so is the joint.
+A plugin that asks for them ends with an error or does nothing; a contact sensor that names the old
+collision never reports a contact. Frames of robot_state_publisher stay: it reads the URDF file.
+
+Fix: name the link that it is merged into; or keep the joint by `<preserveFixedJoint>true` below
+`<gazebo reference="joint">` (`<disableFixedJointLumping>` keeps the link alone).
+Source: sdformat 6, parser_urdf.cc, ReduceFixedJoints: collisions become
+`parent_fixed_joint_lump__child_collision`; gazebo_ros_p3d, gazebo_ros_force and
+gazebo_ros_ft_sensor look up `bodyName`, `linkName` and `jointName` in the model.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.components import Plugin, Sensor
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.lumping import Lumping
+from checker.rule import Finding, Findings, Severity, finding, rule
+
+OF_LINKS = ("bodyName", "linkName", "link_name", "body_name")
+"""Parameters of plugins that name a link of the simulated model."""
+OF_JOINTS = ("jointName", "joint_name")
+_COLLISION = "_collision"
+
+
+@rule("URD009", "frame-lost-by-lumping", Severity.WARNING)
+def check(description: UrdfDescription) -> Findings:
+    """Report plugins and contact sensors that name what is merged away."""
+    if description.for_rviz:
+        return
+    lumping, robot = Lumping(description), description.robot
+    for plugin in robot.all_plugins:
+        yield from _names_of(plugin, lumping)
+    for sensor in robot.sensors:
+        if sensor.type.value == "contact":
+            yield from _contact(sensor, lumping)
+
+
+def _names_of(plugin: Plugin, lumping: Lumping) -> Iterator[Finding]:
+    for name in plugin.values(*OF_LINKS):
+        if name.value in lumping.merged:
+            yield finding(
+                name,
+                f"plugin {plugin.name.value!r} asks for link {name.value!r}, which Gazebo merges "
+                f"into {lumping.holder(name.value)!r}",
+                key=name.value,
+            )
+    joints = {joint.name.value for joint in lumping.merged.values()}
+    for name in plugin.values(*OF_JOINTS):
+        if name.value in joints:
+            yield finding(
+                name,
+                f"plugin {plugin.name.value!r} asks for joint {name.value!r}, which is fixed: "
+                "Gazebo merges the links and drops it",
+                key=name.value,
+            )
+
+
+def _contact(sensor: Sensor, lumping: Lumping) -> Iterator[Finding]:
+    for holder in sensor.element.all("contact"):
+        for named in holder.all("collision"):
+            link = named.text.value.removesuffix(_COLLISION)
+            if named.text.value.endswith(_COLLISION) and link in lumping.merged:
+                merged = f"{lumping.holder(link)}_fixed_joint_lump__{named.text.value}"
+                yield finding(
+                    named.text,
+                    f"contact sensor {sensor.name.value!r} asks for {named.text.value!r}, which "
+                    f"Gazebo renames when it merges link {link!r}; expected {merged!r}",
+                )
+
+
+_HAND = """<link name="hand"/>
+<joint name="wrist" type="fixed"><parent link="upper_arm"/><child link="hand"/></joint>
+"""
+_KEPT = '<gazebo reference="wrist"><preserveFixedJoint>true</preserveFixedJoint></gazebo>'
+
+
+def _plugin(parameter: str) -> str:
+    return f"""<gazebo><plugin name="p" filename="libgazebo_ros_p3d.so">
+{parameter}
+</plugin></gazebo>"""
+
+
+def _sensor(collision: str) -> str:
+    return f"""<gazebo reference="hand"><sensor name="bumper" type="contact"><contact>
+<collision>{collision}
+</contact></sensor></gazebo>"""
+
+
+_MARK = "  <!-- ^ URD009 -->"
+GOOD = [
+    {"@urdf": _HAND + _plugin("<bodyName>upper_arm</bodyName><frameName>hand</frameName>")},
+    {"@urdf": _HAND + _KEPT + _plugin("<bodyName>hand</bodyName>")},
+    {"@urdf": _HAND + _sensor("upper_arm_fixed_joint_lump__hand_collision</collision>")},
+]
+BAD = [
+    {"@urdf": _HAND + _plugin(f"<bodyName>hand</bodyName>{_MARK}")},
+    {"@urdf": _HAND + _plugin(f"<jointName>wrist</jointName>{_MARK}")},
+    {"@urdf": _HAND + _sensor(f"hand_collision</collision>{_MARK}")},
+]

@@ -1,0 +1,73 @@
+"""A material that is named and defined nowhere.
+
+A `<material>` with a name alone takes the colour that the robot defines under this name. There is
+none, so RViz shows the part in its default colour.
+
+Fix: add `<material name="…"><color rgba="…"/></material>` to the robot, or spell the name as there.
+Source: URDF specification, visual/material.
+"""
+
+from checker.model.suggestions import Suggestions
+from checker.model.urdf.description import UrdfDescription
+from checker.rule import Findings, Severity, finding, rule
+from checker.source.xml import Element
+
+_DEFINING = ("color", "texture")
+
+
+@rule("URD010", "undefined-material", Severity.WARNING)
+def check(description: UrdfDescription) -> Findings:
+    """Report names of materials that have no colour and no texture anywhere in the file."""
+    root = description.document.root
+    used = [
+        material
+        for link in root.all("link")
+        for visual in link.all("visual")
+        for material in visual.all("material")
+    ]
+    everywhere = (*root.all("material"), *used)
+    defined = {each.get("name") or "" for each in everywhere if _defines(each)}
+    names = Suggestions(sorted(defined - {""}))
+    for material in used:
+        name = material.attribute("name")
+        if name is None or not name.value or name.value in defined or _defines(material):
+            continue
+        yield finding(
+            name,
+            f"material {name.value!r} is defined nowhere{names.hint(name.value)}",
+            key=name.value,
+        )
+
+
+def _defines(material: Element) -> bool:
+    return any(material.child(tag) is not None for tag in _DEFINING)
+
+
+_FILE = "urdf/robot_from_sdf.xacro"
+
+
+def _robot(material: str, more: str = "") -> dict[str, str]:
+    box = '<geometry><box size="1 1 1"/></geometry>'
+    text = f"""<robot name="rover">
+{more}
+<link name="a"><visual>{box}
+{material}
+</visual></link></robot>
+"""
+    return {_FILE: text}
+
+
+_GREEN = '<material name="green"><color rgba="0 1 0 1"/></material>'
+_OTHER = f'<link name="b"><visual>{_GREEN}</visual></link>'
+_MARK = "  <!-- ^ URD010 -->"
+GOOD = [
+    _robot('<material name="green"/>', _GREEN),
+    _robot('<material name="green"/>', _OTHER),
+    _robot(_GREEN),
+    _robot('<material name=""/>'),
+]
+BAD = [
+    _robot(f'<material name="green"/>{_MARK}'),
+    _robot(f'<material name="gren"/>{_MARK}', _GREEN),
+    _robot(f'<material name="green"/>{_MARK}', '<material name="green"/>'),
+]

@@ -1,0 +1,59 @@
+"""A friction or contact stiffness in a tag `gazebo` that is negative, zero or no number.
+
+A negative friction pushes a sliding part on, and a contact without stiffness lets the part sink
+into the ground. Friction of zero is right for a caster that slides.
+
+Fix: write a positive number: friction has no unit, kp is in N/m and kd in N·s/m.
+Source: Gazebo Classic, "Using a URDF in Gazebo": mu1, mu2, kp, kd; Open Dynamics Engine, contacts.
+"""
+
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.extensions import extension_text
+from checker.model.values import parse_number
+from checker.rule import Findings, Severity, finding, rule
+
+UNITS = {"mu1": "", "mu2": "", "kp": " N/m", "kd": " N·s/m"}
+MAY_BE_ZERO = ("mu1", "mu2", "kd")
+"""A part may slide without friction, and a contact may have no damping."""
+
+
+@rule("URD011", "contact-value", Severity.WARNING)
+def check(description: UrdfDescription) -> Findings:
+    """Report mu1, mu2, kp and kd that are not positive."""
+    if description.for_rviz:
+        return
+    for tag in description.gazebo:
+        for child in tag.element.children:
+            if child.tag not in UNITS:
+                continue
+            where = f"<{child.tag}> of {tag.reference.value!r}"
+            said = extension_text(child)
+            value = parse_number(said.value.strip())
+            if value is None:
+                yield finding(said, f"{where} is {said.value[:40]!r}, expected a number")
+            elif value <= 0:
+                harmless = value == 0 and child.tag in MAY_BE_ZERO
+                yield finding(
+                    said,
+                    f"{where} is {value:g}{UNITS[child.tag]}, expected a positive number",
+                    severity=Severity.INFO if harmless else None,
+                )
+
+
+def _tag(value: str) -> dict[str, str]:
+    return {"@urdf": f'<gazebo reference="upper_arm">\n{value}\n</gazebo>'}
+
+
+_MARK = "  <!-- ^ URD011 -->"
+GOOD = [
+    _tag("<mu1>1.1</mu1><mu2>0.9</mu2><kp>1e6</kp><kd>100.0</kd>"),
+    _tag("<material>Gazebo/Red</material>"),
+    _tag('<mu1 value="1.0"/><kp value="10000000.0"/>'),
+]
+BAD = [
+    _tag(f"<mu1>-1</mu1>{_MARK}"),
+    _tag(f"<mu2>0</mu2>{_MARK}"),
+    _tag(f"<kp>0</kp>{_MARK}"),
+    _tag(f"<kd>much</kd>{_MARK}"),
+    _tag(f'<kp value="-1.0"/>{_MARK}'),
+]
