@@ -11,7 +11,7 @@ from io import TextIOWrapper
 
 from checker.output import EXIT_CLEAN, EXIT_CRASH, EXIT_USAGE
 
-COMMANDS = ("check", "rule", "rules")
+COMMANDS = ("check", "rule", "rules", "export", "migrate")
 PROFILES = ("subt", "sdf", "urdf", "gazebo-harmonic")
 
 _EXITS = """exit codes:
@@ -34,6 +34,8 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="store_true", help="print the version and exit")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
     _add_check(commands)
+    _add_export(commands)
+    _add_migrate(commands)
     one = commands.add_parser("rule", help="explain a rule")
     one.add_argument("id", help="such as SEN005 or lidar-scan-resolution")
     every = commands.add_parser("rules", help="list all rules")
@@ -57,10 +59,17 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     check.add_argument("--format", choices=("text", "json"), default="text")
     check.add_argument("--output", metavar="FILE", help="write the result there, not to stdout")
     check.add_argument("--report", metavar="DIR", help="also write report.json into this folder")
-    check.add_argument("--profile", choices=PROFILES, help="what to judge (default: subt)")
+    check.add_argument("--profile", choices=PROFILES, help="default: subt, or urdf for URDF")
     check.add_argument("--select", metavar="IDS", type=_ids, help="only these rules or groups")
     check.add_argument("--ignore", metavar="IDS", type=_ids, help="leave out rules or groups")
     check.add_argument("--fail-on", choices=("error", "warning"), help="(default: error)")
+    check.add_argument("--fix", action="store_true", help="apply the safe fixes, then check")
+    check.add_argument(
+        "--unsafe",
+        action="store_true",
+        help="with --fix or --diff: also those that change behaviour",
+    )
+    check.add_argument("--diff", action="store_true", help="print the fixes as a patch, no more")
     check.add_argument("--no-trial", action="store_true", help="do not drive the robot")
     check.add_argument(
         "--thorough", action="store_true", help="drive it again at half the time step"
@@ -68,6 +77,75 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     check.add_argument("--no-cache", action="store_true", help="keep no results, take none")
     check.add_argument("--jobs", type=_positive, default=1, metavar="N", help="processes")
     check.add_argument("--color", choices=("auto", "always", "never"), default="auto")
+
+
+def _add_export(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    export = commands.add_parser("export", help="write a package's robot as URDF or MJCF")
+    export.add_argument("path", metavar="PATH", help="a package, an archive or a model file")
+    export.add_argument(
+        "--format",
+        choices=("urdf", "mjcf"),
+        required=True,
+        help="urdf: for RViz, with package:// meshes; mjcf: the scene of the trial, for MuJoCo",
+    )
+    export.add_argument(
+        "--output",
+        metavar="FILE",
+        help="write it there; into a folder, an MJCF goes with its meshes beside it",
+    )
+    export.add_argument("--no-cache", action="store_true", help="keep no results, take none")
+
+
+def _add_migrate(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    migrate = commands.add_parser(
+        "migrate",
+        help="make a package for SubT of a description for Gazebo 9",
+        epilog=_EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    migrate.add_argument("source", metavar="SOURCE", help="a description package, or a URDF file")
+    migrate.add_argument("destination", metavar="DEST", help="an empty folder, or a new one")
+    migrate.add_argument("--organization", metavar="NAME", default="", help="who submits it")
+    migrate.add_argument("--robot", metavar="NAME", default="", help="(default: the URDF's name)")
+    migrate.add_argument("--config", type=int, default=1, metavar="N", help="number (default: 1)")
+    for side in ("left", "right"):
+        migrate.add_argument(
+            f"--{side}-wheels",
+            metavar="JOINTS",
+            type=_ids,
+            default=(),
+            help=f"joints that drive on the {side}, with commas between (default: guessed)",
+        )
+    for limit, unit in (("velocity", "m/s"), ("acceleration", "m/s²")):
+        migrate.add_argument(
+            f"--max-{limit}",
+            metavar="NUMBER",
+            type=_above_zero,
+            help=f"of the drive, {unit} (default: as the joints and SubT allow)",
+        )
+    migrate.add_argument("--urdf", metavar="FILE", default="", help="which file is the robot")
+    migrate.add_argument(
+        "--args", metavar="NAME:=VALUE", nargs="+", type=_argument, default=[], help="for xacro"
+    )
+    migrate.add_argument("--no-trial", action="store_true", help="do not drive the robot")
+    migrate.add_argument("--no-cache", action="store_true", help="keep no results, take none")
+
+
+def _argument(text: str) -> tuple[str, str]:
+    name, assigned, value = text.partition(":=")
+    if not name or not assigned:
+        raise argparse.ArgumentTypeError(f"{text!r} is no argument, expected name:=value")
+    return name, value
+
+
+def _above_zero(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is no limit, expected a number above 0")
+    return value
 
 
 def _ids(text: str) -> tuple[str, ...]:
@@ -141,6 +219,14 @@ def _run(options: argparse.Namespace) -> int:
             from checker.commands import check
 
             return check(options)
+        case "export":
+            from checker.commands import export
+
+            return export(options)
+        case "migrate":
+            from checker.commands import migrate
+
+            return migrate(options)
         case "rule":
             from checker.commands import explain_rule
 

@@ -12,7 +12,7 @@ from typing import TextIO
 from checker.check import check_paths
 from checker.discovery import all_rules
 from checker.errors import CheckerError
-from checker.finding import Severity
+from checker.finding import Safety, Severity
 from checker.options import no_such_rule
 from checker.output import (
     EXIT_CLEAN,
@@ -44,8 +44,16 @@ def check(options: argparse.Namespace) -> int:
         "thorough": True if options.thorough else None,
         "cache": False if options.no_cache else None,
     }
+    paths = [Path(path) for path in options.paths]
+    if options.diff or options.fix:
+        from checker.fixing.command import apply_fixes, show_patch
+
+        allowed = list(Safety) if options.unsafe else [Safety.SAFE]
+        if options.diff:
+            return show_patch(paths, wishes, allowed, options.output or "")
+        apply_fixes(paths, wishes, allowed)
     say = say_progress if sys.stderr.isatty() else say_nothing
-    report = check_paths([Path(path) for path in options.paths], wishes, options.jobs, say)
+    report = check_paths(paths, wishes, options.jobs, say)
     for each in report.not_opened:
         if each.failed:
             print(
@@ -83,6 +91,41 @@ def explain_rule(wanted: str) -> int:
         raise CheckerError(no_such_rule(wanted, known))
     show(_page_text(rule) + "\n")
     return EXIT_CLEAN
+
+
+def export(options: argparse.Namespace) -> int:
+    """Write a package's robot in another format."""
+    from checker.convert.export import export
+
+    output = Path(options.output) if options.output else None
+    return export(Path(options.path), options.format, output, cached=not options.no_cache)
+
+
+def migrate(options: argparse.Namespace) -> int:
+    """Make a package of a description, check it, and say what is left to do."""
+    from checker.migrate.command import migrated_and_checked
+    from checker.migrate.wishes import Wishes
+
+    wishes = Wishes(
+        options.organization,
+        options.robot,
+        options.config,
+        options.left_wheels,
+        options.right_wheels,
+        options.max_velocity,
+        options.max_acceleration,
+        options.urdf,
+        dict(options.args),
+    )
+    settings = {
+        "trial": False if options.no_trial else None,
+        "cache": False if options.no_cache else None,
+    }
+    say = say_progress if sys.stderr.isatty() else say_nothing
+    source, destination = Path(options.source), Path(options.destination)
+    said, report = migrated_and_checked(source, destination, wishes, settings, say)
+    show(said)
+    return exit_code(report)
 
 
 def _page_text(rule: Rule) -> str:

@@ -10,10 +10,11 @@ Source: SDFormat specification, the version that the file states.
 
 from collections.abc import Iterator
 
+from checker.finding import Fix
 from checker.model.schema import all_tags
 from checker.model.sdf.document import SdfDocument
 from checker.model.suggestions import Suggestions
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 
 GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
@@ -30,7 +31,8 @@ def check(sdf: SdfDocument) -> Findings:
     ]
     anywhere = Suggestions(all_tags(sdf.version))
     for element, siblings in _with_known_siblings(sdf, unknown):
-        near = siblings.near(element.tag) or anywhere.near(element.tag)
+        fitting = siblings.near(element.tag)
+        near = fitting or anywhere.near(element.tag)
         parent = element.parent or sdf.root
         grave = near is not None or parent.tag in GRAVE_PARENTS
         hint = f"; did you mean <{near}>?" if near else ""
@@ -39,7 +41,7 @@ def check(sdf: SdfDocument) -> Findings:
             f"<{element.tag}> in <{parent.tag}> is unknown to SDF {sdf.version or '1.6'}{hint}",
             severity=Severity.ERROR if grave else None,
             key=f"{parent.tag}/{element.tag}",
-            fix=replace_text(element.name_span, near) if near and _is_empty_tag(element) else None,
+            fix=_renamed(element, fitting) if fitting and not parent.all(fitting) else None,
         )
 
 
@@ -57,8 +59,9 @@ def _with_known_siblings(
         yield element, known.get(element.parent, Suggestions(()))
 
 
-def _is_empty_tag(element: Element) -> bool:
-    return element.position.end == element.position.start_end
+def _renamed(element: Element, tag: str) -> Fix:
+    names = (element.name_span, element.end_name_span)
+    return Fix(Safety.SAFE, tuple(name.replaced_by(tag) for name in names if name is not None))
 
 
 GOOD = [

@@ -43,8 +43,8 @@ BAD = [
     '<link name="arm" colour="red"/>  <!-- ^ SDF004 -->',
     """
 <plugin
-  name="drive"
-  file_name="libdrive.so"  ></plugin>  <!-- ^ SDF004 -->
+  name="ignition::gazebo::systems::PosePublisher"
+  file_name="libignition-gazebo-pose-publisher-system.so"  ></plugin>  <!-- ^ SDF004 -->
 """,
     '<visual nam="body"><geometry><sphere/></geometry></visual>  <!-- ^ SDF004 -->',
 ]

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument
 from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.source.insertion import with_blanks
 from checker.source.text import Span
 from checker.source.xml import Element
 
@@ -29,7 +30,7 @@ def check(sdf: SdfDocument) -> Findings:
             yield finding(
                 span,
                 f"{shown!r} stands between the elements of <{element.tag}>",
-                fix=replace_text(span, ""),
+                fix=replace_text(with_blanks(span), ""),
             )
 
 

@@ -8,21 +8,27 @@ Fix: move it to where the message says.
 Source: SDFormat specification, the version that the file states.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from checker.model.schema import all_tags, parents_of
+from checker.finding import Fix
+from checker.model.schema import ElementType, all_tags, parents_of
 from checker.model.sdf.document import SdfDocument
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.source.insertion import append_to, indentation_of, newline_of, removal
+from checker.source.xml import Element
 
 HARMLESS = {("air_pressure", "noise"), ("camera", "aspect_ratio")}
 """Parents and elements that accepted robots have: nothing is lost with them."""
 _LISTED = 3
 
+_Kinds = Mapping[Element, ElementType | None]
+
 
 @rule("SDF008", "misplaced-element", Severity.ERROR)
 def check(sdf: SdfDocument) -> Findings:
     """Report elements that this SDF version knows, but not below this parent."""
-    belonging: dict[tuple[str, ...], str] = {}
+    belonging: dict[tuple[str, ...], Sequence[str]] = {}
+    kinds = dict(sdf.typed_elements)
     for element, kind in sdf.typed_elements:
         parent = element.parent
         if kind is not None or parent is None or element.tag not in all_tags(sdf.version):
@@ -30,24 +36,55 @@ def check(sdf: SdfDocument) -> Findings:
         around = parent.parent.tag if parent.parent is not None else ""
         path = (around, parent.tag, element.tag)
         if path not in belonging:
-            belonging[path] = _belongs(*path, parents_of(sdf.version))
+            belonging[path] = _places(*path, parents_of(sdf.version))
+        listed = belonging[path]
+        named = (f"another <{each}>" if each == parent.tag else f"<{each}>" for each in listed)
+        belongs = "; it belongs in " + " or ".join(named) if listed else ""
+        harmless = (parent.tag, element.tag) in HARMLESS
         yield finding(
             element,
-            f"<{element.tag}> means nothing in <{parent.tag}>{belonging[path]}",
-            severity=Severity.WARNING if (parent.tag, element.tag) in HARMLESS else None,
+            f"<{element.tag}> means nothing in <{parent.tag}>{belongs}",
+            severity=Severity.WARNING if harmless else None,
             key=f"{parent.tag}/{element.tag}",
+            fix=_moved(element, listed[0], kinds) if len(listed) == 1 and not harmless else None,
         )
 
 
-def _belongs(around: str, parent: str, tag: str, parents: Mapping[str, tuple[str, ...]]) -> str:
-    """Say where an element may stand: beside its place or around it, when it may."""
+def _places(
+    around: str, parent: str, tag: str, parents: Mapping[str, tuple[str, ...]]
+) -> Sequence[str]:
+    """Return where an element may stand, beside its place or around it; nothing for too many."""
     places = parents.get(tag, ())
     near = [each for each in places if each == around or parent in parents.get(each, ())]
     listed = near or places
-    if not listed or len(listed) > _LISTED:
-        return ""
-    named = (f"another <{each}>" if each == parent else f"<{each}>" for each in listed)
-    return "; it belongs in " + " or ".join(named)
+    return listed if len(listed) <= _LISTED else ()
+
+
+def _moved(element: Element, place: str, kinds: _Kinds) -> Fix | None:
+    """Return the fix that puts an element where it belongs, next to or around its place."""
+    parent, text = element.parent, element.whole_span.text
+    if parent is None or "\n" in text or len(parent.all(element.tag)) > 1:
+        return None
+    beside, around = parent.all(place), parent.parent
+    holder = around if around is not None and around.tag == place else next(iter(beside), None)
+    if holder is None:
+        kind = kinds.get(parent)
+        return _wrapped(element, kind.children.get(place) if kind is not None else None)
+    if len(beside) > 1 or holder.child(element.tag) is not None or holder.text.stated:
+        return None
+    return Fix(Safety.SAFE, (removal(element), append_to(holder, [text])))
+
+
+def _wrapped(element: Element, kind: ElementType | None) -> Fix | None:
+    """Return the fix that puts an element around another one, if it needs nothing but that."""
+    if kind is None or any(needed == "1" for _, _, needed in kind.attributes.values()):
+        return None
+    source, start = element.source, element.position.start
+    indentation = indentation_of(source, start)
+    outer = "" if indentation is None else newline_of(source, start) + indentation
+    inner = f"{outer}  " if outer else ""
+    text = f"<{kind.name}>{inner}{element.whole_span.text}{outer}</{kind.name}>"
+    return Fix(Safety.SAFE, (element.whole_span.replaced_by(text),))
 
 
 GOOD = [

@@ -3,6 +3,8 @@
 Ignition Gazebo Dome does not simulate nested models: their links are not there. The `<include>`
 that `launch/spawner.rb` emits is another matter and must be there.
 
+`--fix --unsafe` flattens it: link `wrist` of a nested model `arm` becomes link `arm__wrist`, where
+it stood before. Files that name it are edited too; topics of its sensors change with the name.
 No accepted package at hand shows it.
 
 Fix: flatten the model, so that all links and joints stand directly in one `<model>`.
@@ -10,24 +12,70 @@ Source: Model Migration Guide, step 9: "Flattening the model file is necessary b
 models are not yet supported."
 """
 
+from collections.abc import Iterator
+
+from checker.finding import Edit, Fix
+from checker.flattening.flatten import Flattening
+from checker.flattening.mentions import SUFFIXES, mentions
+from checker.flattening.names import FlatNames
+from checker.flattening.obstacles import obstacle
+from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
-from checker.rule import Findings, Severity, finding, rule
+from checker.package.package import Package
+from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.source.text import SourceText
+from checker.source.xml import Element
 
 
 @rule("SDF010", "nested-model", Severity.ERROR)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, robot: Robot, package: Package) -> Findings:
     """Report `<model>` and `<include>` below a model."""
-    for element in sdf.elements():
-        if element.tag != "model":
+    nested = list(_nested(sdf, robot))
+    if not nested:
+        return
+    reason = obstacle(robot)
+    names = FlatNames.of(robot)
+    named = [] if reason else list(_named_elsewhere(package, names))
+    edits = () if reason else (*Flattening(robot, names).edits, *(edit for _, edit in named))
+    for number, (child, message) in enumerate(nested):
+        yield finding(
+            child,
+            f"{message}; --fix cannot flatten it: {reason}" if reason else message,
+            key="nested",
+            related=[
+                (edit.place, f"names {scoped}, to be {names.flat(scoped)}")
+                for scoped, edit in named
+                if number == 0
+            ],
+            fix=Fix(Safety.UNSAFE, edits) if edits else None,
+        )
+
+
+def _nested(sdf: SdfDocument, robot: Robot) -> Iterator[tuple[Element, str]]:
+    """Yield what is nested in the robot, with what is to be said of it."""
+    whole = robot.element.position
+    for child in sdf.elements():
+        model = child.parent
+        if model is None or model.tag != "model" or not whole.start <= model.position.start:
             continue
-        for child in element.children:
-            if child.tag == "model":
-                name = child.get("name") or ""
-                yield finding(child, f"model {name!r} is nested in model {element.get('name')!r}")
-            elif child.tag == "include":
-                uri = child.child("uri")
-                what = uri.text.value if uri is not None else "a model"
-                yield finding(child, f"{what} is included in model {element.get('name')!r}")
+        if child.position.end > whole.end:
+            continue
+        if child.tag == "model":
+            yield (
+                child,
+                f"model {child.get('name') or ''!r} is nested in model {model.get('name')!r}",
+            )
+        elif child.tag == "include":
+            uri = child.child("uri")
+            what = uri.text.value if uri is not None else "a model"
+            yield child, f"{what} is included in model {model.get('name')!r}"
+
+
+def _named_elsewhere(package: Package, names: FlatNames) -> Iterator[tuple[str, Edit]]:
+    for file in package.index.with_suffix(*SUFFIXES):
+        source = package.read(file.path)
+        if isinstance(source, SourceText):
+            yield from mentions(source, names)
 
 
 GOOD = ['<link name="arm"/>']
@@ -38,4 +86,29 @@ BAD = [
 </model>
 """,
     "<include><uri>model://arm</uri></include>  <!-- ^ SDF010 -->",
+    {
+        "@fragment": """
+<include>  <!-- ^ SDF010 -->
+  <uri>models/arm</uri>
+  <name>left</name>
+  <pose>0 0.2 0 0 0 0</pose>
+</include>
+<joint name="shoulder" type="fixed">
+  <parent>base_link</parent>
+  <child>left::upper</child>
+</joint>
+""",
+        "models/arm/model.sdf": """<sdf version="1.6">
+  <model name="arm">
+    <link name="upper"/>
+  </model>
+</sdf>
+""",
+        "launch/vehicle_topics.launch": """<launch>
+  <arg name="name"/>
+  <arg name="world_name"/>
+  <node pkg="tf" type="publisher" name="tf" args="left::upper"/>
+</launch>
+""",
+    },
 ]

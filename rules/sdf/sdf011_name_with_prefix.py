@@ -11,22 +11,30 @@ Source: Model Migration Guide, step 2: "Before converting to SDF, remove namespa
 Eg., X1/base_link becomes base_link."
 """
 
+from collections import Counter
 from collections.abc import Iterator
 
+from checker.finding import Fix
+from checker.flattening.mentions import SUFFIXES, topic_mentions
+from checker.flattening.names import FlatNames
+from checker.flattening.renaming import Renaming
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.package.package import Package
+from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.source.text import SourceText
 
 _NAMED = {Link: "link", Joint: "joint"}
 
 
 @rule("SDF011", "name-with-prefix", Severity.WARNING)
-def check(robot: Robot) -> Findings:
+def check(robot: Robot, package: Package) -> Findings:
     """Report names with a slash: as errors when all links have one and the same prefix."""
     if robot.format != "sdf":
         return  # In URDF files for RViz the prefix is asked for.
     prefixes = {_prefix(link) for link in robot.links}
     everywhere = len(prefixes) == 1 and "" not in prefixes
+    fix = _fix(robot, package)
     for part in _parts(robot):
         if prefix := _prefix(part):
             of_all = everywhere and prefix in prefixes
@@ -36,12 +44,42 @@ def check(robot: Robot) -> Findings:
                 if of_all
                 else f"{_NAMED[type(part)]} {part.name.value!r} has the prefix {prefix + '/'!r}",
                 severity=Severity.ERROR if of_all else None,
+                fix=fix,
             )
 
 
 def _parts(robot: Robot) -> Iterator[Link | Joint]:
     yield from robot.links
     yield from robot.joints
+
+
+def _fix(robot: Robot, package: Package) -> Fix | None:
+    """Return the fix that takes all prefixes away; None where a name without one is taken."""
+    changed = {
+        part.scoped_name: part.name.value.partition("/")[2]
+        for part in _parts(robot)
+        if _prefix(part)
+    }
+    if not changed or robot.models or robot.missing_parts:
+        return None
+    after = Counter(changed.get(link.scoped_name, link.scoped_name) for link in robot.links)
+    after += Counter({frame.scoped_name: 1 for frame in robot.frames})
+    after += Counter(changed.get(name, name) for name in robot.joints_by_name)
+    if max(after.values()) > 1:
+        return None
+    names = FlatNames(changed)
+    edits = list(Renaming(robot, names).edits)
+    for file in package.index.with_suffix(*SUFFIXES):
+        source = package.read(file.path)
+        if isinstance(source, SourceText):
+            edits += topic_mentions(source, names)
+    sources = {edit.place.file: package.read(edit.place.file) for edit in edits}
+    # A spawner may put a name together from pieces: then there is no text to write over.
+    for edit in edits:
+        source = sources[edit.place.file]
+        if not isinstance(source, SourceText) or source.stretch_of(edit) is None:
+            return None
+    return Fix(Safety.SAFE, tuple(edits))
 
 
 def _prefix(part: Link | Joint) -> str:
@@ -52,6 +90,27 @@ def _prefix(part: Link | Joint) -> str:
 
 GOOD = ['<link name="arm"/>']
 BAD = [
+    {
+        "@fragment": """
+<link name="X1/wheel">  <!-- ^ SDF011 -->
+  <sensor name="imu" type="imu"><imu><enable_orientation>0</enable_orientation></imu></sensor>
+</link>
+<joint name="X1/axle" type="revolute">  <!-- ^ SDF011 -->
+  <parent>base_link</parent>
+  <child>X1/wheel</child>
+</joint>
+<plugin filename="libignition-gazebo-joint-state-publisher-system.so"
+        name="ignition::gazebo::systems::JointStatePublisher">
+  <joint_name>X1/axle</joint_name>
+</plugin>
+""",
+        "launch/vehicle_topics.launch": """<launch>
+<arg name="name"/>
+<arg name="world_name"/>
+<arg name="imu" value="/model/$(arg name)/link/X1/wheel/sensor/imu/imu"/>
+</launch>
+""",
+    },
     '<link name="X1/arm"/>  <!-- ^ SDF011 -->',
     """
 <sdf version="1.6">

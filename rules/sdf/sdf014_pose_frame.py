@@ -10,8 +10,6 @@ the empty attribute that Gazebo 9's converter wrote.
 
 from checker.model.sdf.document import SdfDocument
 from checker.rule import Findings, Severity, finding, replace_text, rule
-from checker.source.text import Span
-from checker.source.xml import Element
 
 
 @rule("SDF014", "pose-frame", Severity.WARNING)
@@ -30,20 +28,8 @@ def check(sdf: SdfDocument) -> Findings:
                 element.attribute_name_span("frame"),
                 "the pose has an empty attribute `frame`, which says nothing",
                 severity=Severity.INFO,
-                fix=replace_text(_whole_attribute(element), ""),
+                fix=replace_text(element.whole_attribute_span("frame"), ""),
             )
-
-
-def _whole_attribute(element: Element) -> Span:
-    """Return the attribute with the blanks before it and the quotes around its value."""
-    name = element.attribute_name_span("frame")
-    value = element.attribute("frame")
-    end = value.span.end + 1 if value is not None else name.end
-    text = element.source.text
-    start = name.start
-    while text[start - 1].isspace():
-        start -= 1
-    return Span(element.source, start, end, element.path)
 
 
 GOOD = ['<link name="arm"><pose>0 0 1 0 0 0</pose></link>']

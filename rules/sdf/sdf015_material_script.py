@@ -11,8 +11,10 @@ Source: Model Migration Guide and model reviews; gz-rendering reads no material 
 
 from collections.abc import Iterator
 
+from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
-from checker.rule import Context, Finding, Findings, Severity, finding, replace_text, rule
+from checker.rule import Context, Finding, Findings, Safety, Severity, finding, rule
+from checker.source.insertion import removal
 from checker.source.xml import Element
 
 SCRIPTED = ("", "classic")
@@ -30,7 +32,12 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         if script is not None and context.release not in SCRIPTED:
             yield from _script(element, script)
         elif not element.children and not element.text.stated:
-            yield finding(element, "<material> is empty: it says nothing", severity=Severity.INFO)
+            yield finding(
+                element,
+                "<material> is empty: it says nothing",
+                severity=Severity.INFO,
+                fix=Fix(Safety.SAFE, (removal(element),)),
+            )
 
 
 def _script(material: Element, script: Element) -> Iterator[Finding]:
@@ -41,7 +48,7 @@ def _script(material: Element, script: Element) -> Iterator[Finding]:
             script,
             f"the material script{called} is not read: what stands beside it counts",
             severity=Severity.WARNING,
-            fix=replace_text(script.whole_span, ""),
+            fix=Fix(Safety.SAFE, (removal(script),)),
         )
     else:
         yield finding(

@@ -18,7 +18,7 @@ EIGHT_BIT = 255.0
 
 
 @rule("SDF016", "colour-range", Severity.ERROR)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, *, eight_bit_from: float = 16.0) -> Findings:
     """Report colours with a number below 0 or above 1."""
     for element, kind in sdf.typed_elements:
         if kind is None or kind.value_type != "color":
@@ -32,13 +32,15 @@ def check(sdf: SdfDocument) -> Findings:
                 element.text,
                 f"<{element.tag}> is {element.text.value[:60]}, expected numbers from 0 to 1",
                 key="colour",
-                fix=_divided(element, colour),
+                fix=_divided(element, colour, eight_bit_from),
             )
 
 
-def _divided(element: Element, colour: tuple[Located[float], ...]) -> Fix | None:
+def _divided(element: Element, colour: tuple[Located[float], ...], least: float) -> Fix | None:
+    """Return the fix that divides by 255; none for colours that are just too bright."""
     values = [number.value for number in colour]
-    if not all(0.0 <= value <= EIGHT_BIT and value.is_integer() for value in values):
+    whole = all(0.0 <= value <= EIGHT_BIT and value.is_integer() for value in values)
+    if not whole or max(values[:3]) < least:
         return None
     # An alpha of 0 or 1 beside numbers up to 255 is meant as it stands.
     alpha = [value / EIGHT_BIT if value > 1.0 else value for value in values[3:]]

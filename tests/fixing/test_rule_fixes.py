@@ -1,0 +1,105 @@
+"""The fix of every rule, tried on its bad examples: the fault goes, and nothing comes for it."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from checker.cache import NO_CACHE
+from checker.discovery import all_rules
+from checker.finding import Safety, Severity
+from checker.fixing.rounds import fix_package
+from checker.judging import findings_of
+from checker.package.opening import open_input
+from checker.package.package import Package
+from checker.profiles import profile
+from checker.report.report import ReportedFinding
+from checker.rule import Rule
+from checker.settings import Settings
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument, parse_xml
+from tests.examples import write_example
+
+CASES = [
+    pytest.param(rule, example, id=f"{rule.id}-{number}")
+    for rule in all_rules()
+    if "fix=" in inspect.getsource(sys.modules[rule.check.__module__])
+    for number, example in enumerate(rule.bad, 1)
+]
+REVEALED = {
+    "REF001": "MSH001",  # the mesh is found, and is empty
+    "SEN002": "ROS001",  # the lidar is simulated, and its scan is not bridged
+    "SDF010": "KIN003",  # the link is one of the robot's own, and no joint ties it
+}
+"""What another rule can see only once a fix is made."""
+
+
+def judge(rule: Rule, **wishes: Any) -> Settings:
+    name = "subt" if profile("subt").includes(rule) else "urdf"
+    return Settings(trial=False, profile=name, **wishes)
+
+
+def fixed(package: Package, settings: Settings) -> tuple[Package, bool]:
+    """Return the package with all fixes made, in memory, and whether any was."""
+    found = fix_package(package, lambda each: findings_of(each, settings, NO_CACHE), list(Safety))
+    texts = {file.path: replace(file.before, text=file.after) for file in found.files}
+    return package.with_texts(texts), bool(found.files)
+
+
+def counted(findings: Iterable[ReportedFinding]) -> Counter[str]:
+    """Count the places of errors and warnings by rule; `related` ones are none."""
+    return Counter(
+        each.rule
+        for each in findings
+        if each.severity is not Severity.INFO
+        for place in each.places
+        if not place.note
+    )
+
+
+@pytest.mark.parametrize(("rule", "example"), CASES)
+def test_a_fix_mends_its_fault_and_brings_no_other(
+    rule: Rule, example: Any, tmp_path: Path
+) -> None:
+    with open_input(write_example(example, tmp_path)) as opened:
+        before = opened.packages[0]
+        alone, every = judge(rule, select=(rule.id,)), judge(rule)
+        faults = findings_of(before, alone, NO_CACHE)
+        mended = {each.fingerprint for each in faults if each.fix}
+        if not mended:
+            return
+        after, changed = fixed(before, alone)
+        assert changed
+        left = findings_of(after, alone, NO_CACHE)
+        assert not mended & {each.fingerprint for each in left}
+        assert not fixed(after, alone)[1]
+        assert_well_laid_out(before, after)
+        new = counted(findings_of(after, every, NO_CACHE))
+        new -= counted(findings_of(before, every, NO_CACHE))
+        new.pop(REVEALED.get(rule.id, ""), None)
+        assert not new
+
+
+def assert_well_laid_out(before: Package, after: Package) -> None:
+    """Nothing is cut off: no blank at an end of line or empty line that was not there."""
+    for path in (file.path for file in before.index.files):
+        texts = before.read(path), after.read(path)
+        if not all(isinstance(text, SourceText) for text in texts):
+            continue
+        old, new = (text.text for text in texts if isinstance(text, SourceText))
+        if old == new:
+            continue
+        assert untidy(new) <= untidy(old), path
+        if isinstance(before.xml(path), XmlDocument):
+            assert isinstance(parse_xml(SourceText(path, new)), XmlDocument)
+
+
+def untidy(text: str) -> int:
+    return sum(line != line.rstrip() or not line for line in text.splitlines())
