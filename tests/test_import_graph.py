@@ -17,21 +17,25 @@ LAYERS = (
     {"resources", "saying", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
-    {"checklist", "discovery", "dynamics", "mesh", "paperwork", "profiles", "spawning"},
-    {"stages", "trial"},
+    {"checklist", "discovery", "dynamics", "flattening", "mesh", "paperwork", "profiles", "spawning"},
+    {"stages", "trial", "xacro"},
+    {"view"},
     {"driving", "including", "launching", "settings"},
+    {"controlling", "describing"},
     {"options", "subject"},
     {"engine", "facts", "recall"},
     {"measured"},
     {"judging"},
-    {"check"},
+    {"check", "convert"},
+    {"fixing"},
+    {"migrate"},
     {"commands"},
     {"cli"},
 )
 """Modules and packages of `checker`; each imports only what stands in an earlier row."""
 
 FOR_RULES = {
-    *("dynamics", "finding", "launching", "model", "package", "paperwork"),
+    *("dynamics", "finding", "flattening", "launching", "model", "package", "paperwork"),
     *("resources", "rule", "source", "spawner", "spawning", "trial"),
 }
 """What a rule may import: the parts of a package, and what a rule's author reads."""

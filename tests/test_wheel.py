@@ -76,6 +76,8 @@ def test_it_carries_code_rules_data_and_samples(wheel: Path) -> None:
         ROOT / "checker/report/report.schema.json",
     }
     assert {path.relative_to(ROOT).as_posix() for path in expected} <= names
+    templates = {path for path in (ROOT / "templates").rglob("*") if path.is_file()}
+    assert {f"checker/{path.relative_to(ROOT).as_posix()}" for path in templates} <= names
     files = {path for path in (SAMPLES / SAMPLE).rglob("*") if path.is_file()}
     assert {f"checker/samples/{path.relative_to(SAMPLES).as_posix()}" for path in files} <= names
 
@@ -112,6 +114,13 @@ def test_a_sample_from_the_wheel_is_ready(environment: Path, tmp_path: Path) -> 
     done = run(environment, str(sample), cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.endswith(f"{SAMPLE}: Ready: nothing to fix\n")
+
+
+def test_the_installed_command_migrates(environment: Path, tmp_path: Path) -> None:
+    sample = packages(environment) / "checker/samples/husky_description"
+    done = run(environment, "migrate", str(sample), "made", "--no-trial", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "made/my_team_husky_sensor_config_1/launch/spawner.rb").is_file()
 
 
 def test_the_broken_sample_gets_the_same_findings_as_here(

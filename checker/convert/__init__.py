@@ -1,0 +1,1 @@
+"""The robot in other formats: URDF, SDF and MJCF written anew from the model."""

@@ -1,0 +1,117 @@
+"""The links of a URDF as bodies: what fixed joints tie becomes one, as in Gazebo's parser."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from checker.convert.notes import Notes
+from checker.dynamics.hanging import hang
+from checker.model.components import Link
+from checker.model.robot import Robot
+from checker.model.transform import Transform
+from checker.model.tree import WORLD, Tie
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.lumping import Lumping
+
+
+@dataclass(frozen=True, eq=False)
+class PartOfBody:
+    """A link of the source within a body.
+
+    Attributes:
+        pose: Of the link's frame in the body's.
+    """
+
+    link: Link
+    pose: Transform
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A link of the result.
+
+    Attributes:
+        parts: Links of the source that become this one; the first gives its name and frame.
+        tie: By which it hangs on another body; None for one that hangs on nothing.
+    """
+
+    parts: list[PartOfBody]
+    tie: Tie | None
+
+    @property
+    def link(self) -> Link:
+        """The link whose name and frame it has."""
+        return self.parts[0].link
+
+    @property
+    def mass(self) -> float:
+        """Kilograms of all its parts."""
+        return sum(part.link.mass for part in self.parts)
+
+
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """The bodies of a robot.
+
+    Attributes:
+        bodies: By the name of the link whose frame they have, parents before children.
+        holders: The body that a link of the source is part of, by its name.
+        poses: Of a link of the source in that body's frame.
+        left_out: Ties that would let a body hang on two others.
+    """
+
+    bodies: dict[str, Body] = field(default_factory=dict)
+    holders: dict[str, Body] = field(default_factory=dict)
+    poses: dict[str, Transform] = field(default_factory=dict)
+    left_out: tuple[Tie, ...] = ()
+
+
+def bodies_of(robot: Robot, description: UrdfDescription, notes: Notes) -> Bodies:
+    """Lump a robot; links without mass that Gazebo's parser drops are dropped, with a note."""
+    hanging = hang(robot)
+    kept = Lumping(description).kept_joints
+    found = Bodies(left_out=hanging.left_out)
+    for name in hanging.depth_first:
+        link, tie = robot.tree.links[name], hanging.by.get(name)
+        if name == WORLD:
+            continue
+        holder = found.holders.get(tie.parent) if tie is not None else None
+        pose = Transform()
+        if tie is None or holder is None or not _lumped(tie, link, kept, notes):
+            holder = found.bodies[name] = Body([], tie)
+        else:
+            pose = found.poses[tie.parent] @ tie.joint.pose.transform
+        holder.parts.append(PartOfBody(link, pose))
+        found.holders[name], found.poses[name] = holder, pose
+    _drop_massless(found, notes)
+    return found
+
+
+def _lumped(tie: Tie, link: Link, kept: frozenset[str], notes: Notes) -> bool:
+    """Say whether a link becomes part of the one that it hangs on."""
+    if tie.joint.type.value != "fixed":
+        return False
+    if tie.joint.name.value not in kept:
+        return True
+    if link.mass == 0.0:
+        said = "has no mass: its fixed joint is lumped though a <gazebo> tag asks to keep it"
+        notes.say(link, f"link {link.name.value!r} {said}")
+        return True
+    return False
+
+
+def _drop_massless(found: Bodies, notes: Notes) -> None:
+    """Drop bodies without mass on which nothing hangs, from the ends of the tree inwards."""
+    carrying: set[str] = set()
+    for name, body in reversed(list(found.bodies.items())):
+        if body.mass == 0.0 and name not in carrying and len(found.bodies) > 1:
+            notes.say(body.link, f"link {name!r} has no mass: left out, as Gazebo leaves it out")
+            del found.bodies[name]
+            for part in body.parts:
+                del found.holders[part.link.scoped_name]
+            continue
+        if body.mass == 0.0:
+            said = "Gazebo leaves it out with all that hangs on it, so it needs an <inertial>"
+            notes.say(body.link, f"link {name!r} has no mass: {said}")
+        if body.tie is not None and body.tie.parent in found.holders:
+            carrying.add(found.holders[body.tie.parent].link.scoped_name)

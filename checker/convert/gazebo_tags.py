@@ -1,0 +1,174 @@
+"""What `<gazebo reference=…>` tags say, by what they are about."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+
+from checker.convert.notes import Notes
+from checker.model.robot import Robot
+from checker.model.urdf.description import UrdfDescription
+from checker.source.xml import Element
+
+_COLLISION: Mapping[str, tuple[str, ...]] = {
+    "mu1": ("surface", "friction", "ode", "mu"),
+    "mu2": ("surface", "friction", "ode", "mu2"),
+    "fdir1": ("surface", "friction", "ode", "fdir1"),
+    "slip1": ("surface", "friction", "ode", "slip1"),
+    "slip2": ("surface", "friction", "ode", "slip2"),
+    "kp": ("surface", "contact", "ode", "kp"),
+    "kd": ("surface", "contact", "ode", "kd"),
+    "maxVel": ("surface", "contact", "ode", "max_vel"),
+    "minDepth": ("surface", "contact", "ode", "min_depth"),
+    "maxContacts": ("max_contacts",),
+    "max_contacts": ("max_contacts",),
+    "laserRetro": ("laser_retro",),
+}
+_LINK: Mapping[str, tuple[tuple[str, ...], ...]] = {
+    "selfCollide": (("self_collide",),),
+    "self_collide": (("self_collide",),),
+    "gravity": (("gravity",),),
+    "kinematic": (("kinematic",),),
+    "enable_wind": (("enable_wind",),),
+    "dampingFactor": (("velocity_decay", "linear"), ("velocity_decay", "angular")),
+}
+_JOINT: Mapping[str, tuple[str, ...]] = {
+    "springStiffness": ("axis", "dynamics", "spring_stiffness"),
+    "springReference": ("axis", "dynamics", "spring_reference"),
+    "initialJointPosition": ("axis", "initial_position"),
+    "provideFeedback": ("physics", "provide_feedback"),
+    "implicitSpringDamper": ("physics", "ode", "implicit_spring_damper"),
+    "cfmDamping": ("physics", "ode", "implicit_spring_damper"),
+    "fudgeFactor": ("physics", "ode", "fudge_factor"),
+    "stopCfm": ("physics", "ode", "limit", "cfm"),
+    "stopErp": ("physics", "ode", "limit", "erp"),
+}
+_LUMPING = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
+_WHOLE = frozenset({"static", "self_collide", "allow_auto_disable", "enable_wind"})
+_INTO_MODEL = frozenset({"plugin", "model", "include", "link", "joint", "frame", "gripper"})
+COPIED = frozenset({"sensor", "light", "plugin", "projector", "audio_sink", "audio_source"})
+"""SDF inside a link's tag that goes into the link as it is."""
+_EVERY_SHAPE = frozenset({"visual", "collision"})
+_FALSE = ("0", "false")
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A value to be written at a path below an element of the result.
+
+    Attributes:
+        path: Tags, from the outside inwards.
+        value: Its text.
+        element: That states it.
+    """
+
+    path: tuple[str, ...]
+    value: str
+    element: Element
+
+
+@dataclass
+class Said:
+    """What tags say about one link, joint, or the whole robot.
+
+    Attributes:
+        link: For the link itself.
+        collision: For each of its collisions.
+        joint: For the joint.
+        whole: For the model.
+        materials: Names of materials of Gazebo; the last counts.
+        shapes: `<visual>` and `<collision>`, whose content goes into each of the link's.
+        copied: SDF that goes in as it is.
+    """
+
+    link: list[Setting] = field(default_factory=list)
+    collision: list[Setting] = field(default_factory=list)
+    joint: list[Setting] = field(default_factory=list)
+    whole: list[Setting] = field(default_factory=list)
+    materials: list[Element] = field(default_factory=list)
+    shapes: list[Element] = field(default_factory=list)
+    copied: list[Element] = field(default_factory=list)
+
+
+def gazebo_tags(robot: Robot, description: UrdfDescription, notes: Notes) -> dict[str, Said]:
+    """Sort what the tags of a description say, by the name they refer to; empty for the robot.
+
+    A tag about a name that is neither link nor joint is noted and left out.
+    """
+    said: dict[str, Said] = {}
+    for tag in description.gazebo:
+        reference = tag.reference.value
+        kinds = _kinds_of(reference, robot)
+        if not kinds:
+            notes.say(tag, f"<gazebo> refers to {reference!r}, which does not exist: left out")
+            continue
+        here = said.setdefault(reference, Said())
+        for element in tag.element.children:
+            if not _sort(element, here, kinds):
+                notes.say(element, f"<{element.tag}> of a <gazebo> tag is not carried over")
+    return said
+
+
+def _kinds_of(reference: str, robot: Robot) -> Collection[str]:
+    """Return what a name refers to: a link and a joint may share it."""
+    if not reference:
+        return ("robot",)
+    kinds = (("link", robot.links_by_name), ("joint", robot.joints_by_name))
+    return [kind for kind, names in kinds if reference in names]
+
+
+def _sort(element: Element, said: Said, kinds: Collection[str]) -> bool:
+    """Enter an element where it belongs; return whether it is known to belong somewhere."""
+    known = False
+    if "robot" in kinds:
+        known = _of_whole(element, said)
+    if "link" in kinds:
+        known = _of_link(element, said)
+    if "joint" in kinds:
+        known = _of_joint(element, said, alone="link" not in kinds) or known
+    return known
+
+
+def _of_joint(element: Element, said: Said, *, alone: bool) -> bool:
+    if element.tag in _JOINT:
+        said.joint.append(Setting(_JOINT[element.tag], value_of(element), element))
+    elif element.tag == "sensor" and alone:
+        said.copied.append(element)
+    else:
+        return element.tag in _LUMPING
+    return True
+
+
+def value_of(element: Element) -> str:
+    """Return what a tag says: its attribute `value`, which Gazebo's parser takes first, or text."""
+    return element.get("value") or element.text.value
+
+
+def _of_whole(element: Element, said: Said) -> bool:
+    if element.tag in _WHOLE:
+        said.whole.append(Setting((element.tag,), value_of(element), element))
+    elif element.tag in _INTO_MODEL:
+        said.copied.append(element)
+    else:
+        return False
+    return True
+
+
+def _of_link(element: Element, said: Said) -> bool:
+    tag, value = element.tag, value_of(element)
+    if tag in _COLLISION:
+        said.collision.append(Setting(_COLLISION[tag], value, element))
+    elif tag in _LINK:
+        said.link += [Setting(path, value, element) for path in _LINK[tag]]
+    elif tag == "turnGravityOff":
+        acts = "true" if value.lower() in _FALSE else "false"
+        said.link.append(Setting(("gravity",), acts, element))
+    elif tag == "material" and not element.children:
+        said.materials.append(element)
+    elif tag in _EVERY_SHAPE:
+        said.shapes.append(element)
+    elif tag in COPIED:
+        said.copied.append(element)
+    else:
+        return False
+    return True

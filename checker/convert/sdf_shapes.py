@@ -1,0 +1,133 @@
+"""Collisions and visuals of a body of URDF, in SDF."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from lxml import etree
+
+from checker.convert.bodies import Body, PartOfBody
+from checker.convert.gazebo_tags import Said
+from checker.convert.naming import Naming
+from checker.convert.notes import Notes
+from checker.convert.simple_shapes import Shape, shapes_of
+from checker.convert.urdf_materials import Materials
+from checker.convert.writing import add, child_of, exact_numbers, six_numbers, unique
+from checker.model.components import Collision, Visual
+from checker.model.transform import Transform
+
+_LUMP = "_fixed_joint_lump__"
+_PRIMITIVES = ("box", "sphere", "cylinder")
+
+
+@dataclass
+class ShapeWriter:
+    """Writes the shapes of bodies.
+
+    Attributes:
+        mesh_uri: Gives the URI to write for a mesh or texture.
+        said: What `<gazebo>` tags say, by the name of the link as the source has it.
+    """
+
+    naming: Naming
+    said: Mapping[str, Said]
+    materials: Materials
+    mesh_uri: Callable[[str], str]
+    notes: Notes
+    _nothing: Said = field(default_factory=Said)
+
+    def collisions(self, body: Body, link: etree._Element) -> None:
+        """Add the collisions of a body to its element."""
+        taken: dict[str, int] = {}
+        for count, (part, collision) in enumerate(_every(body, "collisions")):
+            for shape in self._shapes(collision):
+                name = unique(self._name(body, part, collision, "collision", count), taken)
+                element = add(link, "collision", name=name)
+                self._place(element, part, collision, shape)
+                self._surface(element, part)
+                self._blobs(element, part)
+
+    def visuals(self, body: Body, link: etree._Element) -> None:
+        """Add the visuals of a body to its element."""
+        taken: dict[str, int] = {}
+        for count, (part, visual) in enumerate(_every(body, "visuals")):
+            for shape in self._shapes(visual):
+                name = unique(self._name(body, part, visual, "visual", count), taken)
+                element = add(link, "visual", name=name)
+                self._place(element, part, visual, shape)
+                if isinstance(visual, Visual):
+                    self._paint(element, part, visual)
+                self._blobs(element, part)
+
+    def _name(
+        self, body: Body, part: PartOfBody, shape: Collision | Visual, kind: str, count: int
+    ) -> str:
+        """Name a shape as Gazebo's parser does; what states a name keeps it."""
+        own = shape.name.value or self.naming.local(part.link.name.value)
+        if part.link is not body.link:
+            own = f"{self.naming.local(body.link.name.value)}{_LUMP}{own}"
+        elif shape.name.value:
+            return own
+        stem = own if own.endswith(f"_{kind}") else f"{own}_{kind}"
+        return f"{stem}_{count}" if count else stem
+
+    def _shapes(self, shape: Collision | Visual) -> Sequence[Shape]:
+        """Return what a shape consists of in SDF 1.6; nothing, with a note, for what it lacks."""
+        found = shapes_of(shape.geometry, _PRIMITIVES)
+        if not found:
+            kind = shape.geometry.shape or "shape that is missing or not known"
+            self.notes.say(shape, f"a {shape.element.tag} that is a {kind} is left out")
+        return found
+
+    def _place(
+        self, element: etree._Element, part: PartOfBody, source: Collision | Visual, shape: Shape
+    ) -> None:
+        pose = part.pose @ source.pose.transform @ shape.pose
+        if pose != Transform():
+            add(element, "pose", " ".join(six_numbers(pose, source.pose)))
+        geometry = add(add(element, "geometry"), shape.kind)
+        if shape.kind == "mesh":
+            uri = source.geometry.uri
+            add(geometry, "uri", self.mesh_uri(uri.value) if uri is not None else "")
+        for name, sizes in shape.sizes.items():
+            if shape.kind != "mesh" or any(size.value != 1.0 for size in sizes):
+                add(geometry, name, exact_numbers(sizes))
+
+    def _surface(self, element: etree._Element, part: PartOfBody) -> None:
+        for setting in self._of(part).collision:
+            child_of(element, *setting.path).text = setting.value
+
+    def _paint(self, element: etree._Element, part: PartOfBody, visual: Visual) -> None:
+        paint = self.materials.of(visual, self._of(part).materials)
+        if paint is not None:
+            texture = self.mesh_uri(paint.texture) if paint.texture else ""
+            paint.write(element, texture)
+
+    def _blobs(self, element: etree._Element, part: PartOfBody) -> None:
+        """Add what a `<gazebo>` tag holds for each shape of the link; it replaces what is there."""
+        for blob in self._of(part).shapes:
+            if blob.tag != element.tag:
+                continue
+            for child in blob.children:
+                for there in [each for each in element if each.tag == child.node.tag]:
+                    element.remove(there)
+                element.append(copied(child.node))
+
+    def _of(self, part: PartOfBody) -> Said:
+        return self.said.get(part.link.name.value, self._nothing)
+
+
+def copied(node: etree._Element) -> etree._Element:
+    """Return a copy of an element without the text behind it."""
+    twin = copy.deepcopy(node)
+    twin.tail = None
+    return twin
+
+
+def _every(body: Body, kind: str) -> Iterator[tuple[PartOfBody, Collision | Visual]]:
+    for part in body.parts:
+        shapes = part.link.collisions if kind == "collisions" else part.link.visuals
+        for shape in shapes:
+            yield part, shape

@@ -1,0 +1,125 @@
+"""SDF → URDF, for RViz: links, joints, inertials, visuals and collisions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from lxml import etree
+
+from checker.convert.conversion import Conversion
+from checker.convert.notes import Notes
+from checker.convert.urdf_joints import Named, Step, add_joint, steps_of
+from checker.convert.urdf_shapes import LinkWriter, add_material
+from checker.convert.writing import add, unique
+from checker.dynamics.hanging import hang
+from checker.model.robot import Robot
+from checker.model.transform import Transform
+from checker.model.tree import WORLD, Tie
+
+
+def urdf_of(robot: Robot, *, mesh_uri: Callable[[str], str], prefix: str = "") -> etree._Element:
+    """Return the `<robot>` of `converted_to_urdf`."""
+    return converted_to_urdf(robot, mesh_uri=mesh_uri, prefix=prefix).tree
+
+
+def converted_to_urdf(
+    robot: Robot, *, mesh_uri: Callable[[str], str], prefix: str = ""
+) -> Conversion:
+    """Write a robot as a URDF document.
+
+    Each link keeps its frame, since TF places it there. Sensors have no frame of their own: the
+    simulation publishes those.
+
+    Args:
+        robot: From SDF or URDF.
+        mesh_uri: Gives the URI to write for a mesh or texture, as written in the robot's file.
+        prefix: In front of the name of every link, with its slash: `${name}/`.
+    """
+    writer = _Writer(robot, mesh_uri, prefix)
+    tree = writer.write()
+    return Conversion(tree, writer.notes.all)
+
+
+class _Writer:
+    """The parts of one conversion."""
+
+    def __init__(self, robot: Robot, mesh_uri: Callable[[str], str], prefix: str) -> None:
+        self.robot = robot
+        self.prefix = prefix
+        self.notes = Notes()
+        self.hanging = hang(robot)
+        self.links = LinkWriter(robot, mesh_uri, self.notes)
+        self.root = etree.Element("robot", name=robot.name.value)
+        self.link_names = dict.fromkeys(robot.tree.links, 0)
+        self.joint_names: dict[str, int] = {}
+
+    def write(self) -> etree._Element:
+        """Write everything; return the element `<robot>`."""
+        top = self._top()
+        if top == WORLD:
+            add(self.root, "link", name=WORLD)
+        for name in self.hanging.depth_first:
+            if name == WORLD:
+                continue
+            self.links.write(
+                self.robot.tree.links[name], add(self.root, "link", name=self._name(name))
+            )
+            if name != top:
+                self._hang(name, top)
+        for number, (look, name) in enumerate(self.links.looks.items()):
+            add_material(self.root, name, look)
+            # RViz and people look for what is used later at the top.
+            self.root.insert(number, self.root[-1])
+        self._say_what_is_cut()
+        return self.root
+
+    def _top(self) -> str:
+        """Return the link that all others hang on: `world` where one is tied to it."""
+        if any(tie.parent == WORLD for tie in self.hanging.by.values()):
+            return WORLD
+        return next((name for name in self.hanging.order if name not in self.hanging.by), "")
+
+    def _hang(self, name: str, top: str) -> None:
+        """Add the joints by which a link hangs."""
+        tie, child = self.hanging.by.get(name), self._pose(name)
+        if tie is None:
+            link = self.robot.tree.links[name]
+            said = f"link {name!r} hangs on no other link: a floating joint ties it to {top!r}"
+            self.notes.say(link, said)
+        at = top if tie is None else tie.parent
+        steps = [Step("floating", child)] if tie is None else self._steps(tie, child)
+        base, parent = self._pose(at), self._name(at)
+        stem = f"{name}_floating" if tie is None else tie.joint.scoped_name
+        for number, step in enumerate(steps):
+            last = number == len(steps) - 1
+            joint = unique(stem, self.joint_names)
+            below = name if last else unique(f"{stem}_frame", self.link_names)
+            if not last:
+                add(self.root, "link", name=self._name(below))
+            add_joint(self.root, Named(joint, parent, self._name(below)), step, base)
+            base, parent = step.pose, self._name(below)
+
+    def _steps(self, tie: Tie, child: Transform) -> list[Step]:
+        steps = list(steps_of(self.robot, tie, child))
+        joint = tie.joint
+        if steps[0].kind == "fixed" and joint.type.value != "fixed":
+            said = f"joint {joint.scoped_name!r} ({joint.type.value}) is written as a fixed one"
+            self.notes.say(joint, f"{said}: its limits, its axis or URDF leave it no motion")
+        return steps
+
+    def _pose(self, name: str) -> Transform:
+        pose = Transform() if name == WORLD else self.robot.pose_of(name)
+        if pose is None:
+            self.notes.say(self.robot.tree.links[name], f"the pose of link {name!r} is not known")
+        return pose or Transform()
+
+    def _name(self, link: str) -> str:
+        return link if link == WORLD else self.prefix + link
+
+    def _say_what_is_cut(self) -> None:
+        for tie in self.hanging.left_out:
+            said = f"joint {tie.joint.scoped_name!r} closes a loop, which URDF cannot: left out"
+            self.notes.say(tie.joint, said)
+        for broken in self.robot.tree.broken:
+            said = f"joint {broken.joint.scoped_name!r} ties {broken.missing.value!r}"
+            self.notes.say(broken.joint, f"{said}, which is no link: left out")

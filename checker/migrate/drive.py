@@ -1,0 +1,207 @@
+"""What is written into the drive plugin: distances from the geometry, limits from the joints."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from statistics import fmean
+
+from lxml import etree
+
+from checker.convert.writing import number
+from checker.migrate.wheels import Wheels
+from checker.migrate.wishes import NotMigrated, Wishes
+from checker.migrate.xml_parts import put
+from checker.model.lift import GRAVITY
+from checker.model.locomotion import Wheel
+from checker.model.robot import Robot
+from checker.resources import table
+
+_STEERING_LIMIT = 0.5
+"""Radians, where the steering joints state none."""
+_ROUNDED = 6
+"""Digits behind the point, of metres."""
+LATERAL_COMPLIANCE = 0.172
+"""Of WheelSlip, as accepted skid-steer robots of SubT state it."""
+_WHEELS_THAT_SLIP = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """A DiffDrive or AckermannSteering.
+
+    Attributes:
+        wheels: Those that it turns.
+        separation: Between left and right wheels, metres.
+        radius: Of the wheels, metres.
+        max_velocity: m/s.
+        max_acceleration: m/s².
+        normal_force: On each wheel of a robot whose wheels slip, N; else None.
+        steering: Left and right steering joint; empty for one that does not steer.
+        wheel_base: Between front and rear wheels, metres.
+        kingpin_width: Between the steering joints, metres.
+        steering_limit: Radians.
+        notes: What was decided.
+        open_points: What the author ought to look at.
+    """
+
+    wheels: Wheels
+    separation: float
+    radius: float
+    max_velocity: float
+    max_acceleration: float
+    normal_force: float | None = None
+    steering: tuple[str, ...] = ()
+    wheel_base: float = 0.0
+    kingpin_width: float = 0.0
+    steering_limit: float = 0.0
+    notes: tuple[str, ...] = ()
+    open_points: tuple[str, ...] = ()
+
+    @property
+    def left(self) -> list[str]:
+        """Joints on the left, from front to rear."""
+        return [wheel.joint.name.value for wheel in self.wheels.left]
+
+    @property
+    def right(self) -> list[str]:
+        """Joints on the right."""
+        return [wheel.joint.name.value for wheel in self.wheels.right]
+
+    @property
+    def slipping(self) -> list[str]:
+        """Links of the wheels that slip sideways in a turn."""
+        return [wheel.link.name.value for wheel in self.wheels.all] if self.normal_force else []
+
+    @property
+    def turning_radius(self) -> float:
+        """Of the middle of the rear axle, metres; 0 for one that turns on the spot."""
+        return self.wheel_base / math.tan(self.steering_limit) if self.steering else 0.0
+
+
+def drive_of(robot: Robot, wheels: Wheels, wishes: Wishes) -> Drive:
+    """Work out the drive plugin of a robot with wheels.
+
+    Raises:
+        NotMigrated: The wheels have no size or stand in one place.
+    """
+    separation = _mean_y(wheels.left) - _mean_y(wheels.right)
+    radii = [wheel.radius for wheel in wheels.all if wheel.radius]
+    if not radii or not 0.0 < separation < math.inf:
+        raise NotMigrated(
+            f"the wheels have no size or no distance: left {_places(wheels.left)}, "
+            f"right {_places(wheels.right)}; are sides swapped, or collisions missing?"
+        )
+    radius = fmean(radii)
+    velocity, why = _velocity(wheels, radius, wishes)
+    acceleration = wishes.max_acceleration or _standard()["acceleration_typical"]
+    plain = Drive(
+        wheels,
+        round(separation, _ROUNDED),
+        round(radius, _ROUNDED),
+        velocity,
+        float(acceleration),
+        open_points=(
+            "limits of the drive (launch/spawner.rb and specifications.md): "
+            f"{velocity:g} m/s {why}, {acceleration:g} m/s²",
+        ),
+    )
+    return _steering(robot, plain) if wheels.steering else _skidding(robot, plain)
+
+
+def _standard() -> dict[str, float]:
+    limits = table("subt_standards")["limits_without_validation"]
+    return {**limits["ugv"], "acceleration_typical": limits["acceleration_typical"]}
+
+
+def _velocity(wheels: Wheels, radius: float, wishes: Wishes) -> tuple[float, str]:
+    """Return the limit of velocity, m/s, and where it comes from."""
+    if wishes.max_velocity is not None:
+        return wishes.max_velocity, "as you say"
+    rates = [axis.velocity.value for wheel in wheels.all for axis in wheel.joint.axes]
+    reachable = min((rate for rate in rates if rate > 0.0), default=math.inf) * radius
+    usual = float(_standard()["max_velocity"])
+    if reachable >= usual:
+        return usual, "as SubT allows without validation"
+    return math.floor(reachable * 1000) / 1000, "as the wheels' velocity limits allow"
+
+
+def _skidding(robot: Robot, plain: Drive) -> Drive:
+    count = len(plain.wheels.all)
+    said = f"DiffDrive turns {', '.join((*plain.left, *plain.right))}: {plain.wheels.reason}"
+    notes = (
+        said,
+        f"wheel separation {plain.separation:g} m and radius {plain.radius:g} m by the geometry",
+    )
+    if count < _WHEELS_THAT_SLIP:
+        return replace(plain, notes=notes)
+    force = round(robot.mass * GRAVITY / count, 2)
+    slip = f"WheelSlip for a skid-steer robot: {force:g} N on each of {count} wheels"
+    factor = (
+        "skid-steer robots turn about a wider track than they have: raise <wheel_separation> in "
+        "launch/spawner.rb until the robot turns as fast as it is told"
+    )
+    points = (*plain.open_points, factor)
+    return replace(plain, notes=(*notes, slip), normal_force=force, open_points=points)
+
+
+def _steering(robot: Robot, plain: Drive) -> Drive:
+    joints = plain.wheels.steering
+    rear = [wheel for wheel in plain.wheels.all if wheel.steering not in joints]
+    if not rear:
+        raise NotMigrated(
+            "every driven wheel is steered, which AckermannSteering cannot; name the wheels that "
+            "it shall turn by --left-wheels and --right-wheels"
+        )
+    poses = [robot.pose_of_joint(joint) for joint in joints]
+    places = [pose.translation for pose in poses if pose is not None]
+    if len(places) < len(joints):
+        raise NotMigrated(f"joint {joints[0].name.value!r} steers, and its place is not known")
+    base = abs(fmean(p[0] for p in places) - fmean(w.centre[0] for w in rear if w.centre))
+    limits = [abs(x.value) for j in joints for x in (j.axes[0].lower, j.axes[0].upper)]
+    limit = min((each for each in limits if 0.0 < each < math.pi / 2), default=_STEERING_LIMIT)
+    names = tuple(joint.name.value for joint in joints)
+    said = f"AckermannSteering steers by {', '.join(names)}: {plain.wheels.reason}"
+    return replace(
+        plain,
+        steering=names,
+        wheel_base=round(base, _ROUNDED),
+        kingpin_width=round(abs(places[0][1] - places[1][1]), _ROUNDED),
+        steering_limit=round(limit, _ROUNDED),
+        notes=(said, f"wheel base {base:.4g} m, steering up to {limit:.3g} rad"),
+    )
+
+
+def turn_forward(tree: etree._Element, wheels: Wheels) -> list[str]:
+    """Turn round the axes of wheels that would roll backwards; return what was done."""
+    backwards = {
+        wheel.joint.name.value for wheel in wheels.all if wheel.axis and wheel.axis[1] < 0.0
+    }
+    for joint in tree.iter("joint"):
+        if joint.get("name") not in backwards:
+            continue
+        xyz = joint.find("axis/xyz")
+        axis = joint.find("axis")
+        if axis is not None and xyz is not None:
+            flipped = [number(-float(word)) for word in (xyz.text or "").split()]
+            put(axis, "xyz", " ".join(flipped))
+    if not backwards:
+        return []
+    return [f"axes of {', '.join(sorted(backwards))} are turned round: they rolled backwards"]
+
+
+def _mean_y(wheels: Sequence[Wheel]) -> float:
+    places = [wheel.centre[1] for wheel in wheels if wheel.centre is not None]
+    return fmean(places) if places else math.nan
+
+
+def _places(wheels: Sequence[Wheel]) -> str:
+    return ", ".join(_shown(wheels))
+
+
+def _shown(wheels: Sequence[Wheel]) -> Iterator[str]:
+    for wheel in wheels:
+        at = "unknown" if wheel.centre is None else f"y {wheel.centre[1]:.3g} m"
+        size = "no radius" if not wheel.radius else f"radius {wheel.radius:.3g} m"
+        yield f"{wheel.joint.name.value} ({at}, {size})"

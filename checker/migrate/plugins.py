@@ -1,0 +1,218 @@
+"""Plugins of Gazebo 9 judged one by one, by the table of what takes their place."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from lxml import etree
+
+from checker.convert.conversion import CarriedPlugin, Conversion
+from checker.convert.writing import number, numbers
+from checker.migrate import sensor_forms as forms
+from checker.migrate.xml_parts import build, number_at, put
+from checker.model.plugin_library import (
+    SUBT_RELEASE,
+    classic_plugin,
+    library_stem,
+    plugin_libraries,
+)
+from checker.model.transform import Transform
+
+_BODY_TAGS = ("frameId", "frameName", "frame_id", "bodyName", "body_name", "linkName")
+
+
+@dataclass
+class Judged:
+    """What became of the plugins.
+
+    Attributes:
+        notes: Sentences, each with the file and line of the plugin.
+        open_points: What the author has to put in their place.
+        drives: Plugins that drove the robot, for what they say of its wheels.
+    """
+
+    notes: list[str] = field(default_factory=list)
+    open_points: list[str] = field(default_factory=list)
+    drives: list[CarriedPlugin] = field(default_factory=list)
+
+
+def judge_plugins(conversion: Conversion, base: str) -> Judged:
+    """Remove the plugins of Gazebo 9 that stand outside sensors; put sensors where they made some.
+
+    Plugins within sensors are left: what becomes of their sensor hangs on them.
+
+    Args:
+        conversion: Its tree is changed.
+        base: Name of the link that carries the others.
+    """
+    judged = Judged()
+    for carried in conversion.plugins:
+        filename = carried.plugin.filename.value
+        where = f"{carried.plugin.span.place()}: {filename}"
+        if library_stem(filename) in plugin_libraries(SUBT_RELEASE):
+            continue
+        known = classic_plugin(filename)
+        judged.notes.append(f"{where} {_said(known)}")
+        if carried.sensor:
+            continue
+        if known is None:
+            judged.open_points.append(f"what takes the place of {filename}, of unknown purpose")
+        elif system := _system_to_add(known):
+            judged.open_points.append(f"{system} in launch/spawner.rb, for {filename}")
+        judged.notes += _replaced(known or {}, carried, conversion, base)
+        instead = (known or {}).get("replacement") or {}
+        if "Drive" in instead.get("name", "") or "Steering" in instead.get("name", ""):
+            judged.drives.append(carried)
+        carried.remove()
+    judged.notes += _lights(conversion.tree)
+    return judged
+
+
+def _said(known: dict[str, Any] | None) -> str:
+    if known is None:
+        return "is removed: it is built for Gazebo 9; only its author knows what can stand for it"
+    instead = known.get("replacement") or {}
+    note = f" ({known['note']})" if known.get("note") else ""
+    if kind := instead.get("sensor_type"):
+        return f"is replaced by a sensor of type {kind}"
+    if _system_to_add(known):
+        return f"is removed; what does its work is {instead['filename']}, {instead['name']}{note}"
+    return f"is removed{note}"
+
+
+def _system_to_add(known: dict[str, Any]) -> str:
+    """Return the class of the system that replaces a plugin and that no spawner gets unasked."""
+    name = str((known.get("replacement") or {}).get("name", ""))
+    return "" if name.rpartition("::")[2] in _WRITTEN else name
+
+
+_WRITTEN = frozenset(
+    {"DiffDrive", "AckermannSteering", "PosePublisher", "WheelSlip", "LinearBatteryPlugin"}
+)
+"""Systems that the new spawner has where they fit."""
+
+
+def _replaced(
+    known: dict[str, Any], carried: CarriedPlugin, conversion: Conversion, base: str
+) -> Iterator[str]:
+    """Put the sensor that a plugin made into the model."""
+    kind = (known.get("replacement") or {}).get("sensor_type")
+    if kind == "rgbd_camera":
+        yield from _merged(carried, conversion.tree)
+    elif kind in ("imu", "magnetometer", "air_pressure"):
+        link, pose = _body(carried, conversion, base)
+        holder = _link(conversion.tree, link)
+        if holder is not None:
+            name = _free_name(holder, _SENSOR_NAMES[kind])
+            holder.append(_new_sensor(name, kind, pose, _rate_of(carried.node, kind)))
+            place = numbers(pose.translation)
+            yield f"sensor {name!r} of type {kind} stands in link {link!r} at {place}"
+    elif kind is not None:
+        yield f"{carried.plugin.filename.value} stands in no sensor: there is none to replace it"
+
+
+_SENSOR_NAMES = {
+    "imu": "imu_sensor",
+    "magnetometer": "magnetometer",
+    "air_pressure": "air_pressure",
+}
+
+
+def _body(carried: CarriedPlugin, conversion: Conversion, base: str) -> tuple[str, Transform]:
+    """Return the link that carries what a plugin measures, and the place of it in that link."""
+    texts = [carried.node.findtext(tag) or "" for tag in _BODY_TAGS]
+    for name in (*texts, carried.reference):
+        lumped = conversion.lumped.get(name.strip().rpartition("/")[2])
+        if lumped is not None:
+            return lumped.link, lumped.pose
+    return carried.link or base, Transform()
+
+
+def _link(tree: etree._Element, name: str) -> etree._Element | None:
+    return next((each for each in tree.iter("link") if each.get("name") == name), None)
+
+
+def _free_name(link: etree._Element, name: str) -> str:
+    taken, number_ = {each.get("name") for each in link.iterfind("sensor")}, 2
+    unique = name
+    while unique in taken:
+        unique, number_ = f"{name}_{number_}", number_ + 1
+    return unique
+
+
+def _rate_of(plugin: etree._Element, kind: str) -> float:
+    rates = (number_at(plugin, tag, 0.0) for tag in ("updateRate", "updateRateHZ"))
+    return next((rate for rate in rates if rate > 0.0), forms.usual_rate(kind))
+
+
+def _new_sensor(name: str, kind: str, pose: Transform, rate: float) -> etree._Element:
+    content = {
+        "@name": name,
+        "@type": kind,
+        "pose": f"{numbers(pose.translation)} {numbers(pose.rpy)}",
+        "update_rate": number(rate),
+    }
+    return build("sensor", content)
+
+
+def _merged(carried: CarriedPlugin, tree: etree._Element) -> Iterator[str]:
+    """Make one sensor of the cameras that a RealSense plugin joins."""
+    name = carried.plugin.filename.value
+    cameras = _cameras_of(carried, tree)
+    if not cameras:
+        yield f"{name} names no camera of the model: there is none to replace it"
+        return
+    kept = next((each for each in cameras if "color" in each.get("name", "")), cameras[0])
+    depth = next((each for each in cameras if each.get("type") == "depth"), None)
+    prefix = _prefix(carried) or carried.reference or kept.get("name", "")
+    names = [each.get("name", "") for each in cameras]
+    for each in cameras:
+        parent = each.getparent()
+        if each is not kept and parent is not None:
+            parent.remove(each)
+    kept.set("name", prefix.strip("_/ ") or "rgbd_camera")
+    kept.set("type", "rgbd_camera")
+    near = number_at(carried.node, "rangeMinDepth", 0.0)
+    if near <= 0.0 and depth is not None:
+        near = number_at(depth, "camera/clip/near", 0.0)
+    camera = kept.find("camera")
+    if camera is not None and near > 0.0:
+        put(camera, "clip", {"near": near, "far": number_at(camera, "clip/far", 100.0)})
+    yield f"sensors {', '.join(names)} become one rgbd_camera {kept.get('name')!r}"
+
+
+def _cameras_of(carried: CarriedPlugin, tree: etree._Element) -> Sequence[etree._Element]:
+    """Return the cameras that a device consists of.
+
+    They bear the plugin's prefix, stand in its link, or are called by what they see.
+    """
+    cameras = [each for each in tree.iter("sensor") if each.get("type") in _LENSES]
+    prefix = _prefix(carried)
+    named = [each for each in cameras if prefix and each.get("name", "").startswith(prefix)]
+    if named:
+        return named
+    holder = _link(tree, carried.link) if carried.link else None
+    beside = [each for each in cameras if holder is not None and each.getparent() is holder]
+    return beside or [each for each in cameras if _PARTS.search(each.get("name", ""))]
+
+
+_LENSES = ("camera", "depth", "wideanglecamera")
+_PARTS = re.compile(r"(?:^|[/_])(?:colou?r|rgb|depth|i?red_?[12]|infra(?:red)?_?[12]|ir_?[12])$")
+"""Ends of names of the cameras that a RealSense consists of."""
+
+
+def _prefix(carried: CarriedPlugin) -> str:
+    said = (carried.node.findtext(tag) or "" for tag in ("prefix", "cameraName"))
+    return next((word.strip() for word in said if word.strip()), "")
+
+
+def _lights(tree: etree._Element) -> Iterator[str]:
+    names = [each.get("name", "") for each in tree.iter("light")]
+    if names:
+        yield (
+            f"lights {', '.join(names)} are darker in Ignition Gazebo than in Gazebo 9: raise them "
+            "by the values below <attenuation>"
+        )

@@ -1,0 +1,126 @@
+"""What is migrated: the one URDF description of a package."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from checker.cache import NO_CACHE
+from checker.describing import Describing
+from checker.migrate.wishes import NotMigrated
+from checker.model.paperwork import PackageManifest
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.files import UrdfFiles, XacroFault, XacroFaultKind
+from checker.package.opening import Opened, open_input
+from checker.package.package import Package
+from checker.paperwork import Paperwork
+
+_NAMED_LIMIT = 8
+_GIVE_ARGUMENT = "; give it by --args name:=value"
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A description to migrate.
+
+    Attributes:
+        package: It stands in.
+        description: The robot, after xacro.
+    """
+
+    package: Package
+    description: UrdfDescription
+
+    @property
+    def manifest(self) -> PackageManifest | None:
+        """The package.xml, if there is one."""
+        return None if self.package.only else Paperwork(self.package).manifest
+
+
+@contextmanager
+def opened_source(path: Path, urdf: str, args: Mapping[str, str]) -> Iterator[Source]:
+    """Open the description that is to be migrated.
+
+    Args:
+        path: A package folder, a folder of packages, an archive or a URDF file.
+        urdf: The file that describes the robot; empty to find it.
+        args: Arguments for xacro.
+
+    Raises:
+        NotMigrated: There is no description in it, there are several, or xacro refuses it.
+        UnreadableInput: The path cannot be opened.
+    """
+    with open_input(path) as opened:
+        package = _package_of(opened, path, urdf)
+        chosen = _file_in(package, urdf) if urdf else ""
+        describing = Describing(package, NO_CACHE, only=chosen, args=args)
+        try:
+            yield Source(package, _only_one(describing.files, package, path))
+        finally:
+            describing.stop()
+
+
+def _package_of(opened: Opened, path: Path, urdf: str) -> Package:
+    """Return the one package that has a description."""
+    described = [package for package in opened.packages if urdf or package.is_urdf]
+    if len(described) == 1:
+        return described[0]
+    if described:
+        names = _listed([package.name for package in described])
+        raise NotMigrated(f"{path} holds several packages ({names}); give the folder of one")
+    with_model = [each for each in opened.packages if each.index.with_suffix(".sdf")]
+    if with_model:
+        raise NotMigrated(
+            f"{path} has an SDF model already ({with_model[0].index.with_suffix('.sdf')[0].path}); "
+            "there is nothing to migrate. Check it by: subt-check check PATH"
+        )
+    raise _without_urdf(path)
+
+
+def _without_urdf(path: Path) -> NotMigrated:
+    return NotMigrated(
+        f"{path} holds no robot in URDF (a .urdf or .xacro file with <robot> and links); give a "
+        "description package, or the file by --urdf"
+    )
+
+
+def _file_in(package: Package, urdf: str) -> str:
+    """Return a file that the author names as the package lists it."""
+    if package.exists(urdf):
+        return urdf
+    real = Path(os.path.realpath(urdf))
+    if real.is_relative_to(package.root) and real.is_file():
+        return real.relative_to(package.root).as_posix()
+    found = [each.path for each in package.index.with_suffix(".urdf", ".xacro")]
+    raise NotMigrated(
+        f"{urdf} is no file of {package.name}; found: {_listed(found) or 'no URDF file'}"
+    )
+
+
+def _only_one(files: UrdfFiles, package: Package, path: Path) -> UrdfDescription:
+    with_links = [each for each in files.descriptions if each.robot.links]
+    if len(with_links) == 1:
+        return with_links[0]
+    if with_links:
+        names = _listed([each.file for each in with_links])
+        raise NotMigrated(f"{package.name} describes several robots: {names}; choose by --urdf")
+    if files.faults:
+        raise NotMigrated(_fault(files.faults[0]))
+    unread = (*files.unread, *files.set_aside)
+    if unread:
+        raise NotMigrated(f"{unread[0]}{_GIVE_ARGUMENT if ': arg ' in unread[0] else ''}")
+    raise _without_urdf(path)
+
+
+def _fault(fault: XacroFault) -> str:
+    advice = _GIVE_ARGUMENT if fault.kind is XacroFaultKind.ARGUMENT else ""
+    hint = f" ({fault.hint})" if fault.hint else ""
+    return f"{fault.file} cannot be expanded: {fault.span.place()}: {fault.message}{hint}{advice}"
+
+
+def _listed(names: list[str]) -> str:
+    more = len(names) - _NAMED_LIMIT
+    return ", ".join(names[:_NAMED_LIMIT]) + (f" and {more} more" if more > 0 else "")
