@@ -17,7 +17,8 @@ LAYERS = (
     {"resources", "saying", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
-    {"checklist", "discovery", "dynamics", "flattening", "mesh", "paperwork", "profiles", "spawning"},
+    {"checklist", "discovery", "dynamics", "flattening"}
+    | {"mesh", "paperwork", "profiles", "spawning"},
     {"stages", "trial", "xacro"},
     {"view"},
     {"driving", "including", "launching", "settings"},
