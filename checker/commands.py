@@ -153,6 +153,10 @@ def _example(example: object) -> str:
                 pass
             case "@fragment", _:
                 shown.append(f"model.sdf:\n{_indented(text.strip())}")
+            case "@urdf", True:
+                shown.append("urdf/arm.urdf holds an arm with a transmission for its joint")
+            case "@urdf", _:
+                shown.append(f"urdf/arm.urdf:\n{_indented(text.strip())}")
             case "@name", _:
                 shown.append(f"folder {text}/")
             case "@links", _:

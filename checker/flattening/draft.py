@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from xml.sax.saxutils import escape
+from html import escape
 
 from checker.finding import Edit
 from checker.source.insertion import insertion, with_blanks
@@ -72,4 +72,4 @@ class Draft:
 
 def written(text: str) -> str:
     """Return a text as it is written in XML, inside of an element or an attribute."""
-    return escape(text, {'"': "&quot;", "'": "&apos;"})
+    return escape(text, {'"': "&quot;", "'": "&apos;"}, quote=False)

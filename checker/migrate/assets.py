@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -21,6 +22,8 @@ _SIZE_LIMIT = 100_000_000
 _WHOLE_LIMIT = 1_000_000_000
 """Bytes of all files together."""
 _FILES_LIMIT = 2_000
+_UNFIT = re.compile(r"[^\w./+-]")
+"""What URIs, xacro or shells read in their own way, such as blanks, `%20` and `${`."""
 
 
 @dataclass(eq=False)
@@ -36,6 +39,10 @@ class Assets:
     notes: list[str] = field(default_factory=list)
     _targets: dict[str, str] = field(default_factory=dict)
     """New path by old path, as the source's package lists it."""
+    _missing: dict[str, str] = field(default_factory=dict)
+    """Path where a file that is not at hand belongs, by its URI."""
+    _folders: dict[str, str] = field(default_factory=dict)
+    """Folder of the source by the folder of the new package that holds its files."""
 
     def uri(self, written: str) -> str:
         """Return the URI of a mesh or picture relative to the new model.sdf.
@@ -49,8 +56,13 @@ class Assets:
         found = file_behind(self.source.package, folder, written)
         name = posixpath.basename(written.rstrip("/")) or "mesh"
         if not isinstance(found, MeshFile):
-            self._note(f"{written} {found.reason}: put the file into {_folder_for(name)}/")
-            return f"{_folder_for(name)}/{name}"
+            wanted = self._free(f"{_folder_for(name)}/{_fit(name)}")
+            place = self._missing.setdefault(written, wanted)
+            new = posixpath.basename(place)
+            renamed = "" if new == name else f" as {new}"
+            folder = posixpath.dirname(place)
+            self._note(f"{written} {found.reason}: put the file into {folder}/{renamed}")
+            return place
         return self._target(found.path)
 
     def package_uri(self, package: str) -> dict[str, str]:
@@ -87,6 +99,9 @@ class Assets:
         new = posixpath.normpath(posixpath.join(posixpath.dirname(self._targets[mesh]), named))
         if old in self._targets or not self.source.package.exists(old):
             return
+        if new in self._taken:
+            self._note(f"{mesh} names {named}, and another file is {new} already: it is left out")
+            return
         if new.startswith(("../", "/")):
             self._note(f"{mesh} names {named}, which would lie outside the package: it is left out")
         elif len(self._targets) < _FILES_LIMIT:
@@ -94,14 +109,31 @@ class Assets:
 
     def _target(self, old: str) -> str:
         if old not in self._targets:
-            wanted = _wanted(old)
-            taken = set(self._targets.values())
-            stem, suffix = posixpath.splitext(wanted)
-            number = 2
-            while wanted in taken:
-                wanted, number = f"{stem}_{number}{suffix}", number + 1
-            self._targets[old] = wanted
+            self._targets[old] = self._free(self._apart(old, _wanted(old)))
         return self._targets[old]
+
+    def _apart(self, old: str, wanted: str) -> str:
+        """Keep meshes of different folders apart, for their textures may have the same names."""
+        folder, name = posixpath.split(wanted)
+        if _folder_for(name) == TEXTURES:
+            return wanted
+        chosen, number = folder, 2
+        while self._folders.setdefault(chosen, posixpath.dirname(old)) != posixpath.dirname(old):
+            chosen, number = f"{folder}/{number}", number + 1
+        return f"{chosen}/{name}"
+
+    @property
+    def _taken(self) -> set[str]:
+        return {*self._targets.values(), *self._missing.values()}
+
+    def _free(self, wanted: str) -> str:
+        """Return a path that no file has yet: `meshes/a.dae`, `meshes/a_2.dae`."""
+        taken = self._taken
+        stem, suffix = posixpath.splitext(wanted)
+        path, number = wanted, 2
+        while path in taken:
+            path, number = f"{stem}_{number}{suffix}", number + 1
+        return path
 
     def _note(self, note: str) -> None:
         if note not in self.notes:
@@ -116,6 +148,11 @@ def _wanted(old: str) -> str:
     """Return where a file goes: below meshes/ as it lies there now, pictures with pictures."""
     name = posixpath.basename(old)
     if _folder_for(name) == TEXTURES:
-        return f"{TEXTURES}/{name}"
+        return f"{TEXTURES}/{_fit(name)}"
     _, found, below = f"/{old}".rpartition(f"/{MESHES}/")
-    return f"{MESHES}/{below if found else name}"
+    return f"{MESHES}/{_fit(below if found else name)}"
+
+
+def _fit(path: str) -> str:
+    """Return a path that stands in URIs, xacro and launch files as it is."""
+    return _UNFIT.sub("_", path)

@@ -72,9 +72,8 @@ class SensorBridges:
     @property
     def ign_prefix(self) -> str:
         """Of its topics in Gazebo."""
-        return self.bridges[0].ign_topic.rpartition(f"/sensor/{self.sensor}/")[0] + (
-            f"/sensor/{self.sensor}"
-        )
+        before, own, _ = self.bridges[0].ign_topic.rpartition(f"/sensor/{self.sensor}")
+        return before + own
 
 
 def sensor_bridges(robot: Robot) -> list[SensorBridges]:

@@ -20,6 +20,8 @@ _DISTANCE = 0.95
 _RENDERERS = ("egl", "osmesa")
 _SECONDS_EACH = 25
 _FILE_LIMIT = 100_000_000
+_CORNERS = 4
+"""That MuJoCo wants of a mesh at least."""
 
 
 def answer(request: bytes) -> bytes:
@@ -39,7 +41,11 @@ def answer(request: bytes) -> bytes:
         said = apart(partial(_pictures, shapes, renderer), _SECONDS_EACH)
         if not isinstance(said, Ended):
             return said
-    return json.dumps({"unable": "no OpenGL is at hand (EGL or OSMesa)"}).encode()
+    return _unable("no OpenGL is at hand (EGL or OSMesa)")
+
+
+def _unable(reason: str) -> bytes:
+    return json.dumps({"unable": reason}).encode()
 
 
 def _pictures(shapes: Sequence[Mapping[str, Any]], renderer: str) -> bytes:
@@ -60,7 +66,12 @@ def _pictures(shapes: Sequence[Mapping[str, Any]], renderer: str) -> bytes:
     )
     for number, shape in enumerate(shapes):
         _add(spec, mujoco, shape, number)
-    model = spec.compile()
+    if not spec.geoms:
+        return _unable("no mesh of the robot can be read")
+    try:
+        model = spec.compile()
+    except ValueError as error:
+        return _unable(f"MuJoCo refuses the shapes ({str(error).splitlines()[0]})")
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     centre, diagonal = _extent(model, data)
@@ -122,7 +133,7 @@ def _corners(file: Path, scale: Sequence[float]) -> Any:
         corners = read_surface(content, file.name).corners.reshape(-1, 3)
     except NoSurface:
         return None
-    return corners * scale if len(corners) else None
+    return corners * scale if len(corners) >= _CORNERS else None
 
 
 def _extent(model: Any, data: Any) -> tuple[list[float], float]:

@@ -78,6 +78,7 @@ def migrate(path: Path, destination: Path, wishes: Wishes) -> Migrated:
     """
     log = _Log()
     with opened_source(path, wishes.urdf, wishes.args) as source:
+        _check_apart(source, destination)
         names = names_for(wishes, source)
         holder = "" if source.package.only else f" of {source.package.name}"
         log.notes.append(f"robot: {source.description.file}{holder}")
@@ -88,6 +89,16 @@ def migrate(path: Path, destination: Path, wishes: Wishes) -> Migrated:
     log.points.append(_SHEET_POINTS)
     notes, points = (tuple(dict.fromkeys(each)) for each in (log.notes, log.points))
     return Migrated(staging.final, notes, points)
+
+
+def _check_apart(source: Source, destination: Path) -> None:
+    """Refuse to put a package into the one that it is made from: catkin finds no nested ones."""
+    package = source.package
+    if not package.only and destination.resolve().is_relative_to(package.root.resolve()):
+        raise NotMigrated(
+            f"{destination} lies inside package {package.name}, and ROS finds no package within "
+            "another; give a folder outside of it"
+        )
 
 
 def _fill(staging: Staging, source: Source, names: Names, wishes: Wishes, log: _Log) -> None:

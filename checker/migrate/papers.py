@@ -38,8 +38,13 @@ def papers_of(source: Source) -> Papers:
     if not license or license.upper() == NO_LICENSE:
         open_points.append("license (package.xml)")
     return Papers(
-        person.name.value if person else NO_NAME,
-        person.email.value if person else NO_EMAIL,
-        license or NO_LICENSE,
+        _one_line(person.name.value) if person else NO_NAME,
+        _one_line(person.email.value) if person else NO_EMAIL,
+        _one_line(license) or NO_LICENSE,
         tuple(open_points),
     )
+
+
+def _one_line(text: str) -> str:
+    """Return a text that stays in its line of the sheet."""
+    return " ".join(text.split())

@@ -62,6 +62,9 @@ def judge_plugins(conversion: Conversion, base: str) -> Judged:
             judged.open_points.append(f"what takes the place of {filename}, of unknown purpose")
         elif system := _system_to_add(known):
             judged.open_points.append(f"{system} in launch/spawner.rb, for {filename}")
+        elif known.get("action") == "replace" and not known.get("replacement"):
+            hint = known.get("note", "nothing does it by itself")
+            judged.open_points.append(f"what takes the place of {filename}: {hint}")
         judged.notes += _replaced(known or {}, carried, conversion, base)
         instead = (known or {}).get("replacement") or {}
         if "Drive" in instead.get("name", "") or "Steering" in instead.get("name", ""):

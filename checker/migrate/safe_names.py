@@ -8,17 +8,17 @@ from lxml import etree
 
 from checker.migrate.wishes import NotMigrated
 
-_SAFE = re.compile(r"[\w.:+ -]{1,200}")
+_SAFE = re.compile(r"[\w.:+-]{1,200}")
 _NAMED = ("link", "joint", "sensor")
 
 
 def check_names(tree: etree._Element) -> None:
     """Look at the names of a model that go into other files.
 
-    Ruby would run what stands in `#{…}`, roslaunch replaces `$(…)`.
+    Ruby would run what stands in `#{…}`, roslaunch replaces `$(…)` and parts `args` at blanks.
 
     Raises:
-        NotMigrated: A name has other characters than letters, digits, blanks and `_ . : + -`.
+        NotMigrated: A name has other characters than letters, digits and `_ . : + -`.
     """
     for tag in _NAMED:
         for element in tree.iter(tag):
@@ -26,5 +26,5 @@ def check_names(tree: etree._Element) -> None:
             if _SAFE.fullmatch(name) is None:
                 raise NotMigrated(
                     f"{tag} {name[:80]!r} has a name that launch files cannot hold; expected "
-                    "letters, digits and _ . + -"
+                    "1 to 200 letters, digits and _ . : + -"
                 )

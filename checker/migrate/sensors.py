@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from collections.abc import Callable, Iterator, Mapping
 
 from lxml import etree
@@ -27,6 +28,9 @@ _FORMS: Mapping[str, Callable[[etree._Element], None]] = {
     "magnetometer": forms.as_magnetometer,
     "air_pressure": forms.as_air_pressure,
 }
+_UNFIT = re.compile(r"[^\w.+-]")
+"""What names of topics and launch files cannot hold."""
+_NAME_LIMIT = 100
 _CONE = 0.26
 """Radians, of a sonar that does not say."""
 
@@ -164,7 +168,8 @@ def _name_apart(tree: etree._Element) -> None:
         taken: set[str] = set()
         for sensor in holder.iterfind("sensor"):
             # What stands before a slash is the robot's name in Gazebo 9.
-            name, number = (sensor.get("name") or "").rpartition("/")[2] or "sensor", 2
+            own = _UNFIT.sub("_", (sensor.get("name") or "").rpartition("/")[2])
+            name, number = own[:_NAME_LIMIT] or "sensor", 2
             unique = name
             while unique in taken:
                 unique, number = f"{name}_{number}", number + 1

@@ -91,7 +91,8 @@ def _file(visual: Visual, folder: Path) -> str:
     if not path or path.startswith(("/", "../")) or "://" in path:
         return ""
     real = folder / path
-    return str(real) if real.is_file() else ""
+    # The process that draws has another working directory.
+    return str(real.resolve()) if real.is_file() else ""
 
 
 def _colour(visual: Visual) -> list[float]:

@@ -67,7 +67,8 @@ def check(
         if hit is not None:
             yield finding(
                 plugin.drop,
-                f"breadcrumbs appear at {_words(point)}, in link {hit.link.name.value!r}",
+                f"breadcrumbs appear at {_words(point)}, inside link {hit.link.name.value!r}: "
+                f"expected a place outside of the robot, {farthest:g} m behind it at most",
                 related=[(hit.shape, "the collision that they appear in")],
             )
         elif robot.unseen_meshes:

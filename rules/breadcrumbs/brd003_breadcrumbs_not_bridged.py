@@ -70,7 +70,8 @@ def _uncounted(bridges: Iterable[Bridge]) -> Iterator[Finding]:
         if _drops(bridge) and bridge.ign_topic.removesuffix(DEPLOY) not in counting:
             yield finding(
                 bridge,
-                "breadcrumb/deploy is bridged and breadcrumb/deploy/remaining is not",
+                "breadcrumb/deploy is bridged and breadcrumb/deploy/remaining is not: expected "
+                "both, or nobody learns how many are left",
                 severity=Severity.WARNING,
                 key="remaining is not bridged",
             )

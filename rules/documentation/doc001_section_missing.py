@@ -33,13 +33,17 @@ def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Fi
     ]
     said = []
     if missing:
-        said.append(f"sections are missing: {', '.join(missing)}")
+        said.append(f"{_are(missing)} missing: {', '.join(missing)}")
     if empty:
-        said.append(f"sections are empty: {', '.join(each.title for each in empty)}")
+        said.append(f"{_are(empty)} empty: {', '.join(each.title for each in empty)}")
     for section in empty:
         yield finding(section, "; ".join(said), key=KEY)
     if missing and not empty:
         yield finding(specification.source.whole(), said[0], key=KEY)
+
+
+def _are(things: Sequence[object]) -> str:
+    return "a section is" if len(things) == 1 else f"{len(things)} sections are"
 
 
 def _sections(specification: Specification, words: str) -> list[Section]:

@@ -8,6 +8,8 @@ Source: SubT reviews ask to remove text that is struck through and links such as
 `https://youtu.be/xxxx` of the template (`subt_standards.json`).
 """
 
+import re
+
 from checker.model.specification.leftovers import (
     links_without_target,
     placeholders,
@@ -17,22 +19,27 @@ from checker.model.specification.sheet import Specification
 from checker.rule import Findings, Severity, finding, rule
 
 SHOWN = 60
+_ESCAPED = re.compile(r"\\([!-/:-@\[-`{-~])")
 
 
 @rule("DOC002", "placeholder-left", Severity.WARNING)
 def check(specification: Specification) -> Findings:
     """Report placeholders, links without target and struck-through text."""
     for left in placeholders(specification.markdown):
-        message = f"{_short(left.words)!r} is a placeholder"
+        message = (
+            f"{_short(left.words)!r} is a placeholder: expected what it stands for, or nothing"
+        )
         yield finding(left, message, key=left.words.casefold()[:SHOWN])
     for left in links_without_target(specification.markdown):
-        message = f"link {_short(left.words)!r} leads nowhere"
-        yield finding(left, message, key="leads nowhere")
+        message = f"link {_short(left.words)!r} has no address"
+        yield finding(left, message, key="no address")
     for left in struck_through(specification.markdown):
         yield finding(left, f"{_short(left.words)!r} is struck through: expected it to be deleted")
 
 
 def _short(words: str) -> str:
+    """Return words as a reader sees them, cut when they are long."""
+    words = _ESCAPED.sub(r"\1", words)
     return words if len(words) <= SHOWN else f"{words[: SHOWN - 3]}..."
 
 

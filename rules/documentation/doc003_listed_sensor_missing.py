@@ -42,11 +42,15 @@ def check(package: Package, robot: Robot, specification: Specification) -> Findi
         accepted = types.union(*(SUBSTITUTES.get(item.kind, frozenset()) for item in items))
         if not accepted.intersection(present):
             for item in items:
-                yield finding(item, f"lists {_words(item)}, the model has no {_name(item.kind)}")
+                said = f"the sheet lists {_words(item)!r}, the model has no {_name(item.kind)}"
+                yield finding(item, f"{said} sensor: expected it in both or in none")
         elif amount and (total := _total(items)) is not None and total != amount:
+            if total < amount and specification.other_sensors:
+                yield unchecked(f"the sheet leaves sensors to {specification.other_sensors}")
+                continue
             yield finding(
                 items[0],
-                f"lists {total} × {_name(items[0].kind)}, the model has {amount}",
+                f"the sheet lists {total} × {_name(items[0].kind)}, the model has {amount}",
                 severity=Severity.WARNING,
                 related=[(item, "listed here too") for item in items[1:]],
             )
@@ -90,6 +94,12 @@ BAD = [
         "@fragment": _SENSORS,
         "specifications.md": _SHEET
         + "* Velodyne VLP-16, modeled by the gpu_lidar plugin <!-- ^ DOC003 -->\n",
+    },
+    {
+        "@fragment": _SENSORS,
+        "specifications.md": _SHEET
+        + "Others are listed in [base](base.md).\n* 4x FLIR Blackfly, a camera "
+        "<!-- ^ DOC003 -->\n",
     },
     {
         "@fragment": _SENSORS,

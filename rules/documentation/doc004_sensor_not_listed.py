@@ -1,7 +1,8 @@
 """A sensor of the model that specifications.md does not list.
 
 Teams choose a robot by its sheet: a sensor that it does not list is one that nobody uses, or one
-that the real robot does not carry. Gas detector and barometer are on every robot and need no entry.
+that the real robot does not carry. Gas detector and barometer are on every robot and need no entry;
+a magnetometer is part of most IMUs, and is information.
 
 Fix: list the sensor in the section "Sensors" with its device and what models it, or remove it from
 the model.
@@ -9,7 +10,6 @@ Source: SubT maintainers compare model and sheet sensor by sensor; a review aske
 camera to be listed.
 """
 
-import re
 from collections import defaultdict
 from collections.abc import Iterator
 
@@ -26,9 +26,9 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.markdown import PassageKind
 
 EXEMPT = ("air_pressure",)
+MINOR = ("magnetometer",)
 MOST_PASSAGES = 1000
 NOTED = 8
-_OTHER_SHEET = re.compile(r"\]\(([^()\s#]{1,200}\.md)[)#]", re.IGNORECASE)
 
 
 @rule("DOC004", "sensor-not-listed", Severity.WARNING)
@@ -38,15 +38,19 @@ def check(
     specification: Specification,
     *,
     exempt: tuple[str, ...] = EXEMPT,
+    minor: tuple[str, ...] = MINOR,
 ) -> Findings:
-    """Compare the model's types of sensors with what the section names for this configuration."""
+    """Compare the model's types of sensors with what the section names for this configuration.
+
+    Types of `exempt` need no entry; of those of `minor` one is wanted, and its lack no fault.
+    """
     section = specification.section("sensors")
     if section is None or specification.says_nothing(section) or not specification.sensors:
         return
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
-    if elsewhere := _OTHER_SHEET.search(specification.stretch_of(section).text):
-        yield unchecked(f"the sheet leaves sensors to {elsewhere.group(1)}")
+    if specification.other_sensors:
+        yield unchecked(f"the sheet leaves sensors to {specification.other_sensors}")
         return
     texts = list(_texts(section, configuration_number(package.name)))
     listed = _types_in(texts)
@@ -62,6 +66,7 @@ def check(
             yield finding(
                 section,
                 f"the model has {len(sensors)} × {name}, and no {name} is listed",
+                severity=Severity.INFO if sensors[0].type.value in minor else None,
                 related=[(each, f"sensor {each.name.value!r}") for each in sensors[:NOTED]],
             )
 
@@ -121,6 +126,7 @@ GOOD = [
 ]
 BAD = [
     _example(_THERMAL, "* IMU: Microstrain GX5\n", _MARK),
+    _example('<sensor name="m" type="magnetometer"/>', "* IMU: Microstrain GX5\n", _MARK),
     _example(_THERMAL, "* IMU\n* Sensor configurations 3 and 4 carry a thermal camera\n", _MARK),
     _example(
         '<sensor name="c" type="camera"/>' + _THERMAL, "* thermal camera, IMU\n* IMU\n", _MARK

@@ -61,11 +61,19 @@ def check(
         tags = _tags(reference)
         where = f"{path}, {_written(reference)}"
         if not text:
-            yield finding(reference, f"{where}: the file has {_length(source)} lines")
+            yield finding(
+                reference, f"the sheet names {where}; the file has {_length(source)} lines"
+            )
         elif tags and not any(tag in text for tag in tags):
-            yield finding(reference, f"{where}: expected {_expected(reference)} there")
+            yield finding(
+                reference,
+                f"the sheet places {_expected(reference)} in {where}, and none stands there",
+            )
         elif wrong := _other_number(_claimed(specification, reference), text, tolerance):
-            yield finding(reference, f"{where}: expected {wrong} there, as the sheet says")
+            yield finding(
+                reference,
+                f"the sheet places a limit of {wrong} in {where}, and other numbers stand there",
+            )
 
 
 def _path(package: Package, sheet: Specification, written: str) -> str | None:

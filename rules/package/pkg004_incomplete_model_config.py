@@ -10,7 +10,7 @@ Source: Gazebo, "Model structure and requirements"; Model Migration Guide, step 
 
 import posixpath
 from collections.abc import Iterator
-from xml.sax.saxutils import escape
+from html import escape
 
 from checker.finding import Fix
 from checker.model.paperwork import ModelConfig
@@ -77,7 +77,7 @@ def _named(package: Package, version: str) -> Fix | None:
     document, model = package.xml("model.config"), own_model(package)
     if model is None or not version or not isinstance(document, XmlDocument):
         return None
-    line = f'<sdf version="{version}">{escape(model)}</sdf>'
+    line = f'<sdf version="{version}">{escape(model, quote=False)}</sdf>'
     return Fix(Safety.UNSAFE, (append_to(document.root, [line]),))
 
 

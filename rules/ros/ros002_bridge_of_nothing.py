@@ -2,7 +2,7 @@
 
 Gazebo names a sensor's topic by world, model, link and sensor. A bridge that names the wrong link
 listens to silence: the ROS topic is there and never carries a message. A bridge that a condition
-switches off is only a leftover of another robot's launch file.
+switches off is only a leftover of another robot's launch file, and information.
 
 Fix: name the link that carries the sensor and the sensor as the model spells them, and a topic
 that its type publishes.
@@ -38,8 +38,8 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         if bridge.node.assumed_from:
             continue
         if fault := _fault(robot, bridge, names):
-            said = _message(bridge, "is switched off and would listen", fault)
-            yield finding(bridge, said, severity=Severity.WARNING, key=f"off {bridge.ign_topic}")
+            said = _message(bridge, "is switched off, and when on listens", fault)
+            yield finding(bridge, said, severity=Severity.INFO, key="switched off")
 
 
 def _message(bridge: Bridge, listens: str, fault: str) -> str:

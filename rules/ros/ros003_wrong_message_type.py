@@ -40,7 +40,7 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
                 yield finding(bridge, f"{_named(bridge)} {fault}")
         fault = _one_row_of_many(here)
         if fault and f"{topic}/points" not in bridged:
-            yield finding(bridges[0], f"{_named(bridges[0])} {fault}")
+            yield finding(bridges[0], f"{_named(bridges[0])} {fault}", key="one row of many")
 
 
 def _ends(robot: Robot) -> dict[str, list[Channel]]:

@@ -43,7 +43,7 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         yield finding(
             bridge,
             f"no optical_frame_publisher takes the {'depth' if depth else 'colour'} picture of "
-            f"{channel.owner_name}",
+            f"{channel.owner_name}: expected one node for each picture",
             severity=Severity.WARNING if depth else None,
             key=channel.what,
         )

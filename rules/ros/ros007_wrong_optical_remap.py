@@ -110,7 +110,7 @@ def _copies(frames: Sequence[OpticalFrame]) -> Findings:
                 yield finding(
                     frame.node,
                     f"{_shown(frame.node.full_name)} {does} {_shown(topic)}, as "
-                    f"{_shown(earlier.node.full_name)} does",
+                    f"{_shown(earlier.node.full_name)} does: expected one of them",
                     related=[(earlier.node, "the first of them")],
                 )
                 break

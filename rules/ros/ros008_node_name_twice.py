@@ -13,6 +13,7 @@ from collections import defaultdict
 from checker.model.launch.graph import LaunchGraph, Node
 from checker.model.launch.substitution import is_known
 from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.spawner.reader import SAMPLE_NAME
 
 _SHOWN = 20
 """Further nodes of the name that are pointed at."""
@@ -29,10 +30,11 @@ def check(launch: LaunchGraph) -> Findings:
             named[node.full_name].append(node)
     for name, (first, *others) in named.items():
         if others:
-            again = "again" if len(others) == 1 else f"{len(others)} times again"
+            shown = name.replace(SAMPLE_NAME, "<name>")
+            count = f"{len(others) + 1} nodes"
             yield finding(
                 others[0],
-                f"the node name {name!r} is used {again}; the first is {_program(first)}",
+                f"{count} have the name {shown}, expected one; the first is {_program(first)}",
                 related=[
                     (first, "the first node of the name"),
                     *((node, "and here") for node in others[1 : _SHOWN + 1]),

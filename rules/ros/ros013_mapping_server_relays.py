@@ -33,7 +33,9 @@ def check(
     for include in includes:
         given = include.arguments.get("name")
         if given is None:
-            yield finding(include, f"{relays} is included without the arg 'name'")
+            yield finding(
+                include, f"{relays} is included without the arg 'name', expected $(arg name)"
+            )
         elif named is not None and is_known(given) and given != named.value:
             yield finding(
                 include,
@@ -50,7 +52,8 @@ def check(
         off = [each for each in launch.dormant_includes if posixpath.basename(each.file) == relays]
         yield finding(
             place,
-            f"nothing includes {relays} of subt_ros",
+            f"nothing includes {relays} of subt_ros: expected it in the group of the robot, "
+            "with its name",
             related=[(each, "switched off") for each in off],
         )
 

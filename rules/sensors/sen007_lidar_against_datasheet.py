@@ -127,7 +127,7 @@ def _known_values(named: SensorDevice, figure: str) -> list[float]:
     of_model = [value for model, value in by_model.items() if model.upper() in words]
     defaults = values.get("seed_defaults", {})
     others = [*values.get(f"{figure}_seen", []), *(defaults[k] for k in (figure,) if k in defaults)]
-    return [float(each) for each in (*(of_model or [values[figure]]), *others)]
+    return sorted({float(each) for each in (*(of_model or [values[figure]]), *others)})
 
 
 def _rate(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Difference]:

@@ -131,6 +131,7 @@ def _view_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap
     if not any(math.isclose(view.value, each, rel_tol=tolerance) for each in accepted):
         expected = " or ".join(dict.fromkeys(f"{each:.4g}" for each in sorted(angles)))
         said = f"a horizontal_fov of {view.value:.4g} rad"
+        said = said if view.stated else f"no <horizontal_fov>, which means {view.value:.4g} rad"
         yield _Gap(view, fields[0], _VIEW, said, f"{expected} rad")
 
 
@@ -188,6 +189,12 @@ BAD = [
     _named(
         _model(480, 640, mark=1),
         links="\n## Diversions from Physical Hardware\n* The B0203 runs at half its resolution.\n",
+    ),
+    _named(
+        _model(720, 1080)
+        .replace("<horizontal_fov>1.658", "<horizondal_fov>1.658")
+        .replace("1.658</horizontal_fov>", "1.658</horizondal_fov>")
+        .replace("<camera>", "<camera>  <!-- ^ SEN010 -->")
     ),
     _rgbd(1280, 720, "  <!-- ^ SEN010 -->"),
 ]

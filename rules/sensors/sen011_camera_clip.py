@@ -55,11 +55,12 @@ def _too_far(sensor: Sensor, camera: Camera, limit: float) -> Iterator[Finding]:
     if far.value <= limit:
         return
     tag = "<depth_camera><clip><far>" if depth else "<clip><far>"
+    shared = depth and far is camera.clip.far
     yield finding(
         far,
         f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} "
         f"{'measures' if depth else 'sees'} up to {far.value:g} m; the SubT standard is "
-        f"{limit:g} m in {tag}",
+        f"{limit:g} m in {tag}{', which is not given' if shared else ''}",
         key=f"{sensor.kind} {far.value:g}",
     )
 

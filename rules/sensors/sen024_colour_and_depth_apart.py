@@ -2,7 +2,8 @@
 
 They stand for one device, such as a RealSense, and are rendered twice: two sensors of Gazebo cost
 twice the time, their pictures are of different moments, and neither gives a coloured point cloud.
-An `rgbd_camera` renders once and gives all three; beside one, a colour camera adds nothing.
+An `rgbd_camera` renders once and gives all three; beside one, a colour camera adds nothing. Where
+their pictures differ in size they may be two devices, and this is information.
 
 Fix: replace both by one sensor of type `rgbd_camera`, and bridge its `image`, `depth_image` and
 `points`.
@@ -37,11 +38,14 @@ def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findi
             continue
         apart = math.dist(colour.pose.translation, depth.pose.translation)
         kind = depth.sensor.kind.replace("_", " ")
+        alike = _have_one_size(colour, depth)
         yield finding(
             colour.sensor,
             f"camera {colour.sensor.name.value!r} is {1000 * apart:.3g} mm from {kind} "
             f"{depth.sensor.name.value!r} and looks the same way; expected one rgbd_camera "
-            "for both",
+            f"for both{'' if alike else ', unless they are two devices'}",
+            severity=None if alike else Severity.INFO,
+            key="one device" if alike else "two devices",
             related=[(depth.sensor, f"the {kind}")],
         )
 
@@ -52,6 +56,15 @@ def _sees_colours(mounted: Mounted) -> bool:
     if sensor.kind is not SensorType.CAMERA:
         return False
     return sensor.camera is None or not sensor.camera.format.value.upper().startswith("L")
+
+
+def _have_one_size(one: Mounted, other: Mounted) -> bool:
+    """Say whether one sensor could give the pictures of both, as far as sizes tell."""
+    first, second = one.sensor.camera, other.sensor.camera
+    if first is None or second is None:
+        return True
+    pairs = ((first.width, second.width), (first.height, second.height))
+    return all(a.value == b.value for a, b in pairs if a.stated and b.stated)
 
 
 def _together(one: Mounted, other: Mounted, distance: float, angle: float) -> bool:

@@ -10,6 +10,7 @@ Classic reads `package://` as `model://`.
 
 import posixpath
 import re
+from collections import defaultdict
 from collections.abc import Iterator
 
 from checker.model.urdf.description import UrdfDescription
@@ -27,6 +28,7 @@ def check(package: Package, description: UrdfDescription) -> Findings:
 
     In a URDF package REF002 looks for the files.
     """
+    missing: dict[str, list[Located[str]]] = defaultdict(list)
     for uri in description.robot.file_uris:
         if uri.value.startswith(_FETCHED):
             continue
@@ -40,23 +42,39 @@ def check(package: Package, description: UrdfDescription) -> Findings:
                 key="no package",
             )
         elif description.for_rviz:
-            yield from _missing(package, uri, *named.groups())
+            name, path = named.groups()
+            folder = _folder(package, name)
+            if folder is None:
+                yield _of_another(uri, name)
+            elif not package.exists(posixpath.normpath(folder + path)):
+                missing[uri.value].append(uri)
+    yield from _missing(missing)
 
 
-def _missing(package: Package, uri: Located[str], name: str, path: str) -> Iterator[Finding]:
+def _folder(package: Package, name: str) -> str | None:
+    """Return what leads from a package to the one that a URI names; None when not at hand."""
     sibling = package.workspace.package(name)
-    own = name.casefold() == package.name.casefold() or sibling is package
-    if not own and sibling is None:
-        yield finding(
-            uri,
-            f"meshes of {name} are not at hand, so RViz needs that package as well",
-            severity=Severity.INFO,
-            key=name,
-        )
-        return
-    place = path if own or sibling is None else f"../{sibling.name}/{path}"
-    if not package.exists(posixpath.normpath(place)):
-        yield finding(uri, f"{uri.value} does not exist", key="missing")
+    if name.casefold() == package.name.casefold() or sibling is package:
+        return ""
+    return None if sibling is None else f"../{sibling.name}/"
+
+
+def _of_another(uri: Located[str], name: str) -> Finding:
+    return finding(
+        uri,
+        f"meshes of {name} are not at hand, so RViz needs that package as well",
+        severity=Severity.INFO,
+        key=name,
+    )
+
+
+def _missing(uris: dict[str, list[Located[str]]]) -> Iterator[Finding]:
+    """Report files that are not there as one fault: a folder that is left out holds them all."""
+    others = len(uris) - 1
+    also = f", nor {'does 1 other mesh' if others == 1 else f'do {others} other meshes'}"
+    for uri, places in uris.items():
+        for place in places:
+            yield finding(place, f"{uri} does not exist{also if others else ''}", key="missing")
 
 
 _DESCRIPTION = "urdf/robot_from_sdf.xacro"

@@ -81,10 +81,13 @@ def _plain(name: str) -> str:
 def _lacking(simulated: _Bodies, shown: _Bodies, description: UrdfDescription) -> Iterator[Finding]:
     lacking = [name for name in simulated.links if name not in shown.links]
     if lacking:
-        words = ", ".join(lacking[:_SHOWN]) + (" …" if len(lacking) > _SHOWN else "")
+        said = f"{len(lacking)} of {len(simulated.links)} links of the model are missing: "
+        if len(lacking) == len(simulated.links) and shown.links:
+            other = next(iter(shown.links))
+            said = f"no link has its name of the model, {other!r} for one; expected "
         yield finding(
             description.document.root,
-            f"{len(lacking)} of {len(simulated.links)} links of the model are missing: {words}",
+            said + ", ".join(lacking[:_SHOWN]) + (" …" if len(lacking) > _SHOWN else ""),
             key="missing",
             related=[(simulated.links[name], f"link {name!r}") for name in lacking[:_SHOWN]],
         )

@@ -106,7 +106,8 @@ def test_shapes_stay_where_they_are_when_their_links_are_lumped(tree: list[Body]
 
 def _place(robot: Robot, link: object, shape: object) -> tuple[float, ...]:
     pose = as_matrix(robot.pose_of_part(link, shape.pose))  # type: ignore[arg-type, attr-defined]
-    return tuple(np.round(pose[:3, 3], 9))
+    # Where first, so that sorting puts a shape beside its twin; then which way it is turned.
+    return (*np.round(pose[:3, 3], 9), *pose[:3, :3].flatten())
 
 
 @settings(max_examples=40)

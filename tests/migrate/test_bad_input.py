@@ -19,7 +19,7 @@ from checker.migrate.destination import staged
 from checker.migrate.migrating import migrate
 from checker.migrate.wishes import NotMigrated, Wishes
 from tests.conftest import SAMPLES
-from tests.migrate.conftest import FOUR, Write, body, urdf
+from tests.migrate.conftest import FOUR, MANIFEST, Write, body, urdf
 
 ROBOT = urdf(body() + FOUR)
 PACKAGE = "acme_rover_sensor_config_1"
@@ -133,6 +133,21 @@ def test_the_destination_holds_something(write: Write, tmp_path: Path) -> None:
     with pytest.raises(NotMigrated, match=r"made is not empty \(it holds notes.txt\)"):
         migrate(write({"urdf/a.urdf": ROBOT}), tmp_path / "made", ACME)
     assert [each.name for each in (tmp_path / "made").iterdir()] == ["notes.txt"]
+
+
+def test_the_destination_lies_inside_the_source(write: Write) -> None:
+    source = write({"urdf/a.urdf": ROBOT})
+    with pytest.raises(NotMigrated, match="lies inside package rover_description"):
+        migrate(source, source / "made", ACME)
+    assert not (source / "made").exists()
+
+
+def test_a_license_of_several_lines_stays_in_its_line(write: Write, tmp_path: Path) -> None:
+    manifest = MANIFEST.replace(">MIT<", ">MIT\n# Injected<")
+    source = write({"package.xml": manifest, "urdf/a.urdf": ROBOT})
+    made = migrate(source, tmp_path / "made", ACME)
+    sheet = (made.folder / "specifications.md").read_text("utf-8")
+    assert "has the licence MIT # Injected." in sheet
 
 
 def test_the_destination_is_a_file(write: Write, tmp_path: Path) -> None:

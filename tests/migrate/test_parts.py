@@ -12,10 +12,15 @@ from lxml import etree
 from checker.convert.conversion import Conversion, Lumped
 from checker.migrate.angles import TOLERANCE, sharpen_angles
 from checker.migrate.base_link import call_base_link
+from checker.migrate.bridges import sensor_bridges
+from checker.migrate.plugins import judge_plugins
 from checker.migrate.safe_names import check_names
 from checker.migrate.sensors import rewrite_sensors
 from checker.migrate.wishes import NotMigrated
+from checker.model.sdf.reader import read_sdf
 from checker.model.transform import Transform
+from tests.convert.trees import converted
+from tests.model.robots import document
 
 
 def posed(angle: str) -> etree._Element:
@@ -87,7 +92,9 @@ def test_where_the_root_is_clear_or_unclear_nothing_is_renamed(text: str) -> Non
     assert etree.tostring(tree).decode() == etree.tostring(etree.fromstring(text)).decode()
 
 
-@pytest.mark.parametrize("name", ["a#{b}", "a$(arg b)", "a/b", "a<b", "", "a\nb", 'a"', "a\\b"])
+@pytest.mark.parametrize(
+    "name", ["a#{b}", "a$(arg b)", "a/b", "a<b", "", "a b", "a\nb", 'a"', "a\\b"]
+)
 def test_names_that_other_files_cannot_hold(name: str) -> None:
     link = etree.Element("link")
     link.set("name", name)
@@ -148,6 +155,35 @@ def test_a_camera_of_two_lenses_becomes_two() -> None:
 def test_names_of_sensors_of_a_link_differ() -> None:
     link, _ = rewritten("<sensor name='a' type='imu'/><sensor name='X1/a' type='imu'/>")
     assert types(link) == [("a", "imu"), ("a_2", "imu")]
+
+
+def test_a_sensor_gets_a_name_that_topics_can_hold() -> None:
+    link, _ = rewritten("<sensor name='#{a} b' type='imu'/><sensor name='' type='imu'/>")
+    assert types(link) == [("__a__b", "imu"), ("sensor", "imu")]
+
+
+@pytest.mark.parametrize("kind", ["thermal", "camera", "rgbd_camera"])
+def test_the_rate_of_every_camera_is_set_below_its_own_name(kind: str) -> None:
+    sensor = f"<sensor name='a' type='{kind}'/>"
+    text = f"<sdf version='1.6'><model name='m'><link name='l'>{sensor}</link></model></sdf>"
+    (robot,) = read_sdf(document(text))
+    (bridged,) = sensor_bridges(robot)
+    prefix = "/world/$(arg world_name)/model/$(arg name)/link/l/sensor/a"
+    assert (bridged.ign_prefix, bool(bridged.rate_topic)) == (prefix, True)
+
+
+@pytest.mark.parametrize(
+    ("plugin", "asks"),
+    [("libLiftDragPlugin.so", True), ("libLightVisualPlugin.so", False)],
+)
+def test_what_a_plugin_did_is_left_to_the_author_where_nothing_takes_its_place(
+    plugin: str, asks: bool
+) -> None:
+    urdf = f"""<robot name="r"><link name="base_link"><inertial><mass value="1"/>
+      <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+      <gazebo><plugin name="p" filename="{plugin}"/></gazebo></robot>"""
+    judged = judge_plugins(converted(urdf), "base_link")
+    assert [plugin in each for each in judged.open_points] == ([True] if asks else [])
 
 
 def test_the_range_of_a_lidar_is_what_its_plugin_leaves() -> None:

@@ -85,3 +85,10 @@ def test_a_section_reaches_to_the_next_of_its_level_or_above():
 def test_a_sheet_that_is_not_read_to_its_end_says_so():
     assert not read("# A\n").unread
     assert "200,000" in read("# A\n" + "word " * 50_000).unread
+
+
+def test_a_sheet_may_leave_sensors_to_another():
+    text = "# R\n### Sensors\nSee [the base](../base/specifications.md#sensors).\n"
+    assert read(text).other_sensors == "../base/specifications.md"
+    assert read(TEXT).other_sensors == ""
+    assert read("# R\n").other_sensors == ""

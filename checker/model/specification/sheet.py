@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -22,6 +23,8 @@ from checker.model.specification.sensors import ListedSensor, listed_sensors
 from checker.model.specification.validation import validation_links
 from checker.source.markdown import MAX_LENGTH, Markdown, Passage, PassageKind, read_markdown
 from checker.source.text import SourceText, Span
+
+_OTHER_SHEET = re.compile(r"\]\(([^()\s#]{1,200}\.md)[)#]", re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +92,13 @@ class Specification:
     def sensors(self) -> tuple[ListedSensor, ...]:
         """What the list of the section "Sensors" names, sensors and payloads."""
         return tuple(listed_sensors(self._passages_of("sensors")))
+
+    @cached_property
+    def other_sensors(self) -> str:
+        """Path of the sheet that the section "Sensors" links to for others; empty without one."""
+        section = self.section("sensors")
+        found = _OTHER_SHEET.search(self.stretch_of(section).text) if section else None
+        return found.group(1) if found else ""
 
     @cached_property
     def masses(self) -> tuple[Quantity, ...]:
