@@ -72,4 +72,4 @@ class Draft:
 
 def written(text: str) -> str:
     """Return a text as it is written in XML, inside of an element or an attribute."""
-    return escape(text, {'"': "&quot;", "'": "&apos;"}, quote=False)
+    return escape(text)
