@@ -1,0 +1,44 @@
+"""The rules are those of the rule book, no more and no fewer."""
+
+from __future__ import annotations
+
+import pytest
+
+from checker.cli import main
+from checker.discovery import all_rules
+
+BOOK = {
+    "PKG": 19,
+    "SDF": 17,
+    "REF": 6,
+    "KIN": 17,
+    "INE": 13,
+    "GEO": 15,
+    "MSH": 10,
+    "SEN": 27,
+    "PLG": 9,
+    "SPW": 13,
+    "DRV": 11,
+    "BAT": 5,
+    "BRD": 3,
+    "ROS": 15,
+    "DOC": 9,
+    "URD": 11,
+    "CTL": 8,
+    "TRI": 18,
+}
+"""The groups of the book, and the number of the last rule of each; none is left out."""
+
+
+def test_every_rule_of_the_book_exists_and_no_other() -> None:
+    book = {f"{group}{number:03}" for group, last in BOOK.items() for number in range(1, last + 1)}
+    ours = {rule.id for rule in all_rules() if rule.check.__module__.startswith("rules.")}
+    assert ours == book
+
+
+def test_they_are_listed_group_by_group(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["rules"]) == 0
+    listed = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
+    groups = list(dict.fromkeys(id.rstrip("0123456789") for id in listed))
+    assert sorted(groups) == sorted(BOOK)
+    assert listed == sorted(listed)
