@@ -146,9 +146,12 @@ def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     if known is not None:
         return replace(known, timings={"recall": perf_counter() - started})
     # Readers, engines and rules are loaded only when there is something to judge.
+    from checker.mesh.early import early_child
+
+    mesh_child = None if settings.select else early_child(package, cache)
     from checker.judging import judged
 
-    report = judged(package, shown, settings, cache, task.say)
+    report = judged(package, shown, settings, cache, task.say, mesh_child)
     remember(cache, key, report)
     return report
 

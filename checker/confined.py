@@ -54,12 +54,13 @@ class Died:
 class Child:
     """A child process that works while its parent does something else."""
 
-    def __init__(self, module: str, request: bytes, limits: Limits) -> None:
+    def __init__(self, module: str, request: bytes | None, limits: Limits) -> None:
         """Start it.
 
         Args:
-            module: Full name of the module whose `answer` does the work.
-            request: What `answer` is given.
+            module: Full name of the module whose `answer` does the work. Its `prepare`, if it has
+                one, is called before the request is there.
+            request: What `answer` is given; None when `give` brings it later.
             limits: What the child may use.
         """
         self.limits = limits
@@ -68,17 +69,26 @@ class Child:
         self._folder = tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True)
         self._answer = Path(self._folder.name) / "answer"
         request_file = Path(self._folder.name) / "request"
-        request_file.write_bytes(request)
+        request_file.write_bytes(request or b"")
         # Files, not pipes: neither side waits for the other to read.
         with request_file.open("rb") as given, self._answer.open("wb") as taken:
             self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
                 [*_COMMAND, module, str(int(limits.seconds)), str(limits.memory)],
-                stdin=given,
+                stdin=subprocess.PIPE if request is None else given,
                 stdout=taken,
                 stderr=subprocess.DEVNULL,
                 cwd=self._folder.name,
                 env=_environment(),
             )
+
+    def give(self, request: bytes) -> None:
+        """Bring the request to a child that was started without one; its time begins now."""
+        self.deadline = monotonic() + self.limits.clock_seconds
+        # One that has died says why when it is asked for its answer.
+        with suppress(OSError):
+            if self._process.stdin is not None:
+                self._process.stdin.write(request)
+                self._process.stdin.close()
 
     def answer(self) -> bytes | Died:
         """Wait for the answer."""
@@ -101,6 +111,9 @@ class Child:
         """End the child, whatever it does; nothing happens if it has ended."""
         self._process.kill()
         self._process.wait()
+        if self._process.stdin is not None:
+            with suppress(OSError):
+                self._process.stdin.close()
         self._folder.cleanup()
 
 
@@ -164,7 +177,10 @@ def _work(module: str, seconds: int, memory: int) -> int:
     answer_to = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     try:
-        answer = import_module(module).answer(sys.stdin.buffer.read())
+        work = import_module(module)
+        if hasattr(work, "prepare"):
+            work.prepare()
+        answer = work.answer(sys.stdin.buffer.read())
         answer_to.write(answer)
         answer_to.close()
     except MemoryError:

@@ -7,6 +7,7 @@ from typing import Any
 
 from checker.cache import Cache
 from checker.collection import collection_put_off
+from checker.confined import Child
 from checker.discovery import all_rules
 from checker.engine import crashed, needed_parts, run_rules
 from checker.facts import facts_of
@@ -30,7 +31,12 @@ from checker.trial.robot_trial import RobotTrial
 
 
 def judged(
-    package: Package, shown: str, settings: Settings, cache: Cache, say: Say
+    package: Package,
+    shown: str,
+    settings: Settings,
+    cache: Cache,
+    say: Say,
+    mesh_child: Child | None = None,
 ) -> PackageReport:
     """Return the report of a package; what goes wrong with it is in it, and nothing is raised.
 
@@ -40,13 +46,14 @@ def judged(
         settings: By which rules, and how strictly.
         cache: Where results that take long are kept.
         say: Told what takes long when it begins.
+        mesh_child: A child that waits for the meshes to read; it is stopped in the end.
 
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.
     """
     settings = settings.suiting(urdf=package.is_urdf)
     stages = Stages(lambda words: say(f"{package.name}: {words}"))
-    subject = Subject(package, cache, stages, known_devices(settings.devices))
+    subject = Subject(package, cache, stages, known_devices(settings.devices), mesh_child)
     try:
         if not settings.select:
             # Whatever the rules are, some ask for the meshes: these are read while those load.

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from checker.cache import NO_CACHE, Cache
 from checker.collection import collection_put_off
+from checker.confined import Child
 from checker.controlling.entries import LaunchEntries, launch_entries
 from checker.controlling.system import control_system
 from checker.describing import Describing
@@ -65,12 +66,14 @@ class Subject:
         cache: Where results that take long are kept.
         stages: Told of what takes long.
         devices: Sensor devices of which figures are known.
+        mesh_child: A child that waits for the meshes to read.
     """
 
     package: Package
     cache: Cache = NO_CACHE
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
+    mesh_child: Child | None = None
     _provided: dict[type, Sequence[object]] = field(default_factory=dict, repr=False)
 
     def part(self, kind: type) -> Sequence[object] | NotAtHand:
@@ -113,6 +116,8 @@ class Subject:
 
     def close(self) -> None:
         """End what was begun and nobody asked for."""
+        if self.mesh_child is not None:
+            self.mesh_child.stop()
         robots = self.__dict__.get("robots")
         for robot in robots if isinstance(robots, tuple) else ():
             if isinstance(robot.meshes, TimedMeshes):
@@ -196,11 +201,16 @@ class Subject:
         robots = self._read_robots()
         if isinstance(robots, NotAtHand):
             return robots
-        return tuple(replace(robot, meshes=self._meshes(robot)) for robot in robots)
+        waiting = (self.mesh_child, *(None for _ in robots))
+        return tuple(
+            replace(robot, meshes=self._meshes(robot, child))
+            for robot, child in zip(robots, waiting, strict=False)
+        )
 
-    def _meshes(self, robot: Robot) -> TimedMeshes:
+    def _meshes(self, robot: Robot, waiting: Child | None) -> TimedMeshes:
         uris = mesh_uris(robot)
-        return TimedMeshes(PackageMeshes(self.package, uris, self.cache), len(uris), self.stages)
+        meshes = PackageMeshes(self.package, uris, self.cache, waiting)
+        return TimedMeshes(meshes, len(uris), self.stages)
 
     def _read_robots(self) -> tuple[Robot, ...] | NotAtHand:
         """Return the robot with the plugins that the spawner adds; of a lone file all robots."""

@@ -9,8 +9,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 
-from checker.cache import NO_CACHE, Cache, code_hash, key_of
+from checker.cache import NO_CACHE, Cache
 from checker.confined import Child, Died, Limits
+from checker.mesh.key import KIND, mesh_key
 from checker.mesh.limits import MEMORY, SECONDS_FOR_ALL, SECONDS_FOR_ONE, SIZE_LIMIT
 from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
 from checker.mesh.materials import textures_in
@@ -21,10 +22,7 @@ from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.package.reading import NotReadable, read_bytes
 from checker.source.text import Located
-from checker.versions import version_of
 
-_KIND = "mesh"
-_LIBRARIES = ("lxml", "numpy", "pycollada", "scipy", "trimesh")
 _MATERIAL_FILES = 20
 """Of one mesh; they are read anew in each check."""
 _UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is no mesh of this robot")
@@ -59,11 +57,13 @@ class PackageMeshes:
         package: Where they are looked for.
         uris: All that the robot names.
         cache: Where results are kept.
+        waiting: A child that was started before it was known what to read.
     """
 
     package: Package = field(repr=False)
     uris: tuple[Located[str], ...]
     cache: Cache = NO_CACHE
+    waiting: Child | None = None
 
     def of(self, uri: Located[str]) -> Mesh | MeshFault:
         """Return what the file behind a URI holds; the first call reads all files."""
@@ -119,7 +119,7 @@ class PackageMeshes:
                     unread[key] = file
                 else:
                     known[key] = found
-        child = _started([*unread.values()]) if unread else None
+        child = _started([*unread.values()], self.waiting) if unread else None
         return _Reading(places, keys, known, [*unread], child)
 
     def _now(self, reading: _Reading) -> dict[str, _Read]:
@@ -130,7 +130,7 @@ class PackageMeshes:
         for key, found in read.items():
             # Another day, or another machine, may have the time or the memory.
             if isinstance(found, Mesh) or found.trouble is not MeshTrouble.NOT_LOOKED_AT:
-                self.cache.put(_KIND, key, to_json(found))
+                self.cache.put(KIND, key, to_json(found))
         return read
 
     def _placed(self, read: _Read, file: MeshFile) -> _Read:
@@ -162,22 +162,23 @@ def _key(file: MeshFile) -> str | MeshFault:
     data = read_bytes(file.location, file.path, SIZE_LIMIT)
     if isinstance(data, NotReadable):
         return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
-    suffix = posixpath.splitext(file.path)[1].lower()
-    libraries = map(version_of, _LIBRARIES)
-    return key_of(suffix, data, code_hash("mesh", "model/mesh.py"), *libraries)
+    return mesh_key(data, posixpath.splitext(file.path)[1])
 
 
 def _known(cache: Cache, key: str) -> _Read | None:
     try:
-        return from_json(cache.get(_KIND, key))
+        return from_json(cache.get(KIND, key))
     except ValueError:
         return None
 
 
-def _started(files: list[MeshFile]) -> Child:
-    """Start the child process that reads files."""
+def _started(files: list[MeshFile], waiting: Child | None) -> Child:
+    """Have a child process read files: the one that waits for them, else a new one."""
     named = [(str(file.location), posixpath.basename(file.path)) for file in files]
     request = json.dumps({"files": named, "seconds": SECONDS_FOR_ONE}).encode()
+    if waiting is not None:
+        waiting.give(request)
+        return waiting
     return Child("checker.mesh.worker", request, Limits(SECONDS_FOR_ALL, MEMORY))
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from importlib import import_module
 
 from checker.mesh.dae import read_dae
 from checker.mesh.measure import measure
@@ -14,7 +15,18 @@ from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 _Reader = Callable[[bytes], Surface]
 _READERS: dict[str, _Reader] = {"dae": read_dae, "stl": read_stl, "obj": read_obj}
 
+_LIBRARIES = {"dae": "collada", "obj": "trimesh"}
+"""What reads a format, by the suffix of its files."""
+
 _POINTER = b"version https://git-lfs"
+
+
+def load_libraries(names: Iterable[str]) -> None:
+    """Import once what reads files of these names, before a process forks for each of them."""
+    suffixes = {name.rpartition(".")[2].lower() for name in names}
+    for suffix, library in _LIBRARIES.items():
+        if suffix in suffixes:
+            import_module(library)
 
 
 def read_mesh(data: bytes, path: str) -> Mesh | MeshFault:

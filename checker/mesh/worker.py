@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
@@ -11,10 +10,15 @@ from typing import Any
 
 from checker.mesh.apart import Ended, apart
 from checker.mesh.limits import SECONDS_FOR_ALL, SIZE_LIMIT
-from checker.mesh.reader import read_mesh
+from checker.mesh.reader import load_libraries, read_mesh
 from checker.mesh.wire import to_json
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.package.reading import NotReadable, read_bytes
+
+
+def prepare() -> None:
+    """Import what every file needs, before it is known which files there are."""
+    import_module("scipy.spatial")
 
 
 def answer(request: bytes) -> bytes:
@@ -28,22 +32,10 @@ def answer(request: bytes) -> bytes:
         JSON: what each file holds, in the same order.
     """
     asked = json.loads(request)
-    _load_libraries({name.rpartition(".")[2].lower() for _, name in asked["files"]})
+    load_libraries(name for _, name in asked["files"])
     seconds, until = asked["seconds"], monotonic() + SECONDS_FOR_ALL
     read = [_read_apart(Path(at), name, seconds, until) for at, name in asked["files"]]
     return json.dumps(read).encode()
-
-
-def _load_libraries(suffixes: Collection[str]) -> None:
-    """Import once what every fork needs."""
-    import_module("scipy.spatial")
-    for suffix, library in _LIBRARIES.items():
-        if suffix in suffixes:
-            import_module(library)
-
-
-_LIBRARIES = {"dae": "collada", "obj": "trimesh"}
-"""What reads a format, by the suffix of its files."""
 
 
 def _read_apart(location: Path, name: str, seconds: int, until: float) -> Any:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from checker.mesh.apart import Ended, apart
 from checker.mesh.limits import SIZE_LIMIT
-from checker.mesh.reader import read_surface
+from checker.mesh.reader import load_libraries, read_surface
 from checker.mesh.surface import NoSurface
 from checker.package.reading import NotReadable, read_bytes
 from checker.view.grid import Grid, grid_from_json
@@ -61,6 +61,7 @@ def look(asked: dict[str, Any]) -> dict[str, Any]:
     found = list(_solids(asked["solids"], poses, grids))
     unread: list[tuple[int, str]] = []
     until = monotonic() + SECONDS_FOR_ALL
+    load_libraries(mesh["name"] for mesh in asked["meshes"])
     for number, mesh in enumerate(asked["meshes"]):
         read = _mesh_apart(mesh, poses, grids, until)
         if isinstance(read, str):

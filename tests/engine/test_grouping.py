@@ -34,7 +34,7 @@ def test_findings_of_different_severity_stay_apart() -> None:
 
 
 def test_the_fixes_of_a_group_are_one_as_safe_as_the_least_safe() -> None:
-    edits = [Edit(at(line), "1") for line in (1, 2)]
+    edits = [Edit(at(line), "1", "0") for line in (1, 2)]
     fixes = [Fix(Safety.SAFE, (edits[0],)), None, Fix(Safety.UNSAFE, (edits[1],))]
     rule = rule_saying(*(finding(at(n), "x", fix=fix) for n, fix in enumerate(fixes, 1)))
     (found,) = run(rule).findings

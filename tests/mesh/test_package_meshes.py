@@ -12,6 +12,7 @@ import pytest
 from checker.cache import NO_CACHE, Cache
 from checker.confined import Child, Died
 from checker.mesh import package_meshes
+from checker.mesh.early import early_child
 from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
@@ -94,7 +95,9 @@ def test_one_content_under_two_names_is_read_once(
     asked: list[int] = []
     start = package_meshes._started
     monkeypatch.setattr(
-        package_meshes, "_started", lambda files: asked.append(len(files)) or start(files)
+        package_meshes,
+        "_started",
+        lambda files, waiting: asked.append(len(files)) or start(files, waiting),
     )
     one, other = read({"meshes/a.stl": CUBE, "meshes/b.stl": CUBE}, tmp_path)
     assert asked == [1]
@@ -222,9 +225,34 @@ def test_no_proper_answer(
 
 def test_a_reading_that_was_begun_can_be_ended(tmp_path: Path) -> None:
     (tmp_path / "a.stl").write_bytes(CUBE)
-    started = package_meshes._started([MeshFile("a.stl", tmp_path / "a.stl")])
+    started = package_meshes._started([MeshFile("a.stl", tmp_path / "a.stl")], None)
     started.stop()
     assert isinstance(package_meshes._answered(started, 1)[0], MeshFault)
+
+
+def test_a_child_that_waits_reads_what_it_is_given(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cache = Cache(tmp_path / "cache")
+    changes = {"@fragment": f'<link name="a">{fragment("meshes/a.stl")}</link>'}
+    with open_input(write_example({**changes, "meshes/a.stl": CUBE}, tmp_path)) as opened:
+        child = early_child(opened.packages[0], cache)
+        assert child is not None
+        monkeypatch.setattr(package_meshes, "Child", None)  # no other is started
+        robots = Subject(opened.packages[0], cache, mesh_child=child).robots
+        assert isinstance(robots, tuple)
+        (use,) = robots[0].mesh_uses
+        assert isinstance(use.file, Mesh)
+        assert early_child(opened.packages[0], cache) is None
+
+
+def test_a_child_that_waits_in_vain_is_ended(tmp_path: Path) -> None:
+    package = write_example({"meshes/a.stl": CUBE}, tmp_path)
+    with open_input(package) as opened:
+        child = early_child(opened.packages[0], Cache(tmp_path / "cache"))
+        assert child is not None
+        Subject(opened.packages[0], mesh_child=child).close()
+    assert isinstance(child.answer(), Died)
 
 
 def test_a_file_that_is_too_large_is_not_read(
