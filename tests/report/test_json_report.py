@@ -67,7 +67,7 @@ def test_the_verdict() -> None:
 @given(st.text(st.characters(exclude_categories=())), st.sampled_from(PackageKind))
 def test_any_text_makes_a_valid_report_that_is_safe_to_print(text: str, kind: PackageKind) -> None:
     place = Place(text, element=text, note=text, snippet=text)
-    fix = Fix(Safety.SAFE, (Edit(place, text),))
+    fix = Fix(Safety.SAFE, (Edit(place, text, text),))
     finding = ReportedFinding(
         "SEN005", text, Severity.INFO, f"x{text}", "0" * 16, (place,), fix, text, text
     )
