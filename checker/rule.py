@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Protocol, get_type_hints
 
 from checker.finding import Fix, Place, Safety, Severity
@@ -149,7 +150,7 @@ class Rule:
         """The letters of the id."""
         return self.id.rstrip("0123456789")
 
-    @property
+    @cached_property
     def needs(self) -> dict[str, type]:
         """Parts of the package that the function asks for, by parameter name."""
         hints = get_type_hints(self.check)
@@ -159,7 +160,7 @@ class Rule:
             if parameter.kind is not inspect.Parameter.KEYWORD_ONLY
         }
 
-    @property
+    @cached_property
     def options(self) -> dict[str, Any]:
         """Options with their defaults: the function's keyword-only parameters."""
         return {

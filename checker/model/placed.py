@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from checker.model.boxes import Box, box_around
+from checker.model.boxes import Box
 from checker.model.components import Collision, Link, Visual
 from checker.model.transform import Transform, Vector
 
@@ -42,7 +42,7 @@ def placed(robot: Robot, link: Link, shapes: Iterable[Collision | Visual]) -> It
     """
     for shape in shapes:
         pose = robot.pose_of_part(link, shape.pose)
-        box = None if pose is None else box_around([(shape.geometry, pose)], robot.meshes)
+        box = robot.box_of_shape(link, shape)
         if pose is not None and box is not None:
             yield Placed(link, shape, pose, box)
 

@@ -213,6 +213,28 @@ class Robot(Part):
         Meshes count by their convex hull. None for a link without shapes, and where a mesh or a
         place is unknown.
         """
+        if (link, visuals_too) not in self._boxes:
+            self._boxes[link, visuals_too] = self._box_around(link, visuals_too)
+        return self._boxes[link, visuals_too]
+
+    def box_of_shape(self, link: Link, shape: Collision | Visual) -> Box | None:
+        """Return the box around one shape of a link, in the robot's frame; None if unknown."""
+        if shape not in self._shape_boxes:
+            pose = self.pose_of_part(link, shape.pose)
+            placed = [] if pose is None else [(shape.geometry, pose)]
+            self._shape_boxes[shape] = box_around(placed, self.meshes)
+        return self._shape_boxes[shape]
+
+    @cached_property
+    def _boxes(self) -> dict[tuple[Link, bool], Box | None]:
+        """Boxes that were asked for: many rules ask for the same."""
+        return {}
+
+    @cached_property
+    def _shape_boxes(self) -> dict[Collision | Visual, Box | None]:
+        return {}
+
+    def _box_around(self, link: Link, visuals_too: bool) -> Box | None:
         placed = []
         shapes: tuple[Collision | Visual, ...] = link.collisions
         if visuals_too:
