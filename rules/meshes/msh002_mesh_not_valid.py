@@ -1,7 +1,7 @@
 """A mesh file that breaks the rules of its format, though Gazebo copes with it.
 
-Other tools do not: a COLLADA file with `id="<STL_BINARY>"` is no XML, and Blender, MuJoCo's and
-most other loaders refuse it.
+Blender, MuJoCo and most other loaders refuse it: a COLLADA file with `id="<STL_BINARY>"`, say, is
+no XML at all.
 
 Fix: export the mesh again; in a COLLADA file replace `<` in ids by a letter.
 Source: the formats' specifications. Several accepted packages carry three such files of a lidar.
