@@ -5,12 +5,14 @@ from __future__ import annotations
 import enum
 import itertools
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from checker.model.components import Collision, Visual
-from checker.model.shapes import Geometry
-from checker.model.transform import Vector
-from checker.source.text import Located
+# Readers of mesh files, which run in children, load this module and no robot.
+if TYPE_CHECKING:
+    from checker.model.components import Collision, Visual
+    from checker.model.shapes import Geometry
+    from checker.model.transform import Vector
+    from checker.source.text import Located
 
 
 class MeshTrouble(enum.StrEnum):
@@ -140,7 +142,7 @@ class MeshUse:
     @property
     def is_collision(self) -> bool:
         """Whether it touches things; else it is only seen."""
-        return isinstance(self.shape, Collision)
+        return self.shape.element.tag == "collision"
 
     @property
     def mesh(self) -> Mesh | None:
