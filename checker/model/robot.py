@@ -28,6 +28,7 @@ from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.locomotion import Locomotion
 from checker.model.locomotion_reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
+from checker.model.placed import union
 from checker.model.sdf.version import sdf_version
 from checker.model.shapes import Geometry
 from checker.model.support import support
@@ -213,9 +214,12 @@ class Robot(Part):
         Meshes count by their convex hull. None for a link without shapes, and where a mesh or a
         place is unknown.
         """
-        if (link, visuals_too) not in self._boxes:
-            self._boxes[link, visuals_too] = self._box_around(link, visuals_too)
-        return self._boxes[link, visuals_too]
+        shapes: tuple[Collision | Visual, ...] = link.collisions
+        if visuals_too:
+            shapes = (*shapes, *link.visuals)
+        boxes = [self.box_of_shape(link, shape) for shape in shapes]
+        known = [box for box in boxes if box is not None]
+        return union(known) if len(known) == len(boxes) else None
 
     def box_of_shape(self, link: Link, shape: Collision | Visual) -> Box | None:
         """Return the box around one shape of a link, in the robot's frame; None if unknown."""
@@ -226,25 +230,9 @@ class Robot(Part):
         return self._shape_boxes[shape]
 
     @cached_property
-    def _boxes(self) -> dict[tuple[Link, bool], Box | None]:
+    def _shape_boxes(self) -> dict[Collision | Visual, Box | None]:
         """Boxes that were asked for: many rules ask for the same."""
         return {}
-
-    @cached_property
-    def _shape_boxes(self) -> dict[Collision | Visual, Box | None]:
-        return {}
-
-    def _box_around(self, link: Link, visuals_too: bool) -> Box | None:
-        placed = []
-        shapes: tuple[Collision | Visual, ...] = link.collisions
-        if visuals_too:
-            shapes = (*shapes, *link.visuals)
-        for shape in shapes:
-            pose = self.pose_of_part(link, shape.pose)
-            if pose is None:
-                return None
-            placed.append((shape.geometry, pose))
-        return box_around(placed, self.meshes)
 
     def own_box_of(self, link: Link) -> Box | None:
         """Return the box around a link's shapes in the link's frame: alike links have like boxes.

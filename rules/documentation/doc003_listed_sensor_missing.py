@@ -8,7 +8,6 @@ device's name does not tell what it is.
 Source: SubT maintainers compare sheet and model sensor by sensor in their reviews.
 """
 
-import re
 from collections import defaultdict
 from collections.abc import Sequence
 
@@ -17,6 +16,7 @@ from checker.model.specification.sensor_kinds import SensorKind
 from checker.model.specification.sensor_types import SUBSTITUTES, TYPES
 from checker.model.specification.sensors import ListedSensor
 from checker.model.specification.sheet import Specification
+from checker.package.configuration import configuration_number
 from checker.package.package import Package
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
@@ -27,7 +27,7 @@ def check(package: Package, robot: Robot, specification: Specification) -> Findi
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
-    number = _configuration_number(package.name)
+    number = configuration_number(package)
     listed = [
         each
         for each in specification.sensors
@@ -54,11 +54,6 @@ def check(package: Package, robot: Robot, specification: Specification) -> Findi
                 severity=Severity.WARNING,
                 related=[(item, "listed here too") for item in items[1:]],
             )
-
-
-def _configuration_number(name: str) -> int:
-    match = re.search(r"_(\d{1,4})$", name)
-    return int(match.group(1)) if match else 1
 
 
 def _total(items: Sequence[ListedSensor]) -> int | None:
