@@ -44,6 +44,7 @@ class Settings:
         thorough: Whether they are driven again at half the time step.
         cache: Whether results are kept on disk, and taken from there.
         devices: Sensor devices of the user's, each in the form of `devices.json`.
+        display: Whether the report shall hold the robot in 3D.
     """
 
     profile: str = "subt"
@@ -58,6 +59,7 @@ class Settings:
     thorough: bool = False
     cache: bool = True
     devices: tuple[Mapping[str, Any], ...] = ()
+    display: bool = False
 
     def selects(self, rule: Rule) -> bool:
         """Whether the user wants this rule to run."""

@@ -87,6 +87,62 @@ class InheritedPart:
     at_hand: bool
 
 
+class SuppressedBy(enum.StrEnum):
+    """What said that a finding does not count: a comment, a settings file, or the baseline."""
+
+    COMMENT = "comment"
+    SETTINGS = "settings"
+    BASELINE = "baseline"
+
+
+@dataclass(frozen=True)
+class Suppressed:
+    """A finding that the user has seen and set aside.
+
+    Attributes:
+        finding: As it would have been reported.
+        reason: In the user's words; for the baseline, in ours.
+        place: Of the comment; None for what stands elsewhere.
+    """
+
+    finding: ReportedFinding
+    by: SuppressedBy
+    reason: str
+    place: Place | None = None
+
+
+@dataclass(frozen=True)
+class Picture:
+    """The robot at one moment.
+
+    Attributes:
+        caption: What it shows, a sentence without its dot.
+        jpeg: The file.
+        width: Pixels.
+        height: Pixels.
+    """
+
+    caption: str
+    jpeg: bytes = field(repr=False)
+    width: int
+    height: int
+
+
+@dataclass(frozen=True)
+class Display:
+    """The robot in 3D, for those who look.
+
+    Attributes:
+        glb: A binary glTF file: the robot in layers, its trial as an animation.
+        pictures: The same for those without a 3D viewer; none where nothing can draw them.
+        notes: What is not shown, or coarser than it is, as sentences.
+    """
+
+    glb: bytes = field(repr=False)
+    pictures: tuple[Picture, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True)
 class PackageReport:
     """All that was found out about one package.
@@ -100,6 +156,8 @@ class PackageReport:
         facts: Mass, links, joints, … by name.
         trial: What was driven and measured, as the JSON report has it; None without a trial.
         timings: Seconds by stage.
+        suppressed: What was found and does not count.
+        display: None where nobody asked to see the robot, or where there is nothing to see.
     """
 
     name: str
@@ -114,6 +172,8 @@ class PackageReport:
     fail_on: Severity = Severity.ERROR
     settings: str = ""
     trial: Mapping[str, Any] | None = None
+    suppressed: tuple[Suppressed, ...] = ()
+    display: Display | None = None
 
     @property
     def verdict(self) -> VerdictKind:

@@ -60,6 +60,22 @@ class Measurement:
 
 
 @dataclass(frozen=True)
+class Replay:
+    """How the robot moved, to be looked at.
+
+    Attributes:
+        time: Of each sample, seconds.
+        poses: By the scoped name of each link that moves by itself: position x, y, z (metres) and
+            quaternion w, x, y, z of the link's frame in the world, flat, seven numbers a sample.
+        carriers: Scoped name of the link in `poses` that carries it, for each other link.
+    """
+
+    time: tuple[float, ...]
+    poses: Mapping[str, tuple[float, ...]]
+    carriers: Mapping[str, str]
+
+
+@dataclass(frozen=True)
 class Trial:
     """The outcome of a trial.
 
