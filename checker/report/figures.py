@@ -1,0 +1,87 @@
+"""The figures of a trial as rows of a table: one for each name, of whatever parts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from checker.finding import Severity
+
+HEADLINES = (
+    *("settle_drop", "settle_tilt", "rest_penetration"),
+    *("speed_ratio", "path_sideways", "path_heading", "stop_speed"),
+    *("yaw_of_predicted", "turn_drift", "full_speed"),
+    *("load_share", "torque"),
+    *("thrust_to_weight", "hover_effort", "climbed"),
+    *("hold_sag", "hold_tilt"),
+)
+"""Figures that are shown when all is well; others only when a rule objects."""
+
+_SEVERITIES = tuple(map(str, Severity))
+_GRAVITY = (*_SEVERITIES, "ok", "not judged")
+
+
+@dataclass(frozen=True)
+class Row:
+    """The figures of one name.
+
+    Attributes:
+        label: What was measured.
+        value: With its unit; least to greatest of several parts.
+        verdict: The gravest.
+        limits: Of the rule that judges them, in words.
+        rule: Its id; empty for figures that only inform.
+        parts: How many parts it was measured for.
+        matters: Whether it is shown when there is little room.
+    """
+
+    label: str
+    value: str
+    verdict: str
+    limits: str
+    rule: str
+    parts: int
+    matters: bool
+
+    @property
+    def is_fault(self) -> bool:
+        """Whether a rule objects."""
+        return self.verdict in _SEVERITIES
+
+
+def rows_of(measurements: Sequence[Mapping[str, Any]]) -> list[Row]:
+    """Return the rows of a trial, in its order; `PackageReport.trial` holds the figures."""
+    by_name: dict[str, list[Mapping[str, Any]]] = {}
+    for each in measurements:
+        by_name.setdefault(each["name"], []).append(each)
+    return [_row(name, figures) for name, figures in by_name.items()]
+
+
+def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
+    first = figures[0]
+    values = [each["value"] for each in figures]
+    ends = dict.fromkeys(_number(value, first["unit"]) for value in (min(values), max(values)))
+    unit = {"rad": "°", "rad or m": ""}.get(first["unit"], first["unit"])
+    joint = "" if unit in ("", "°") else " "
+    verdict = str(min((each["verdict"] for each in figures), key=_GRAVITY.index))
+    return Row(
+        label=first["label"],
+        value=f"{'…'.join(ends)}{joint}{unit}",
+        verdict=verdict,
+        limits=", ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in _limits(first)),
+        rule=first["rule"],
+        parts=len(figures),
+        matters=name in HEADLINES or verdict in _SEVERITIES,
+    )
+
+
+def _limits(figure: Mapping[str, Any]) -> list[tuple[str, float]]:
+    return list(figure["limits"].items())
+
+
+def _number(value: float, unit: str) -> str:
+    """Write a figure with three digits and four places, angles in degrees."""
+    shown = math.degrees(value) if unit == "rad" else value
+    return f"{round(shown, 4) + 0.0:.3g}"
