@@ -55,7 +55,7 @@ def parse_page(docstring: str) -> Page:
 
 def _cut(block: str, label: str) -> tuple[str, bool, str]:
     """Split a block at the line that begins with a label."""
-    lines = block.splitlines()
+    lines = block.splitlines() if label in block else []
     for index, line in enumerate(lines):
         if line.startswith(label):
             after = "\n".join([line.removeprefix(label).strip(), *lines[index + 1 :]]).strip()

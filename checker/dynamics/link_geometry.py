@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterable, Iterator
 
 from checker.dynamics.shape_size import farthest, volume_of
-from checker.model.boxes import Box, box_around
+from checker.model.boxes import Box
 from checker.model.components import Collision, Link, Visual
 from checker.model.mesh import MeshFault, MeshTrouble
+from checker.model.placed import union
 from checker.model.robot import Robot
-from checker.model.shapes import Geometry
 from checker.model.transform import Transform, Vector
 
 _Shape = Collision | Visual
@@ -35,17 +35,19 @@ def not_looked_at(robot: Robot, link: Link) -> str:
     return ""
 
 
-def _placed(robot: Robot, link: Link) -> Iterator[tuple[Geometry, Transform]]:
+def _placed(robot: Robot, link: Link) -> Iterator[tuple[_Shape, Transform]]:
     """Yield the shapes of a link that are known, with their poses in the robot's frame."""
     for shape in solid((*link.collisions, *link.visuals)):
         pose = robot.pose_of_part(link, shape.pose)
         if pose is not None and not isinstance(robot.mesh_of(shape), MeshFault):
-            yield shape.geometry, pose
+            yield shape, pose
 
 
 def known_box(robot: Robot, link: Link) -> Box | None:
     """Return the box around the shapes of a link that are known, in the robot's frame."""
-    return box_around(_placed(robot, link), robot.meshes)
+    boxes = [robot.box_of_shape(link, shape) for shape, _ in _placed(robot, link)]
+    known = [box for box in boxes if box is not None]
+    return union(known) if len(known) == len(boxes) else None
 
 
 def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
@@ -59,8 +61,8 @@ def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
         point: In the robot's frame, metres.
     """
     reaches = []
-    for geometry, pose in _placed(robot, link):
-        reach = farthest(geometry, pose, point, robot.meshes)
+    for shape, pose in _placed(robot, link):
+        reach = farthest(shape.geometry, pose, point, robot.meshes)
         if reach is None:
             return None
         reaches.append(reach)

@@ -36,7 +36,7 @@ class Draft:
             self.name(element.attribute(name), value)
             return
         end = element.name_span.end
-        behind = Span(element.source, end, end, element.path)
+        behind = Span(element.source, end, end, element)
         self.put(behind, f' {name}="{written(value)}"')
 
     def take_attribute(self, element: Element, name: str) -> None:

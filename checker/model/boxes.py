@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from checker.model.mesh import Meshes, NoMeshes
 from checker.model.shapes import Geometry
-from checker.model.support import support
+from checker.model.support import extent
 from checker.model.transform import Transform, Vector
 
 _NO_MESHES = NoMeshes()
@@ -55,12 +55,11 @@ def box_around(
     """
     low, high = [math.inf] * 3, [-math.inf] * 3
     for geometry, pose in shapes:
-        for i, (x, y, z) in enumerate(_AXES):
-            above = support(geometry, pose, (x, y, z), meshes)
-            below = support(geometry, pose, (-x, -y, -z), meshes)
-            if above is None or below is None:
+        for i, axis in enumerate(_AXES):
+            reach = extent(geometry, pose, axis, meshes)
+            if reach is None:
                 return None
-            low[i], high[i] = min(low[i], -below), max(high[i], above)
+            low[i], high[i] = min(low[i], reach[0]), max(high[i], reach[1])
     if not all(math.isfinite(corner) for corner in (*low, *high)):
         return None
     return Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))

@@ -168,4 +168,4 @@ def _description(root: Element) -> Located[str]:
     start, end = child.position.start_end, child.position.end_start
     raw = child.source.text[start:end]
     start += len(raw) - len(raw.lstrip())
-    return Located(words, Span(child.source, start, start + len(raw.strip()), child.path))
+    return Located(words, Span(child.source, start, start + len(raw.strip()), child))

@@ -42,12 +42,12 @@ class ElementType:
         """Whether anything may stand inside (plugins)."""
         return bool(self.description.get("free"))
 
-    @property
-    def attributes(self) -> dict[str, list[str]]:
+    @cached_property
+    def attributes(self) -> Mapping[str, list[str]]:
         """Attribute name → type, default, required (`1`) or not."""
         return dict(self.description.get("attrs", {}))
 
-    @property
+    @cached_property
     def value_type(self) -> str:
         """Type of the text inside (`double`, `pose`, …); empty when there is to be none."""
         return str(self.description.get("type", ""))
@@ -70,6 +70,11 @@ class ElementType:
     def children(self) -> dict[str, ElementType]:
         """Elements that may stand directly inside, by tag."""
         return {child.name: child for child in self._children()}
+
+    @cached_property
+    def required_children(self) -> tuple[ElementType, ...]:
+        """Those of `children` that have to be there."""
+        return tuple(child for child in self.children.values() if child.occurs in ("1", "+"))
 
     def _children(self) -> Iterator[ElementType]:
         types = _types(self.version)

@@ -1,4 +1,4 @@
-"""How far a shape reaches in a direction: its support function."""
+"""How far a shape reaches in a direction: its support function, and the same both ways."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ from checker.model.shapes import Geometry
 from checker.model.transform import Transform, Vector
 
 _NO_MESHES = NoMeshes()
+
+Extent = tuple[float, float]
+"""The least and the greatest `direction · p` of all points p of a shape, metres."""
 
 
 def support(
@@ -24,15 +27,23 @@ def support(
         direction: Of length 1.
         meshes: Of the robot; a mesh reaches as far as its convex hull.
     """
-    local = _turned_back(pose, direction)
-    own = _own_support(geometry, local, meshes)
+    reach = extent(geometry, pose, direction, meshes)
+    return None if reach is None else reach[1]
+
+
+def extent(
+    geometry: Geometry, pose: Transform, direction: Vector, meshes: Meshes = _NO_MESHES
+) -> Extent | None:
+    """Return how far a shape reaches against a direction and along it; as for `support`."""
+    own = _own_extent(geometry, pose.inverse.rotate(direction), meshes)
     if own is None:
         return None
-    return own + sum(a * b for a, b in zip(direction, pose.translation, strict=True))
+    middle = sum(a * b for a, b in zip(direction, pose.translation, strict=True))
+    return middle + own[0], middle + own[1]
 
 
-def _own_support(geometry: Geometry, local: Vector, meshes: Meshes) -> float | None:
-    """Return the support of a shape about its own centre, in its own frame."""
+def _own_extent(geometry: Geometry, local: Vector, meshes: Meshes) -> Extent | None:
+    """Return the extent of a shape about its own centre, in its own frame."""
     x, y, z = local
     sideways = math.hypot(x, y)
     reach: float | None = None
@@ -49,26 +60,24 @@ def _own_support(geometry: Geometry, local: Vector, meshes: Meshes) -> float | N
             reach = abs(z) * _length(geometry, "length") / 2 + _length(geometry, "radius")
         case "cone":
             height = _length(geometry, "length") / 2
-            reach = max(z * height, -z * height + sideways * _length(geometry, "radius"))
+            rim = sideways * _length(geometry, "radius")
+            return min(z * height, -z * height - rim), max(z * height, -z * height + rim)
         case "ellipsoid":
             radii = _lengths(geometry, "radii")
             reach = math.hypot(*(part * radius for part, radius in zip(local, radii, strict=True)))
         case "mesh":
             mesh = mesh_of(geometry, meshes)
-            reach = _reach_of(mesh, geometry, local) if isinstance(mesh, Mesh) else None
-    return reach
+            return _extent_of(mesh, geometry, local) if isinstance(mesh, Mesh) else None
+    return None if reach is None else (-reach, reach)
 
 
-def _reach_of(mesh: Mesh, geometry: Geometry, local: Vector) -> float:
-    """Return the support of a mesh with its `<scale>`, which mirrors where it is negative."""
+def _extent_of(mesh: Mesh, geometry: Geometry, local: Vector) -> Extent:
+    """Return the extent of a mesh with its `<scale>`, which mirrors where it is negative."""
     # d · (s p) = (s d) · p: one vector is scaled instead of all corners.
     x, y, z = (a * b for a, b in zip(local, _lengths(geometry, "scale"), strict=True))
     # A list: a generator takes half as long again, and hulls have hundreds of corners.
-    return max([x * a + y * b + z * c for a, b, c in mesh.corners])
-
-
-def _turned_back(pose: Transform, direction: Vector) -> Vector:
-    return Transform(pose.inverse.rotation).rotate(direction)
+    reaches = [x * a + y * b + z * c for a, b, c in mesh.corners]
+    return min(reaches), max(reaches)
 
 
 def _lengths(geometry: Geometry, name: str) -> tuple[float, ...]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cached_property
+
+from checker.source.record import record
 
 Vector = tuple[float, float, float]
 Rotation = tuple[Vector, Vector, Vector]
@@ -41,7 +42,7 @@ def rotation_from_quaternion(w: float, x: float, y: float, z: float) -> Rotation
     )
 
 
-@dataclass(frozen=True)
+@record()
 class Transform:
     """The pose of a frame B in a frame A: p_A = rotation · p_B + translation.
 
@@ -75,17 +76,18 @@ class Transform:
 
     def __matmul__(self, other: Transform) -> Transform:
         """Chain: the pose of C in A, from that of B in A and that of C in B."""
-        columns = tuple(zip(*other.rotation, strict=True))
-        turned = [self.rotate((c[0], c[1], c[2])) for c in columns]
-        rows = tuple(zip(*turned, strict=True))
-        rotation: Rotation = (_vector(rows[0]), _vector(rows[1]), _vector(rows[2]))
-        return Transform(rotation, self.apply(other.translation))
+        (a, b, c), (d, e, f), (g, h, i) = other.rotation
+        one, two, three = (
+            (x * a + y * d + z * g, x * b + y * e + z * h, x * c + y * f + z * i)
+            for x, y, z in self.rotation
+        )
+        return Transform((one, two, three), self.apply(other.translation))
 
     @cached_property
     def inverse(self) -> Transform:
         """The pose of A in B."""
-        columns = tuple(zip(*self.rotation, strict=True))
-        transposed: Rotation = (_vector(columns[0]), _vector(columns[1]), _vector(columns[2]))
+        (a, b, c), (d, e, f), (g, h, i) = self.rotation
+        transposed: Rotation = ((a, d, g), (b, e, h), (c, f, i))
         x, y, z = Transform(transposed).rotate(self.translation)
         return Transform(transposed, (-x, -y, -z))
 
@@ -102,7 +104,3 @@ class Transform:
         # With this yaw taken out first, roll makes up for the rounding of yaw near ±π/2 of pitch.
         sin_roll, cos_roll = sy * rows[0][2] - cy * rows[1][2], cy * rows[1][1] - sy * rows[0][1]
         return (math.atan2(sin_roll, cos_roll), pitch, yaw)
-
-
-def _vector(values: tuple[float, ...]) -> Vector:
-    return (values[0], values[1], values[2])

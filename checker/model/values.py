@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from checker.model.faults import Fault, FaultKind
 from checker.source.markup import blank_markup
@@ -139,21 +139,26 @@ class ValueReader:
         return element.attribute("name") or Located("", element.span, stated=False)
 
 
-def _words(text: Located[str]) -> Iterator[tuple[str, Span]]:
-    """Yield the words of a text with their places.
+def numbers_of_words(text: str) -> list[float | None]:
+    """Read each word of a text as a number, without its place; None for a word that is none."""
+    return [parse_number(word) for word in _WORD.findall(text)]
+
+
+def _words(text: Located[str]) -> list[tuple[str, Span]]:
+    """Return the words of a text with their places.
 
     Entities, and comments amid a word, make the value differ from what is written: then each word
     stands at the whole text's place.
     """
-    words = _WORD.findall(text.value)
     span = text.span
-    written = list(_WORD.finditer(blank_markup(span.text)))
-    if [word.group() for word in written] != words:
-        yield from ((word, span) for word in words)
-        return
-    for word in written:
-        start, end = span.start + word.start(), span.start + word.end()
-        yield word.group(), Span(span.source, start, end, span.element)
+    written = blank_markup(span.text)
+    if written != text.value and _WORD.findall(written) != (words := _WORD.findall(text.value)):
+        return [(word, span) for word in words]
+    source, first, holder = span.source, span.start, span.holder
+    return [
+        (word.group(), Span(source, first + word.start(), first + word.end(), holder))
+        for word in _WORD.finditer(written)
+    ]
 
 
 def _short(text: str) -> str:

@@ -43,10 +43,12 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
                 return NotReadable(path, "is no regular file")
             if status.st_size > limit:
                 return NotReadable(path, _too_large(status.st_size, limit))
-            data = file.read(limit + 1)
+            data = file.read(status.st_size + 1)
+            if len(data) > status.st_size:
+                # It grows while it is read.
+                data += file.read(limit + 1 - len(data))
     except (OSError, ValueError) as error:
         return NotReadable(path, f"cannot be read: {getattr(error, 'strerror', None) or error}")
-    # A file may grow between the two looks at it.
     return data if len(data) <= limit else NotReadable(path, _too_large(len(data), limit))
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from checker.finding import Place
 from checker.package.references import ReferenceKind
-from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
 if TYPE_CHECKING:
@@ -47,20 +46,19 @@ def uses_of(package: Package) -> Iterator[Use]:
 
 
 def _in_launch_file(element: Element) -> Iterator[Use]:
-    for name in element.attributes:
-        value = element.attribute(name)
-        if value is not None:
-            yield from _found(value)
-            if name == "pkg" and element.tag in ("node", "test") and "$" not in value.value:
-                yield Use(value.value, value.span.place(), f"pkg={value.value}")
-    yield from _found(element.text)
+    for name, value in element.attributes.items():
+        for match in _FIND.finditer(value):
+            yield Use(match[1], _place(element, name), match.group())
+        if name == "pkg" and element.tag in ("node", "test") and "$" not in value:
+            yield Use(value, _place(element, name), f"pkg={value}")
+    for match in _FIND.finditer(element.value):
+        yield Use(match[1], element.text.span.place(), match.group())
 
 
-def _found(text: Located[str]) -> Iterator[Use]:
-    for match in _FIND.finditer(text.value):
-        yield Use(match[1], text.span.place(), match.group())
+def _place(element: Element, attribute: str) -> Place:
+    return (element.attribute(attribute) or element).span.place()
 
 
 def _in_model(element: Element) -> Iterator[Use]:
-    if element.tag == "uri" and (match := _MODEL.match(element.text.value)):
+    if element.tag == "uri" and (match := _MODEL.match(element.value)):
         yield Use(match[1], element.text.span.place(), match.group())

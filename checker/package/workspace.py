@@ -11,11 +11,13 @@ from pathlib import Path
 from checker.package.package import Package
 from checker.package.reading import read_text
 from checker.package.recognition import looks_like_package
+from checker.package.walk import build_index
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
 
 MAX_FOLDERS = 5_000
 MANIFEST_LIMIT = 1_000_000
+THUMBNAILS = "thumbnails"
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,9 +61,12 @@ class Workspace:
         """Every thumbnail of every package at hand, by its size in bytes."""
         by_size: dict[int, list[tuple[Package, str]]] = {}
         for package in self.packages.values():
-            for file in package.index.files:
-                if file.path.startswith("thumbnails/") and file.size:
-                    by_size.setdefault(file.size, []).append((package, file.path))
+            folder = package.root / THUMBNAILS
+            if folder.is_symlink() or not folder.is_dir():
+                continue
+            for file in build_index(folder, self.holds).files:
+                if file.size:
+                    by_size.setdefault(file.size, []).append((package, f"{THUMBNAILS}/{file.path}"))
         return by_size
 
     def holds(self, real: Path) -> bool:
@@ -112,4 +117,4 @@ def _declared_name(folder: Path) -> str:
     source = read_text(manifest, "package.xml", MANIFEST_LIMIT)
     document = parse_xml(source) if isinstance(source, SourceText) else None
     name = document.root.child("name") if isinstance(document, XmlDocument) else None
-    return name.text.value if name else ""
+    return name.value if name else ""

@@ -38,12 +38,12 @@ def insertion(parent: Element, lines: Sequence[str]) -> Insertion:
     outer, written = _written(parent, lines)
     if parent.span.text.endswith("/>"):
         opened = position.start + len(parent.span.text.removesuffix("/>").rstrip())
-        tail = Span(source, opened, position.start_end, parent.path)
+        tail = Span(source, opened, position.start_end, parent)
         return Insertion(tail, f">{written}{outer}</{parent.tag}>")
     start = end = _behind_comments(source, position.start_end)
     if not parent.children and not source.text[start : position.end_start].strip():
         end, written = position.end_start, written + outer
-    return Insertion(Span(source, start, end, parent.path), written)
+    return Insertion(Span(source, start, end, parent), written)
 
 
 def append_to(parent: Element, lines: Sequence[str]) -> Edit:
@@ -56,7 +56,7 @@ def insert_behind(element: Element, lines: Sequence[str]) -> Edit:
     """Return the edit that puts elements behind another one; see `insert_into`."""
     parent = element.parent or element
     end = _behind_comments(element.source, element.position.end)
-    span = Span(element.source, end, end, parent.path)
+    span = Span(element.source, end, end, parent)
     return span.replaced_by(_written(parent, lines)[1])
 
 
@@ -108,7 +108,7 @@ def with_blanks(span: Span) -> Span:
     elif behind > end or ends_line:
         while text[start - 1] in _BLANKS:
             start -= 1
-    return Span(source, start, end, span.element)
+    return Span(source, start, end, span.holder)
 
 
 def _indentations(parent: Element) -> tuple[str | None, str | None]:

@@ -6,10 +6,8 @@ prefix that nothing declares.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
-
-from lxml import etree
 
 from checker.source.positions import XmlFault
 from checker.source.text import Span
@@ -17,28 +15,10 @@ from checker.source.text import Span
 if TYPE_CHECKING:
     from checker.source.xml import Element, XmlDocument
 
-_XML = "http://www.w3.org/XML/1998/namespace"
 _KNOWN = {"xacro": "http://www.ros.org/wiki/xacro"}
 """Namespaces of prefixes that robot files use."""
 
 _REPORTED = 100
-
-
-def attribute_keys(node: etree._Element, written: Iterable[str]) -> dict[str, str]:
-    """Return lxml's key of each attribute, by its name as written.
-
-    Args:
-        node: The element.
-        written: Names in the start tag; declarations of namespaces are passed over.
-    """
-    keys = {}
-    for name in written:
-        prefix, colon, local = name.partition(":")
-        if prefix == "xmlns":
-            continue
-        uri = (_XML if prefix == "xml" else node.nsmap.get(prefix)) if colon else None
-        keys[name] = f"{{{uri}}}{local}" if uri else name
-    return keys
 
 
 def namespace_faults(document: XmlDocument) -> Iterator[XmlFault]:

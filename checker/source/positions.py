@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from checker.source.text import Span
@@ -9,15 +10,19 @@ from checker.source.text import Span
 
 @dataclass(slots=True)
 class TagPosition:
-    """Character offsets of one element.
+    """What one start tag says, and the character offsets of its element.
 
     Attributes:
+        tag: Name as written, with its prefix.
+        attributes: Values by names as written; declarations of namespaces are none.
         start: Of the start tag's `<`.
         start_end: Behind the start tag's `>`.
         end_start: Of the end tag's `<`; equal to `start_end` for `<a/>`.
         end: Behind the end tag's `>`.
     """
 
+    tag: str
+    attributes: Mapping[str, str]
     start: int
     start_end: int
     end_start: int

@@ -7,8 +7,9 @@ bytes are turned back into characters where the text is not plain ASCII.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import accumulate
+from types import MappingProxyType
 from xml.parsers import expat
 
 from checker.source.explanation import explain
@@ -40,6 +41,15 @@ class _Refused(Exception):
         self.fault = fault
 
 
+_NONE: Mapping[str, str] = MappingProxyType({})
+"""One for all elements without attributes: a text may have millions."""
+
+
+def _own(attributes: Mapping[str, str]) -> Mapping[str, str]:
+    """Return attributes without the declarations of namespaces."""
+    return {name: value for name, value in attributes.items() if name.split(":")[0] != "xmlns"}
+
+
 class _TagReader:
     """Runs expat over one text and notes the byte of each event."""
 
@@ -66,11 +76,15 @@ class _TagReader:
             still_open = [self.to_chars(tag.start) for tag in self.open_tags]
             at = self.to_chars(self.parser.ErrorByteIndex)
             return explain(self.source, expat.ErrorString(error.code), at, still_open)
+        finally:
+            # It holds this reader's methods: only the garbage collection would part the two.
+            del self.parser
         _finish(self.data, self.tags, self.to_chars)
         return self.tags
 
-    def _start(self, _name: str, _attributes: dict[str, str]) -> None:
-        tag = TagPosition(self.parser.CurrentByteIndex, -1, -1, -1)
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        own = _own(attributes) if attributes else _NONE
+        tag = TagPosition(name, own, self.parser.CurrentByteIndex, -1, -1, -1)
         self.open_tags.append(tag)
         self.tags.append(tag)
         if len(self.open_tags) > self.max_depth:
@@ -109,20 +123,14 @@ def _finish(data: bytes, tags: list[TagPosition], to_chars: Callable[[int], int]
         tag.end = to_chars(end)
 
 
-_QUOTES_AND_END = re.compile(rb"""[>"']""")
+_UP_TO_ITS_END = re.compile(rb"""[^>"']*+(?:(?:"[^"]*+"|'[^']*+')[^>"']*+)*+>""")
+"""Possessive: else the engine remembers 200 bytes for each attribute, and there may be millions."""
 
 
 def _tag_end(data: bytes, start: int) -> int:
     """Return the offset behind the `>` that closes a start tag, skipping quoted values."""
-    at = start
-    while found := _QUOTES_AND_END.search(data, at):
-        quote = found.group()
-        if quote == b">":
-            return found.end()
-        at = data.find(quote, found.end()) + 1
-        if at == 0:
-            break
-    return len(data)
+    found = _UP_TO_ITS_END.match(data, start)
+    return found.end() if found else len(data)
 
 
 _BLOCK = 512

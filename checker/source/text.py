@@ -5,9 +5,10 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import ClassVar, Generic, TypeVar
+from typing import ClassVar, Generic, Protocol, TypeVar
 
 from checker.finding import Edit, Place
+from checker.source.record import record
 
 T = TypeVar("T")
 
@@ -82,14 +83,32 @@ class SourceText:
         return Span(self, 0, 0)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+class HasPath(Protocol):
+    """An XML element."""
+
+    @property
+    def path(self) -> str:
+        """Path by tags and names."""
+        ...
+
+
+@record(eq=False, slots=True)
 class Span:
-    """A stretch of a source: from `start` up to, not including, `end`."""
+    """A stretch of a source: from `start` up to, not including, `end`.
+
+    Attributes:
+        holder: The XML element that it belongs to.
+    """
 
     source: SourceText
     start: int
     end: int
-    element: str = ""
+    holder: HasPath | None = None
+
+    @property
+    def element(self) -> str:
+        """Path of the XML element, else empty; few places are ever shown, so it is found late."""
+        return self.holder.path if self.holder is not None else ""
 
     @property
     def span(self) -> Span:
@@ -116,7 +135,7 @@ class Span:
         return replace(place, element=self.element, note=note)
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Located(Generic[T]):
     """A value and the place it was read from.
 

@@ -7,15 +7,16 @@ Entities, document types and network access are off in both.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from lxml import etree
 
 from checker.source.markup import blank_markup
-from checker.source.namespaces import attribute_keys, namespace_faults
+from checker.source.namespaces import namespace_faults
 from checker.source.positions import TagPosition, XmlFault
+from checker.source.record import record
 from checker.source.start_tag import AttributeSpans, scan_start_tag
 from checker.source.tags import locate_tags
 from checker.source.text import Located, SourceText, Span
@@ -43,27 +44,30 @@ class XmlDocument:
     tolerated: tuple[XmlFault, ...] = ()
 
     @cached_property
-    def _order(self) -> dict[etree._Element, int]:
-        return {node: index for index, node in enumerate(self.tree.iter(etree.Element))}
+    def _by_node(self) -> dict[etree._Element, Element]:
+        found: dict[etree._Element, Element] = {}
+        for node, position in zip(self.tree.iter(etree.Element), self.positions, strict=True):
+            above = node.getparent()
+            parent = found[above] if above is not None else None
+            found[node] = element = Element(self, node, position, position.tag, parent)
+            if parent is not None:
+                parent.children.append(element)
+        return found
 
     @cached_property
     def twins(self) -> dict[etree._Element, int]:
         """The number, from 1, of each nameless element among its likes under one parent."""
-        twins: dict[etree._Element, int] = {}
-        for parent in self._order:
-            groups: dict[object, list[etree._Element]] = {}
-            for node in parent.iterchildren(etree.Element):
-                if node.get("name") is None:
-                    groups.setdefault(node.tag, []).append(node)
-            for group in groups.values():
-                if len(group) > 1:
-                    twins.update((node, number) for number, node in enumerate(group, 1))
-        return twins
+        groups: dict[object, list[etree._Element]] = {}
+        for node in self._by_node:
+            if node.get("name") is None:
+                groups.setdefault((node.getparent(), node.tag), []).append(node)
+        alike = (group for group in groups.values() if len(group) > 1)
+        return {node: number for group in alike for number, node in enumerate(group, 1)}
 
     @cached_property
     def elements(self) -> list[Element]:
         """All elements, in document order."""
-        return [Element(self, node, self.positions[index]) for node, index in self._order.items()]
+        return list(self._by_node.values())
 
     @property
     def root(self) -> Element:
@@ -72,7 +76,7 @@ class XmlDocument:
 
     def element_of(self, node: etree._Element) -> Element:
         """Return the element that stands for a node of lxml's tree (as XPath returns it)."""
-        return self.elements[self._order[node]]
+        return self._by_node[node]
 
     def find_all(self, xpath: str) -> list[Element]:
         """Return the elements that an XPath expression selects, in document order."""
@@ -110,24 +114,27 @@ def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
     return replace(document, tolerated=(*located.tolerated, *namespace_faults(document)))
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Element:
-    """One element of an XML document, with the places of its parts."""
+    """One element of an XML document, with the places of its parts.
+
+    Attributes:
+        tag: Name as written, with its prefix (`xacro:macro`).
+        parent: The element around this one.
+        children: The elements directly below, in order; comments are left out.
+    """
 
     document: XmlDocument
     node: etree._Element
     position: TagPosition
+    tag: str
+    parent: Element | None
+    children: list[Element] = field(default_factory=list)
 
     @property
     def source(self) -> SourceText:
         """The text this element stands in."""
         return self.document.source
-
-    @cached_property
-    def tag(self) -> str:
-        """Name as written, with its prefix (`xacro:macro`)."""
-        name = str(self.node.tag).rpartition("}")[2]
-        return f"{self.node.prefix}:{name}" if self.node.prefix else name
 
     @cached_property
     def path(self) -> str:
@@ -145,12 +152,12 @@ class Element:
     @cached_property
     def span(self) -> Span:
         """The start tag."""
-        return Span(self.source, self.position.start, self.position.start_end, self.path)
+        return Span(self.source, self.position.start, self.position.start_end, self)
 
     @property
     def whole_span(self) -> Span:
         """The element from the start of its start tag to the end of its end tag."""
-        return Span(self.source, self.position.start, self.position.end, self.path)
+        return Span(self.source, self.position.start, self.position.end, self)
 
     @cached_property
     def _scanned(self) -> AttributeSpans:
@@ -160,7 +167,7 @@ class Element:
     def name_span(self) -> Span:
         """The tag's name within the start tag."""
         start, end = self._scanned.tag
-        return Span(self.source, start, end, self.path)
+        return Span(self.source, start, end, self)
 
     @property
     def end_name_span(self) -> Span | None:
@@ -168,18 +175,7 @@ class Element:
         if self.source.text[self.position.start_end - 2 : self.position.start_end] == "/>":
             return None
         start = self.position.end_start + len("</")
-        return Span(self.source, start, start + len(self.name_span.text), self.path)
-
-    @property
-    def parent(self) -> Element | None:
-        """The element around this one."""
-        node = self.node.getparent()
-        return None if node is None else self.document.element_of(node)
-
-    @cached_property
-    def children(self) -> list[Element]:
-        """The elements directly below, in order; comments are left out."""
-        return [self.document.element_of(node) for node in self.node.iterchildren(etree.Element)]
+        return Span(self.source, start, start + len(self.name_span.text), self)
 
     def all(self, tag: str) -> list[Element]:
         """Return the children of one name."""
@@ -200,10 +196,9 @@ class Element:
                 yield element
 
     @property
-    def attributes(self) -> dict[str, str]:
+    def attributes(self) -> Mapping[str, str]:
         """Attribute values by their names as written; declarations of namespaces are none."""
-        keys = attribute_keys(self.node, self._scanned.attributes)
-        return {name: self.node.get(key, "") for name, key in keys.items()}
+        return self.position.attributes
 
     def get(self, attribute: str, default: str | None = None) -> str | None:
         """Return an attribute's value without its place."""
@@ -225,7 +220,7 @@ class Element:
         text, start = self.source.text, self._attribute_span(name, 0).start
         while text[start - 1].isspace():
             start -= 1
-        return Span(self.source, start, self._attribute_span(name, 1).end + 1, self.path)
+        return Span(self.source, start, self._attribute_span(name, 1).end + 1, self)
 
     def _attribute_span(self, name: str, part: int) -> Span:
         """Return the name (`part` 0) or the value (1) of an attribute, else the start tag."""
@@ -233,7 +228,7 @@ class Element:
         if spans is None:
             return self.span
         start, end = spans[part]
-        return Span(self.source, start, end, self.path)
+        return Span(self.source, start, end, self)
 
     @property
     def raw_text(self) -> str:
@@ -263,27 +258,29 @@ class Element:
             text = blank_markup(self.source.text[start:end])
             if children and (inner := text.strip(_BLANKS)):
                 first = start + text.index(inner)
-                yield Span(self.source, first, first + len(inner), self.path)
+                yield Span(self.source, first, first + len(inner), self)
+
+    @property
+    def value(self) -> str:
+        """Text without the blanks around it, and without its place."""
+        return self.raw_text.strip(_BLANKS)
 
     @cached_property
     def text(self) -> Located[str]:
         """Text without the blanks around it; its place is the start tag when there is none."""
-        value = self.raw_text.strip(_BLANKS)
+        value = self.value
         if not value:
             return Located("", self.span, stated=False)
         return Located(value, self.text_span)
 
-    @cached_property
+    @property
     def text_span(self) -> Span:
         """Where the text stands: from its first to its last character that is no blank.
 
         Comments, processing instructions and the brackets of CDATA at its ends are left out.
         """
         start = self.position.start_end
-        first = next(iter(self.node.iterchildren(etree.Element)), None)
-        end = self.position.end_start
-        if first is not None:
-            end = self.document.element_of(first).position.start
+        end = self.children[0].position.start if self.children else self.position.end_start
         text = blank_markup(self.source.text[start:end])
         if not text.strip(_BLANKS):
             return self.span
@@ -291,4 +288,4 @@ class Element:
             start + len(text) - len(text.lstrip(_BLANKS)),
             start + len(text.rstrip(_BLANKS)),
         )
-        return Span(self.source, start, end, self.path)
+        return Span(self.source, start, end, self)

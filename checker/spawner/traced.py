@@ -41,7 +41,7 @@ class Piece:
         start, end = max(start, 0), min(end, len(self.text))
         span = self.span
         if span is not None and self.exact:
-            span = Span(span.source, span.start + start, span.start + end, span.element)
+            span = Span(span.source, span.start + start, span.start + end, span.holder)
         return replace(self, text=self.text[start:end], span=span)
 
     def influenced(self, parameters: frozenset[str]) -> Piece:

@@ -137,7 +137,7 @@ def _end_tag(origin: Element | None, root: SourceText) -> Span:
         return root.whole()
     if origin.position.end_start >= origin.position.end:
         return origin.span
-    return Span(origin.source, origin.position.end_start, origin.position.end, origin.path)
+    return Span(origin.source, origin.position.end_start, origin.position.end, origin)
 
 
 def _between(text: str, holder: Element | None, root: SourceText) -> Iterator[Piece]:

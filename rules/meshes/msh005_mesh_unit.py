@@ -12,9 +12,9 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from checker.model.boxes import box_around
 from checker.model.components import Collision, Link, Visual
 from checker.model.mesh import MeshUse
+from checker.model.placed import placed, union
 from checker.model.robot import Robot
 from checker.model.transform import Vector
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
@@ -124,8 +124,9 @@ def _is_simple(shape: Collision | Visual) -> bool:
 
 def _size(robot: Robot, link: Link, shapes: Shapes) -> float:
     """Return the diagonal of the box around shapes of a link, metres; 0 where it is not known."""
-    posed = [(shape.geometry, robot.pose_of_part(link, shape.pose)) for shape in shapes]
-    box = box_around([(g, pose) for g, pose in posed if pose is not None], robot.meshes)
+    posed = [each for each in shapes if robot.pose_of_part(link, each.pose) is not None]
+    known = list(placed(robot, link, posed))
+    box = union(each.box for each in known) if len(known) == len(posed) else None
     return box.diagonal if box is not None else 0.0
 
 
@@ -135,10 +136,8 @@ def _size_without_meshes(robot: Robot) -> float:
     for link in robot.links:
         pose = robot.pose_of(link.scoped_name)
         points += [pose.translation] if pose is not None else []
-        for shape in filter(_is_simple, _shapes(link)):
-            at = robot.pose_of_part(link, shape.pose)
-            box = box_around([(shape.geometry, at)]) if at is not None else None
-            points += [box.low, box.high] if box is not None else []
+        for each in placed(robot, link, filter(_is_simple, _shapes(link))):
+            points += [each.box.low, each.box.high]
     spans = [max(values) - min(values) for values in zip(*points, strict=True)]
     return math.hypot(*spans)
 

@@ -97,7 +97,7 @@ def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterato
 
 def _closed_early(element: Element, outside: list[str]) -> Finding:
     end = element.span.end
-    bracket = Span(element.source, end - 1, end, element.path)
+    bracket = Span(element.source, end - 1, end, element)
     behind = re.match(r"[^<>]*>", element.source.text[end : end + _BEHIND])
     closed_again = bracket.text == ">" and behind is not None
     return finding(

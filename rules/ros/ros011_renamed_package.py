@@ -63,7 +63,7 @@ def _names_in(element: Element) -> Iterator[Located[str]]:
             span = written.span
             if span.text == value:
                 start, end = found.span(1)
-                span = Span(span.source, span.start + start, span.start + end, span.element)
+                span = Span(span.source, span.start + start, span.start + end, span.holder)
             yield Located(found.group(1), span)
 
 

@@ -20,8 +20,6 @@ CHOICES = frozenset({"geometry"})
 """Required containers that no default fills; all others come with defaults for what is in them."""
 ELSEWHERE = {("sdf", "version")}
 """Attributes, with their elements, that another rule judges."""
-REQUIRED = ("1", "+")
-"""How often an element occurs that has to be there."""
 ENDS = ("parent", "child")
 """Of a model's joint: KIN001 speaks of those."""
 
@@ -50,8 +48,9 @@ def _attributes(element: Element, kind: ElementType) -> Iterator[Finding]:
 
 def _children(element: Element, kind: ElementType) -> Iterator[Finding]:
     ends = ENDS if element.parent is not None and element.parent.tag == "model" else ()
-    for name, child in kind.children.items():
-        if child.occurs not in REQUIRED or name in ends:
+    for child in kind.required_children:
+        name = child.name
+        if name in ends:
             continue
         stated = element.all(name)
         if not stated and _has_to_be_said(child):

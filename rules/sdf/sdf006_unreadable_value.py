@@ -60,8 +60,8 @@ def _attributes(
     element: Element, kind: ElementType, words: Mapping[str, Sequence[str]]
 ) -> Iterator[Finding]:
     known = kind.attributes
-    for name in element.attributes.keys() & known.keys():
-        written = element.attribute(name)
+    for name in element.attributes:
+        written = element.attribute(name) if name in known else None
         if written is None or not written.value.strip():
             continue
         text = Located(written.value.strip(), written.span)

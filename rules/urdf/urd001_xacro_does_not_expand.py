@@ -65,16 +65,15 @@ def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
 
 def _unexpanded(element: Element) -> Iterator[Finding]:
     for name, value in element.attributes.items():
-        where = element.attribute(name) or element
         if found := _EXPRESSION.search(value):
             yield finding(
-                where,
+                element.attribute(name) or element,
                 f"{found.group()} stays as it is: the file is loaded without xacro",
                 key="without xacro",
             )
         elif found := _BRACES.search(value):
             yield finding(
-                where,
+                element.attribute(name) or element,
                 f"{name} is {value[:80]!r}; did you mean ${{{found[1]}}}?",
                 key=found.group(),
             )

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.model.shapes import Geometry
-from checker.model.support import support
+from checker.model.support import extent, support
 from checker.model.transform import Transform, Vector
 from tests.model.robots import sdf
 
@@ -99,6 +99,19 @@ def test_no_point_reaches_farther_and_some_point_as_far(
     assert farthest <= reach + 1e-9
     # The points lie 15° and 7.5° apart, on radii of at most 0.3 m.
     assert reach <= farthest + 0.3 * (1 - math.cos(math.radians(15)))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@given(pose=poses, direction=directions())
+def test_an_extent_is_the_support_both_ways(shape: str, pose: Transform, direction: Vector) -> None:
+    body = geometry(shape, SHAPES[shape])
+    x, y, z = direction
+    both = extent(body, pose, direction)
+    along, against = support(body, pose, direction), support(body, pose, (-x, -y, -z))
+    assert both is not None
+    assert along is not None
+    assert against is not None
+    assert both == pytest.approx((-against, along), abs=1e-12)
 
 
 @pytest.mark.parametrize("shape", ["mesh", "plane", "heightmap", "empty"])

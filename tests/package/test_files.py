@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from checker.package.index import EntryKind, LinkState, normal_path
 from checker.package.package import Package
-from checker.package.reading import NotReadable
+from checker.package.reading import NotReadable, read_bytes
 from checker.package.workspace import Workspace
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText
@@ -217,3 +217,35 @@ def test_folder_is_no_text(rover: Path) -> None:
 
 def test_place_of_the_folder(rover: Path) -> None:
     assert str(package_at(rover).folder_place()) == ".:1:1"
+
+
+def test_thumbnails_of_all_packages_are_known_by_their_size(rover: Path) -> None:
+    other, key = rover.parent / "other", rover.parent / "secret" / "key.txt"
+    for package in (rover, other):
+        (package / "thumbnails").mkdir()
+        (package / "thumbnails" / "1.png").write_bytes(b"picture")
+    (other / "thumbnails" / "2.png").symlink_to(rover / "thumbnails" / "1.png")
+    (other / "thumbnails" / "3.png").symlink_to(key)
+    (other / "thumbnails" / "4.png").touch()
+    by_size = package_at(rover).workspace.thumbnails_by_size
+    assert {size: [(p.name, path) for p, path in found] for size, found in by_size.items()} == {
+        7: [
+            ("other", "thumbnails/1.png"),
+            ("other", "thumbnails/2.png"),
+            ("rover", "thumbnails/1.png"),
+        ]
+    }
+
+
+def test_a_folder_of_thumbnails_that_is_a_link_is_not_followed(rover: Path) -> None:
+    (rover / "thumbnails").symlink_to(rover.parent / "secret")
+    assert package_at(rover).workspace.thumbnails_by_size == {}
+
+
+@pytest.mark.skipif(not Path("/proc/version").exists(), reason="no /proc, whose files have no size")
+def test_a_file_with_more_in_it_than_its_size_is_read_up_to_the_limit() -> None:
+    location = Path("/proc/version")
+    content = location.read_bytes()
+    assert read_bytes(location, "version", 10_000) == content
+    assert read_bytes(location, "version", len(content)) == content
+    assert isinstance(read_bytes(location, "version", len(content) - 1), NotReadable)

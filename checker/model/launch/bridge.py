@@ -142,7 +142,7 @@ def _parameter_bridge(node: Node, word: Located[str]) -> Bridge | None:
     written = word.span.text.find("@")
     span = word.span
     if written > 0:
-        span = Span(span.source, span.start, span.start + written, span.element)
+        span = Span(span.source, span.start, span.start + written, span.holder)
     return Bridge(
         topic,
         node.resolve(topic),

@@ -60,7 +60,7 @@ class Reader:
             span = written.span
             if span.text == written.value:
                 start, end = span.start + fault.start, span.start + fault.end
-                span = Span(span.source, start, end, span.element)
+                span = Span(span.source, start, end, span.holder)
             self.fault(fault.kind, span, fault.message)
         return Located(result.text, written.span)
 

@@ -58,7 +58,7 @@ def left_outside(element: Element) -> dict[str, Located[str]]:
     found: dict[str, Located[str]] = {}
     at = 0
     while match := _LEFT_OUTSIDE.match(text, at):
-        span = Span(element.source, start + match.start(3), start + match.end(3), element.path)
+        span = Span(element.source, start + match.start(3), start + match.end(3), element)
         exact = span.text == match.group(3)
         found.setdefault(match.group(1), Located(match.group(3), span if exact else element.span))
         at = match.end()

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from checker.model.values import ValueReader
+from checker.model.values import ValueReader, numbers_of_words
 from checker.source.text import Located, Span
 
 _INTEGER = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]{1,16}|\d{1,400})\Z", re.ASCII)
@@ -69,6 +69,9 @@ def out_of_bounds(text: Located[str], bounds: tuple[float, float]) -> list[Misre
 def _numbers(
     text: Located[str], *, counts: tuple[int, ...], finite: bool = True
 ) -> Iterator[Misread]:
+    values = numbers_of_words(text.value)
+    if len(values) in counts and all(_reads_well(value, finite=finite) for value in values):
+        return
     reader = ValueReader()
     numbers = reader.numbers_in(text)
     for fault in reader.faults[:_MOST]:
@@ -83,6 +86,10 @@ def _numbers(
             Misread(number.span, f"holds {number.value:g}, expected a finite number")
             for number in infinite
         )
+
+
+def _reads_well(value: float | None, *, finite: bool) -> bool:
+    return value is not None and not (finite and math.isinf(value))
 
 
 def _integer(text: Located[str], *, least: int = -_INT32, most: int = _INT32 - 1) -> list[Misread]:
