@@ -33,6 +33,7 @@ class Samples:
         centre: Of mass, in the robot's frame, metres.
         energy: Potential and kinetic, J.
         joints: Where the joints with a servo stand, rad or m.
+        tracked: Positions (metres) and quaternions (w, x, y, z) of the frames of `Rig.tracked`.
     """
 
     time: list[float] = field(default_factory=list)
@@ -43,6 +44,7 @@ class Samples:
     centre: list[Array] = field(default_factory=list)
     energy: list[float] = field(default_factory=list)
     joints: list[Array] = field(default_factory=list)
+    tracked: list[tuple[Array, Array]] = field(default_factory=list)
 
 
 def take(samples: Samples, rig: Rig, time: float) -> None:
@@ -63,6 +65,7 @@ def take(samples: Samples, rig: Rig, time: float) -> None:
     samples.centre.append(rotation.T @ (data.subtree_com[0] - position))
     samples.energy.append(float(data.energy.sum()))
     samples.joints.append(rig.positions)
+    samples.tracked.append((data.xpos[rig.bodies], data.xquat[rig.bodies]))
 
 
 def _cross(one: Array, two: Array) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from checker.trial.carriers import carriers_of
 from checker.trial.plan import Plan
 from checker.trial.scene import Scene
 
@@ -30,6 +31,8 @@ class Rig:
         joints: Number of the joint of each actuator.
         names: Scoped name of the joint of each actuator.
         initial: Where these joints start, rad or m.
+        tracked: Scoped names of the links whose motion is kept.
+        bodies: Numbers of their bodies.
     """
 
     def __init__(self, scene: Scene, plan: Plan, timestep: float) -> None:
@@ -51,6 +54,9 @@ class Rig:
         self.parts = [scene.geoms.get(self.model.geom(i).name, "") for i in range(self.model.ngeom)]
         self.names = sorted(scene.actuators, key=self._actuator)
         self.joints = np.array([self._joint(name) for name in self.names], dtype=int)
+        self.tracked = list(dict.fromkeys(carriers_of(scene).values()))
+        bodies = [self.model.body(scene.bodies[name]).id for name in self.tracked]
+        self.bodies = np.array(bodies, dtype=int)
         self._link_place = np.array(scene.root_in_robot[:3])
         turned = np.zeros(9)
         mujoco.mju_quat2Mat(turned, np.array(scene.root_in_robot[3:]))

@@ -84,5 +84,5 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Pendin
 def _known(said: Any) -> Trial | None:
     try:
         return Trial.from_json(said) if said is not None else None
-    except (KeyError, TypeError, AttributeError):
+    except (KeyError, TypeError, ValueError, AttributeError):
         return None

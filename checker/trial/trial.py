@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import sys
+from array import array
+from base64 import b64decode, b64encode
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 
@@ -74,6 +77,47 @@ class Replay:
     poses: Mapping[str, tuple[float, ...]]
     carriers: Mapping[str, str]
 
+    def as_json(self) -> dict[str, Any]:
+        """Return what JSON can express: the poses in single precision, little-endian, as base64."""
+        return {
+            "time": list(self.time),
+            "poses": {name: _to_text(poses) for name, poses in self.poses.items()},
+            "carriers": dict(self.carriers),
+        }
+
+    @classmethod
+    def from_json(cls, said: Mapping[str, Any]) -> Replay:
+        """Return the replay that `as_json` expressed.
+
+        Raises:
+            KeyError, TypeError, ValueError: It is no replay.
+        """
+        time = tuple(said["time"])
+        poses = {name: _from_text(text) for name, text in said["poses"].items()}
+        if any(len(each) != POSE_NUMBERS * len(time) for each in poses.values()):
+            raise ValueError("a replay needs seven numbers a sample of each link")
+        return cls(time, poses, dict(said["carriers"]))
+
+
+def _to_text(numbers: Sequence[float]) -> str:
+    return b64encode(_swapped(array("f", numbers)).tobytes()).decode("ascii")
+
+
+def _from_text(text: str) -> tuple[float, ...]:
+    numbers = array("f", b64decode(text))
+    return tuple(_swapped(numbers))
+
+
+def _swapped(numbers: array[float]) -> array[float]:
+    """Turn the machine's order of bytes into little-endian, or back."""
+    if sys.byteorder == "big":
+        numbers.byteswap()
+    return numbers
+
+
+POSE_NUMBERS = 7
+"""Of a pose in a replay: x, y, z, and the quaternion w, x, y, z."""
+
 
 @dataclass(frozen=True)
 class Trial:
@@ -93,6 +137,7 @@ class Trial:
         series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
             `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
             `torque:<joint>` (N·m), `joint:<joint>` (rad or m).
+        replay: How it moved; None where nothing moved, and of robots of too many moving parts.
     """
 
     drive: str
@@ -106,6 +151,7 @@ class Trial:
     notes: tuple[str, ...] = ()
     not_driven: str = ""
     series: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    replay: Replay | None = None
 
     def value(self, name: str, part: str = "") -> float | None:
         """Return a figure; None when it was not measured."""
@@ -120,14 +166,15 @@ class Trial:
 
     def as_json(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return asdict(self)
+        replay = self.replay.as_json() if self.replay is not None else None
+        return {**asdict(replace(self, replay=None)), "replay": replay}
 
     @classmethod
     def from_json(cls, said: Mapping[str, Any]) -> Trial:
         """Return the trial that `as_json` expressed.
 
         Raises:
-            KeyError, TypeError: It is no trial.
+            KeyError, TypeError, ValueError: It is no trial.
         """
         return cls(
             drive=said["drive"],
@@ -141,4 +188,5 @@ class Trial:
             notes=tuple(said["notes"]),
             not_driven=said["not_driven"],
             series={name: tuple(values) for name, values in said["series"].items()},
+            replay=Replay.from_json(said["replay"]) if said["replay"] is not None else None,
         )

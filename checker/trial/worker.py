@@ -11,6 +11,7 @@ from checker.trial.course import VERSION
 from checker.trial.measuring import measured
 from checker.trial.motion import Motion
 from checker.trial.plan import Plan
+from checker.trial.replaying import replay_of, too_many
 from checker.trial.scene import Scene
 from checker.trial.series import series_of
 from checker.trial.simulate import drive
@@ -39,7 +40,7 @@ def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:
         drive=plan.kind,
         versions={"mujoco": mujoco.__version__, "course": VERSION},
         repairs=scene.repairs,
-        notes=(*scene.notes, *plan.notes),
+        notes=(*scene.notes, *plan.notes, *too_many(scene)),
         not_driven=plan.not_driven,
     )
     try:
@@ -55,6 +56,7 @@ def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:
         measurements=(*measured(motion), *overlaps(scene)),
         trouble=(run.trouble,) if run.trouble else (),
         series=series_of(motion),
+        replay=replay_of(run),
     )
 
 
