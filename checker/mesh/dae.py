@@ -29,7 +29,7 @@ def read_dae(data: bytes) -> Surface:
         NoSurface: The file is no COLLADA, or its scene shows nothing.
     """
     root, defects = parse_collada(data)
-    metres, unit_defects = _metres_per_unit(root)
+    metres, unit_defects = metres_per_unit(root)
     textures, parts = _textures(root), _parts(root)
     is_skinned = next(root.iter("{*}instance_controller"), None) is not None
     corners, faults = _corners(without_looks(root))
@@ -43,11 +43,29 @@ def read_dae(data: bytes) -> Surface:
 
 def _corners(bare: bytes) -> tuple[NDArray[float64], list[str]]:
     """Return the triangles of the scene in the file's unit, and what could not be read."""
-    import collada
     import numpy as np
 
+    sets, faults = triangles_of_scene(bare)
+    pieces = (np.asarray(each.vertex, np.float64)[each.vertex_index] for _, each in sets)
+    return np.concatenate([np.empty((0, 3, 3)), *pieces]), faults
+
+
+def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any]], list[str]]:
+    """Return what the scene shows in the file's unit, and what could not be read.
+
+    Args:
+        bare: A document without looks.
+
+    Returns:
+        pycollada's bound sets of triangles, each with the id of its geometry; faults, as sentences.
+
+    Raises:
+        NoSurface: A triangle names a corner below 0.
+    """
+    import collada
+
     document = collada.Collada(io.BytesIO(bare), ignore=[collada.DaeError])
-    pieces = [np.empty((0, 3, 3))]
+    sets = []
     for geometry in document.scene.objects("geometry") if document.scene is not None else ():
         for primitive in geometry.primitives():
             triangles = _triangles(primitive)
@@ -55,9 +73,9 @@ def _corners(bare: bytes) -> tuple[NDArray[float64], list[str]]:
                 # pycollada wraps an index below 0 around.
                 if triangles.vertex_index.size and triangles.vertex_index.min() < 0:
                     raise NoSurface("names a corner below 0")
-                pieces.append(np.asarray(triangles.vertex, np.float64)[triangles.vertex_index])
+                sets.append((str(geometry.original.id), triangles))
     faults = [f"Part of it cannot be read: {error.msg}." for error in document.errors]
-    return np.concatenate(pieces), list(dict.fromkeys(faults))
+    return sets, list(dict.fromkeys(faults))
 
 
 def _triangles(primitive: Any) -> Any:
@@ -71,7 +89,7 @@ def _triangles(primitive: Any) -> Any:
     return primitive if is_triangles and len(primitive) else None
 
 
-def _metres_per_unit(root: etree._Element) -> tuple[float, list[str]]:
+def metres_per_unit(root: etree._Element) -> tuple[float, list[str]]:
     """Return the unit of the file, and what is wrong with it (then metres are taken)."""
     unit = root.find("{*}asset/{*}unit")
     written = unit.get("meter") if unit is not None else None

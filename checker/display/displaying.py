@@ -1,0 +1,71 @@
+"""The robot of a package in 3D: its meshes are read early, then it is put together."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from checker.cache import Cache
+from checker.display.display import display_of
+from checker.display.mesh_files import MeshFiles, surfaces_of
+from checker.display.pictures import Drawing
+from checker.display.surface import NoSurfaces
+from checker.model.robot import Robot
+from checker.report.report import Display
+from checker.stages import Stages, TimedMeshes
+from checker.trial.trial import Trial
+
+
+@dataclass(frozen=True, eq=False)
+class Displaying:
+    """The first of some robots, to be shown.
+
+    Attributes:
+        robots: At least one.
+        cache: Where results are kept.
+        stages: Told of what takes long.
+    """
+
+    robots: tuple[Robot, ...]
+    cache: Cache
+    stages: Stages
+    _drawing: Drawing = field(default_factory=Drawing)
+
+    def begin(self) -> None:
+        """Begin to read the meshes and to load what draws, while the caller does something else."""
+        # What goes wrong is met again when the robot is put together.
+        with suppress(Exception), self.stages.stage("display"):
+            self._drawing.begin()
+            if isinstance(self._surfaces, MeshFiles):
+                self._surfaces.begin()
+
+    def stop(self) -> None:
+        """End what nobody has waited for."""
+        self._drawing.stop()
+        surfaces = self.__dict__.get("_surfaces")
+        if isinstance(surfaces, MeshFiles):
+            surfaces.stop()
+
+    def made(self, trial: Trial | None) -> Display | None:
+        """Return the robot in 3D; None where there is nothing to see.
+
+        Args:
+            trial: How it moved; None without a trial.
+        """
+        with self.stages.stage("display", "drawing the robot"):
+            display = display_of(self.robots[0], trial, self._surfaces, self._drawing)
+        count = len(self.robots)
+        if display is None or count == 1:
+            return display
+        return replace(
+            display, notes=(f"of {count} robots only the first is shown", *display.notes)
+        )
+
+    @cached_property
+    def _surfaces(self) -> MeshFiles | NoSurfaces:
+        robot = self.robots[0]
+        meshes = robot.meshes
+        if isinstance(meshes, TimedMeshes):
+            return surfaces_of(meshes.meshes, robot, self.cache)
+        return NoSurfaces()

@@ -1,0 +1,129 @@
+"""Draws pictures with MuJoCo: what the modules behind `checker.confined` share.
+
+Each link is a body that is put where a shot wants it; nothing is simulated.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import os
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any
+
+from checker.display.drawing.studio import GROUND_GROUP, drawn_size, model_of, set_stage
+
+LARGEST = 60_000
+"""Bytes of a picture."""
+_QUALITIES = (80, 70, 60, 45, 30)
+_THREADS = "2"
+_BESIDES = 10
+"""Things in a scene that are no part of the robot."""
+
+
+def load(platform: str) -> None:
+    """Import MuJoCo with the means to draw without a window.
+
+    Args:
+        platform: `egl` or `osmesa`; where it is missing this raises whatever it raises.
+    """
+    os.environ["MUJOCO_GL"] = os.environ["PYOPENGL_PLATFORM"] = platform
+    # Mesa takes as many as there are processors, each with address space of its own.
+    os.environ["LP_NUM_THREADS"] = _THREADS
+    import_module("mujoco")
+    import_module("PIL.JpegImagePlugin")
+
+
+def answer(request: bytes) -> bytes:
+    """Draw pictures.
+
+    Args:
+        request: JSON; see `checker.display.drawing.request`.
+
+    Returns:
+        JSON: the JPEG files in the order of the shots, as base64.
+    """
+    asked = json.loads(request)
+    easel = _Easel(asked)
+    pictures = (_jpeg(easel.drawn(shot), asked) for shot in asked["shots"])
+    return json.dumps([base64.b64encode(each).decode() for each in pictures]).encode()
+
+
+class _Easel:
+    """Draws shots of one model, into memory."""
+
+    def __init__(self, asked: Mapping[str, Any]) -> None:
+        """Make the model, and what OpenGL needs to draw it."""
+        import mujoco
+
+        self._model = model_of(asked)
+        self._data = mujoco.MjData(self._model)
+        self._size = drawn_size(asked)
+        self._window = mujoco.GLContext(*self._size)
+        self._window.make_current()
+        self._scene = mujoco.MjvScene(self._model, len(asked["geoms"]) + _BESIDES)
+        self._context = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_50)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
+
+    def drawn(self, shot: Mapping[str, Any]) -> Any:
+        """Return a shot: rows from the top, red, green and blue of each pixel."""
+        import mujoco
+        import numpy as np
+
+        width, height = self._size
+        for number, pose in enumerate(shot["poses"]):
+            self._data.mocap_pos[number], self._data.mocap_quat[number] = pose[:3], pose[3:]
+        self._context.shadowClip = set_stage(self._model, shot)
+        # What is open, or inside out, is seen from both sides, unless one sees through it.
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_CULL_FACE] = shot["see_through"]
+        mujoco.mj_kinematics(self._model, self._data)
+        mujoco.mj_camlight(self._model, self._data)
+        mujoco.mjv_updateScene(
+            self._model,
+            self._data,
+            _only(shot["group"]),
+            None,
+            _camera(shot["camera"]),
+            mujoco.mjtCatBit.mjCAT_ALL,
+            self._scene,
+        )
+        whole = mujoco.MjrRect(0, 0, width, height)
+        pixels = np.empty((height, width, 3), np.uint8)
+        mujoco.mjr_render(whole, self._scene, self._context)
+        mujoco.mjr_readPixels(pixels, None, whole, self._context)
+        return pixels[::-1]
+
+
+def _camera(said: dict[str, Any]) -> Any:
+    import mujoco
+
+    camera = mujoco.MjvCamera()
+    camera.type = mujoco.mjtCamera.mjCAMERA_FREE
+    camera.lookat = said["lookat"]
+    camera.distance, camera.azimuth = said["distance"], said["azimuth"]
+    camera.elevation = said["elevation"]
+    return camera
+
+
+def _only(group: int) -> Any:
+    """Return options that show one group of shapes, and the ground."""
+    import mujoco
+
+    options = mujoco.MjvOption()
+    options.geomgroup = [int(number in (group, GROUND_GROUP)) for number in range(mujoco.mjNGROUP)]
+    return options
+
+
+def _jpeg(pixels: Any, asked: Mapping[str, Any]) -> bytes:
+    from PIL import Image
+
+    size = (asked["width"], asked["height"])
+    image = Image.fromarray(pixels).resize(size, Image.Resampling.LANCZOS)
+    for quality in _QUALITIES:
+        file = io.BytesIO()
+        image.save(file, "JPEG", quality=quality, optimize=True)
+        if file.tell() <= LARGEST:
+            break
+    return file.getvalue()

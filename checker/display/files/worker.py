@@ -1,0 +1,102 @@
+"""Reads what mesh files look like in a child process: the module behind `checker.confined`."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from importlib import import_module
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from checker.display.files.collada import collada_pieces
+from checker.display.files.painting import FILE_LIMIT, picture, sampled
+from checker.display.files.piece import Piece, by_look
+from checker.display.files.thinning import joined, shares, thinned
+from checker.display.files.wavefront import wavefront_pieces
+from checker.display.files.wire import Looked, to_json
+from checker.display.surface import Surface
+from checker.mesh.apart import Ended, apart
+from checker.mesh.limits import SECONDS_FOR_ONE, SIZE_LIMIT
+from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
+from checker.mesh.reader import load_libraries, read_surface
+from checker.mesh.surface import NoSurface
+from checker.package.reading import NotReadable, read_bytes
+
+SECONDS_FOR_ALL = 60
+"""By the clock, for the files of one robot."""
+_SMALL = 100
+"""Triangles that each material of a file keeps where there is room."""
+
+
+def prepare() -> None:
+    """Import what every file needs."""
+    import_module("numpy")
+
+
+def answer(request: bytes) -> bytes:
+    """Read files.
+
+    Args:
+        request: JSON: for each file `file` (absolute path, links resolved), `name` (its suffix says
+            the format), `triangles` (at most), `pictures` (their paths by the names inside),
+            `materials` (paths of material files).
+
+    Returns:
+        JSON: what each file looks like, in the same order.
+    """
+    asked = json.loads(request)
+    load_libraries(each["name"] for each in asked if not each["name"].lower().endswith(".obj"))
+    if any(each["pictures"] for each in asked):
+        import_module("PIL.Image")
+    until = monotonic() + SECONDS_FOR_ALL
+    return b"[" + b",".join(_read_apart(each, until) for each in asked) + b"]"
+
+
+def _read_apart(asked: Mapping[str, Any], until: float) -> bytes:
+    """Read one file in a process of its own: it takes no other file with it."""
+    seconds = min(SECONDS_FOR_ONE, int(until - monotonic()))
+    if seconds < 1:
+        reason = f"was not read: the others took {SECONDS_FOR_ALL:g} s"
+        return json.dumps(to_json(reason)).encode()
+    read = apart(lambda: json.dumps(to_json(look(asked))).encode(), seconds)
+    return json.dumps(to_json(read.reason)).encode() if isinstance(read, Ended) else read
+
+
+def look(asked: Mapping[str, Any]) -> Looked:
+    """Return what one file looks like; see `answer`."""
+    data = read_bytes(Path(asked["file"]), asked["name"], SIZE_LIMIT)
+    if isinstance(data, NotReadable):
+        return data.reason
+    try:
+        pieces = by_look(_pieces(data, asked["name"], asked["materials"]))
+    except NoSurface as none:
+        return none.reason
+    painted = [_painted(piece, asked["pictures"]) for piece in pieces]
+    most = shares([len(each.faces) for each in painted], asked["triangles"], _SMALL)
+    return tuple(
+        thinned(each, count) for each, count in zip(painted, most, strict=True) if count > 0
+    )
+
+
+def _pieces(data: bytes, name: str, materials: Iterable[str]) -> Iterable[Piece]:
+    match name.rpartition(".")[2].lower():
+        case "dae":
+            return collada_pieces(data)
+        case "obj":
+            files = (read_bytes(Path(path), path, MATERIAL_LIMIT) for path in materials)
+            return wavefront_pieces(data, (file for file in files if isinstance(file, bytes)))
+        case _:
+            return (Piece(corners=read_surface(data, name).corners),)
+
+
+def _painted(piece: Piece, pictures: Mapping[str, str]) -> Surface:
+    """Return the triangles with the colours of their picture; without one, with their own."""
+    path = pictures.get(piece.look.picture)
+    data = read_bytes(Path(path), path, FILE_LIMIT) if path and piece.places is not None else b""
+    pixels = picture(data) if isinstance(data, bytes) else None
+    if pixels is None or piece.places is None:
+        return joined(piece.corners, piece.look.colour, None, None)
+    colours = sampled(pixels, piece.places)
+    white = (1.0, 1.0, 1.0, piece.look.colour[3])
+    return joined(piece.corners, white, colours, piece.places)

@@ -1,0 +1,1 @@
+"""One file a layer: what it shows of a robot."""

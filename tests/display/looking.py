@@ -1,0 +1,66 @@
+"""Packages whose mesh files are looked at, for tests."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+from checker.cache import NO_CACHE, Cache
+from checker.display.files.wire import Looked
+from checker.display.mesh_files import MeshFiles, surfaces_of
+from checker.model.robot import Robot
+from checker.package.opening import open_input
+from checker.stages import TimedMeshes
+from checker.subject import Subject
+from tests.examples import write_example
+
+
+def picture(colours: Mapping[tuple[int, int], tuple[int, int, int]], side: int = 2) -> bytes:
+    """Return a square PNG file, black but for some pixels (column, row)."""
+    from PIL import Image
+
+    image = Image.new("RGB", (side, side))
+    for place, colour in colours.items():
+        image.putpixel(place, colour)
+    file = io.BytesIO()
+    image.save(file, "PNG")
+    return file.getvalue()
+
+
+@contextmanager
+def opened(path: Path, cache: Cache = NO_CACHE) -> Iterator[tuple[Robot, MeshFiles]]:
+    """Open a package; give its first robot and the looks of its meshes."""
+    with open_input(path) as found:
+        subject = Subject(found.packages[0], cache)
+        robots = subject.robots
+        assert isinstance(robots, tuple)
+        meshes = robots[0].meshes
+        assert isinstance(meshes, TimedMeshes)
+        files = surfaces_of(meshes.meshes, robots[0], cache)
+        try:
+            yield robots[0], files
+        finally:
+            files.stop()
+            subject.close()
+
+
+def looked(
+    files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_CACHE
+) -> dict[str, Looked]:
+    """Return what the meshes of a package look like, by their paths.
+
+    Args:
+        files: By path; those below meshes/ of mesh formats are named by the model.
+        folder: Where to write the package.
+        cache: Where results are kept.
+    """
+    uris = [path for path in files if path.endswith((".dae", ".obj", ".stl"))]
+    visuals = "".join(
+        f'<visual name="v{n}"><geometry><mesh><uri>{uri}</uri></mesh></geometry></visual>'
+        for n, uri in enumerate(uris)
+    )
+    changes = {"@fragment": f'<link name="a">{visuals}</link>', **files}
+    with opened(write_example(changes, folder), cache) as (_, found):
+        return {uri.value: found.of(uri) for uri in found.uris}
