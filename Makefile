@@ -6,10 +6,13 @@ BIN := .venv/bin
 CORPUS ?= $(wildcard ../shared/corpus)
 REVIEWS ?= $(wildcard ../shared/reviews)
 WORKERS ?= auto
+VIEWER := templates/report/viewer.js
+# Tests and benches start many processes: these need not compile everything anew.
+export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo test lint types format bench constraints clean golden
+.PHONY: demo test viewer lint types format bench constraints clean golden
 
-demo: .venv/installed
+demo: .venv/installed $(VIEWER)
 	@mkdir -p demo
 	@echo "== good robots: on wheels, on steered wheels, on tracks, and in the air"
 	@$(BIN)/subt-check samples/husky_migration_sensor_config_1 samples/subtcheck_*_sensor_config_1 \
@@ -19,9 +22,9 @@ demo: .venv/installed
 	  test $$? -eq 1
 	@head -n 40 demo/broken.txt
 	@tail -n 1 demo/broken.txt
-	@echo "== results: demo/good.txt, demo/broken.txt, demo/report.json"
+	@echo "== results: demo/report.html (open it in a browser), demo/broken.txt, demo/good.txt"
 
-test: .venv/tested
+test: .venv/tested $(VIEWER)
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS)) \
 	  $(BIN)/pytest -n $(WORKERS)
 
@@ -36,14 +39,16 @@ format: .venv/tested
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: .venv/tested
+bench: .venv/tested $(VIEWER)
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/static.py
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/trial.py
+	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python -m bench.report
 	$(BIN)/python bench/hostile.py
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
-golden: .venv/tested
-	$(BIN)/pytest -q tests/test_samples.py tests/test_docs.py tests/test_checklist.py --update-golden
+golden: .venv/tested $(VIEWER)
+	$(BIN)/pytest -q tests/test_samples.py tests/test_docs.py tests/test_checklist.py \
+	  tests/test_rule_pages.py tests/report/test_sarif.py --update-golden
 
 .venv/bin/python:
 	scripts/require venv=python3-venv
@@ -55,9 +60,17 @@ golden: .venv/tested
 	@touch $@
 
 .venv/tested: .venv/installed
-	scripts/require ruby=ruby git=git
+	scripts/require ruby=ruby git=git chromium=chromium "libEGL.so.1=libegl1 libgl1-mesa-dri"
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-dev.txt
+	scripts/schemas $(BIN)/python
 	@touch $@
+
+# The 3D viewer of the HTML report, bundled with three.js from npm.
+viewer: $(VIEWER)
+
+$(VIEWER): templates/viewer/build templates/viewer/package.json $(wildcard templates/viewer/src/*.js)
+	scripts/require node=nodejs npm=npm
+	templates/viewer/build
 
 constraints: .venv/tested
 	@{ head -n 2 constraints.txt; $(BIN)/pip freeze --exclude-editable; } > constraints.new

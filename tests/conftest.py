@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from tests.browser import chromium  # noqa: F401 (a fixture)
+
 # Machines differ and are shared: no example of a property is held against the clock.
 settings.register_profile("shared machines", deadline=None)
 settings.load_profile("shared machines")
