@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-import hashlib
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
 
 from checker.finding import Fix, Place, Safety, Severity
+from checker.fingerprint import fingerprint, numbered
 from checker.options import options_of
 from checker.page import parse_page
 from checker.parts import NotAtHand, Parts
 from checker.profiles import Profile
-from checker.report.report import NO_TRIAL, Cause, NotChecked, ReportedFinding
+from checker.report.report import NO_TRIAL, Cause, NotChecked, ReportedFinding, Suppressed
 from checker.report.wording import shortened
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.settings import Settings
+from checker.suppression.silencing import Silencer, parted
 from checker.trial.robot_trial import RepeatedTrial, RobotTrial
 
+_LINE_NUMBER = re.compile(r"\bline \d+")
 TEXT_LIMIT = 1000
 """Characters of a message, note or reason; names in a package may be longer than any of them."""
 
@@ -29,16 +32,25 @@ class Outcome:
 
     Attributes:
         looked: Ids of the rules that had all they asked for, each with the options it used.
+        suppressed: What they said and does not count.
     """
 
     findings: tuple[ReportedFinding, ...]
     not_checked: tuple[NotChecked, ...]
     looked: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    suppressed: tuple[Suppressed, ...] = ()
 
 
-def run_rules(rules: Iterable[Rule], parts: Parts, profile: Profile, settings: Settings) -> Outcome:
+def run_rules(
+    rules: Iterable[Rule],
+    parts: Parts,
+    profile: Profile,
+    settings: Settings,
+    silencer: Silencer | None = None,
+) -> Outcome:
     """Run the rules that profile and settings want; one that crashes stops no other."""
     findings: list[ReportedFinding] = []
+    suppressed: list[Suppressed] = []
     not_checked: list[NotChecked] = []
     looked: dict[str, Mapping[str, Any]] = {}
     for rule in rules:
@@ -50,13 +62,52 @@ def run_rules(rules: Iterable[Rule], parts: Parts, profile: Profile, settings: S
             not_checked.append(said)
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
-        findings += _report(
-            rule, [each for each in said if isinstance(each, Finding)], profile, settings
-        )
+        found = [each for each in said if isinstance(each, Finding)]
+        for silence, group in parted(rule.id, found, silencer).items():
+            reported = _report(rule, group, profile, settings)
+            if silence is None:
+                findings += reported
+            else:
+                suppressed += [
+                    Suppressed(each, silence.by, silence.reason, silence.place) for each in reported
+                ]
         unchecked = (each.reason for each in said if isinstance(each, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
-    return Outcome(_distinct(_sorted(findings)), tuple(not_checked), looked)
+    return _outcome(_sorted(findings), suppressed, not_checked, looked)
+
+
+def _outcome(
+    findings: list[ReportedFinding],
+    suppressed: list[Suppressed],
+    not_checked: list[NotChecked],
+    looked: Mapping[str, Mapping[str, Any]],
+) -> Outcome:
+    """Number findings that would have one fingerprint: those that count first."""
+    aside = [each.finding for each in suppressed]
+    prints = numbered(each.fingerprint for each in (*findings, *aside))
+    distinct = [
+        replace(each, fingerprint=own)
+        for each, own in zip((*findings, *aside), prints, strict=True)
+    ]
+    counting, others = distinct[: len(findings)], distinct[len(findings) :]
+    set_aside = (
+        replace(each, finding=found) for each, found in zip(suppressed, others, strict=True)
+    )
+    return Outcome(tuple(counting), tuple(not_checked), looked, tuple(set_aside))
+
+
+def joined(*outcomes: Outcome) -> Outcome:
+    """Return what different rules said together."""
+    looked: dict[str, Mapping[str, Any]] = {}
+    for each in outcomes:
+        looked.update(each.looked)
+    return Outcome(
+        tuple(_sorted([found for each in outcomes for found in each.findings])),
+        tuple(unseen for each in outcomes for unseen in each.not_checked),
+        looked,
+        tuple(aside for each in outcomes for aside in each.suppressed),
+    )
 
 
 def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:
@@ -139,12 +190,14 @@ def _report(
             rule.name,
             severity,
             shortened(first.message, TEXT_LIMIT),
-            _fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
+            fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
             places,
             _joined_fix([each.fix for each in group if each.fix]),
             page.reason,
             " ".join(page.fix.split()),
             first.key,
+            page.title,
+            " ".join(page.source.split()),
         )
 
 
@@ -173,25 +226,10 @@ def _identity(found: Finding) -> str:
     """Return what tells a fault from others of its rule in the same element or file.
 
     An element's path stays when its value changes, the message does not; elsewhere the message
-    has to do.
+    has to do, without the numbers of lines in it.
     """
-    return found.key or ("" if found.places[0].element else found.message)
-
-
-def _fingerprint(*parts: str) -> str:
-    return hashlib.sha256("\0".join(parts).encode(errors="surrogatepass")).hexdigest()[:16]
-
-
-def _distinct(findings: list[ReportedFinding]) -> tuple[ReportedFinding, ...]:
-    """Number findings that would have one fingerprint, in the order of their places."""
-    seen: dict[str, int] = {}
-    distinct = []
-    for each in findings:
-        number = seen.get(each.fingerprint, 0)
-        seen[each.fingerprint] = number + 1
-        fingerprint = _fingerprint(each.fingerprint, str(number)) if number else each.fingerprint
-        distinct.append(replace(each, fingerprint=fingerprint))
-    return tuple(distinct)
+    message = "" if found.places[0].element else found.message
+    return _LINE_NUMBER.sub("line", found.key or message)
 
 
 def _sorted(findings: list[ReportedFinding]) -> list[ReportedFinding]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from checker.engine import Outcome
@@ -22,7 +23,7 @@ _SERIES_DIGITS = 6
 def measured(driven: RobotTrial, outcome: Outcome) -> dict[str, Any]:
     """Return what JSON can express of a trial and of what the rules said about its figures."""
     trial = driven.trial
-    said = trial.as_json()
+    said = replace(trial, replay=None).as_json()
     return {
         "drive": trial.drive,
         "versions": dict(trial.versions),
@@ -63,7 +64,9 @@ _Verdicts = dict[str, list[tuple[Severity, frozenset[tuple[str, int, int]]]]]
 
 def _verdicts(outcome: Outcome) -> _Verdicts:
     verdicts: _Verdicts = {}
-    for found in outcome.findings:
+    # A figure is out of its limits also where that shall not count.
+    aside = (each.finding for each in outcome.suppressed)
+    for found in (*outcome.findings, *aside):
         if found.rule in _JUDGES or found.rule.startswith("TRI"):
             places = frozenset(map(_start, found.places))
             for name in found.key.split():

@@ -16,7 +16,8 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
     """Make sure that every rule and option that the settings name exists.
 
     Raises:
-        InvalidSettings: One does not; the message names the nearest that does.
+        InvalidSettings: One does not; the message names the nearest that does. Or the baseline
+            that they name cannot be used.
     """
     by_id = {rule.id: rule for rule in rules}
     known = {name for rule in rules for name in (rule.id, rule.group, rule.name)}
@@ -26,6 +27,11 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
     for id in (*settings.severity, *settings.options):
         if id not in by_id:
             raise InvalidSettings(settings.source, no_such_rule(id, by_id))
+    for entry in settings.suppress:
+        if entry.rule.upper() not in by_id and entry.rule.lower() not in known:
+            raise InvalidSettings(settings.source, no_such_rule(entry.rule, known))
+    if settings.baseline.fault:
+        raise InvalidSettings(settings.baseline.path, settings.baseline.fault)
     for id in settings.options:
         options_of(by_id[id], settings)
     if rules and not any(map(settings.selects, rules)):

@@ -15,9 +15,12 @@ from typing import Any
 from checker.errors import InvalidSettings
 from checker.finding import Severity
 from checker.model.device_form import problem_of_device, problem_of_match
+from checker.package.index import normal_path
 from checker.package.reading import NotReadable, read_text
 from checker.profiles import profile_names
 from checker.rule import Rule
+from checker.suppression.baseline import Baseline, read_baseline
+from checker.suppression.entries import SettingsEntry, entries_of
 
 FILE_NAME = "subt-check.toml"
 SHARED_FILE_NAME = "pyproject.toml"
@@ -45,6 +48,8 @@ class Settings:
         cache: Whether results are kept on disk, and taken from there.
         devices: Sensor devices of the user's, each in the form of `devices.json`.
         display: Whether the report shall hold the robot in 3D.
+        suppress: Findings that shall not count.
+        baseline: Findings that were there before, which do not count either.
     """
 
     profile: str = "subt"
@@ -60,6 +65,8 @@ class Settings:
     cache: bool = True
     devices: tuple[Mapping[str, Any], ...] = ()
     display: bool = False
+    suppress: tuple[SettingsEntry, ...] = ()
+    baseline: Baseline = field(default_factory=Baseline)
 
     def selects(self, rule: Rule) -> bool:
         """Whether the user wants this rule to run."""
@@ -87,6 +94,8 @@ class Settings:
         changes += [f"severity of {', '.join(self.severity)}"] if self.severity else []
         changes += [f"options of {', '.join(self.options)}"] if self.options else []
         changes += [f"{len(self.devices)} of its own devices"] if self.devices else []
+        changes += [f"{len(self.suppress)} suppressed with reasons"] if self.suppress else []
+        changes += [f"baseline {self.baseline.path.name}"] if self.baseline.path else []
         changes += [] if self.trial else ["without trial"]
         changes += ["thorough"] if self.thorough else []
         return f"{self.source.name} ({'; '.join(changes)})"
@@ -168,6 +177,8 @@ _KEYS = {
     "trial": "trial",
     "thorough": "thorough",
     "devices": "devices",
+    "suppress": "suppress",
+    "baseline": "baseline",
 }
 """Keys of the file, and the fields they set."""
 
@@ -201,8 +212,9 @@ def _convert(key: str, value: Any, path: Path) -> Any:
             if not isinstance(value, bool):
                 raise InvalidSettings(path, f"{key} is {value!r}, expected true or false")
             return value
-        case "devices":
-            return _devices(value, path)
+        case "devices" | "suppress" | "baseline":
+            read = {"devices": _devices, "suppress": _suppressed, "baseline": _baseline}[key]
+            return read(value, path)
         case _:
             return _by_rule(key, value, path)
 
@@ -230,6 +242,23 @@ def _devices(value: Any, path: Path) -> tuple[Mapping[str, Any], ...]:
         if problem:
             raise InvalidSettings(path, f"device {number} {problem}")
     return tuple(value)
+
+
+def _suppressed(value: Any, path: Path) -> tuple[SettingsEntry, ...]:
+    try:
+        return entries_of(value)
+    except ValueError as error:
+        raise InvalidSettings(path, str(error)) from None
+
+
+def _baseline(value: Any, path: Path) -> Baseline:
+    """Read the baseline beside a settings file: a stranger's may not name files elsewhere."""
+    folder = path.parent.resolve()
+    inside = normal_path(value) if isinstance(value, str) else None
+    if inside is None or not (folder / inside).resolve().is_relative_to(folder):
+        expected = "expected the path of a file in the folder of these settings or below"
+        raise InvalidSettings(path, f"baseline is {value!r}, {expected}")
+    return read_baseline(path.parent / inside)
 
 
 def _one_of(key: str, value: Any, choices: Sequence[str], path: Path) -> str:

@@ -3,8 +3,8 @@
 An example is an XML fragment for model.sdf, or a mapping from paths to texts that change a minimal
 package: `None` removes a file, bytes are written as they are, `../other/…` lies in a sibling,
 `@fragment` goes into model.sdf, `@name` names the package, `@links` maps paths to the targets of
-symbolic links, and `@reported` lists what must be reported where no marker can stand. The marker
-`^ SEN005` stands on the line that must be reported.
+symbolic links, `@with` lists rules that run along, and `@reported` what must be reported where no
+marker can stand. The marker `^ SEN005` stands on the line that must be reported.
 
 `@urdf` makes it a URDF package: an arm of one joint, its controller and its launch files. A text is
 put into the robot in place of the arm's transmission and plugin; True leaves these as they are.

@@ -8,6 +8,7 @@ from checker.cli import main
 from checker.discovery import all_rules
 
 BOOK = {
+    "CFG": 4,
     "PKG": 19,
     "SDF": 17,
     "REF": 6,

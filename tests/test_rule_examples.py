@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -9,13 +10,13 @@ import pytest
 
 from checker.cache import Cache, cache_folder
 from checker.discovery import all_rules
-from checker.engine import run_rules
 from checker.package.opening import open_input
 from checker.profiles import profile
 from checker.report.report import Cause
 from checker.rule import Rule
-from checker.settings import Settings
+from checker.settings import find_settings
 from checker.subject import Subject
+from checker.suppressing import run_and_set_aside
 from tests.examples import expected_places, write_example
 
 CASES = [
@@ -32,18 +33,27 @@ def test_example(rule: Rule, kind: str, example: Any, tmp_path: Path) -> None:
     with open_input(package) as opened:
         subject = Subject(opened.packages[0], Cache(cache_folder()))
         judge = profile("subt") if profile("subt").includes(rule) else profile("urdf")
-        outcome = run_rules([rule], subject, judge, Settings(thorough=True))
-    looked_away = [n for n in outcome.not_checked if n.cause is not Cause.NOT_APPLICABLE]
+        settings = find_settings([package]).overridden(thorough=True)
+        outcome = run_and_set_aside([rule, *_companions(example)], subject, judge, settings)
+    unseen = [each for each in outcome.not_checked if each.rule == rule.id]
+    looked_away = [each for each in unseen if each.cause is not Cause.NOT_APPLICABLE]
     assert not looked_away
     reported = {
         f"{place.file or '.'}:{place.line}"
         for finding in outcome.findings
+        if finding.rule == rule.id
         for place in finding.places
         if not place.note
     }
     expected = expected_places(example, rule.id, package)
     assert reported == expected
     assert bool(expected) is (kind == "bad")
+
+
+def _companions(example: Any) -> list[Rule]:
+    """Return the rules that run along."""
+    names = example.get("@with", ()) if isinstance(example, Mapping) else ()
+    return [rule for rule in all_rules() if rule.id in names]
 
 
 @pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)

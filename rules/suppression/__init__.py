@@ -1,0 +1,1 @@
+"""Rules on findings that are set aside: comments, settings, the baseline."""

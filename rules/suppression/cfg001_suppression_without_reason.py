@@ -1,0 +1,34 @@
+"""A suppression that gives no reason.
+
+It has no effect: who reads the report wants to know why a finding does not count.
+
+Fix: write the reason behind the bracket: `subt-check: ignore[SEN005] the device has 15 Hz`.
+Source: README, section "Suppress".
+"""
+
+from checker.rule import Findings, Severity, finding, rule
+from checker.suppression.parts import Suppressions
+
+
+@rule("CFG001", "suppression-without-reason", Severity.WARNING)
+def check(suppressions: Suppressions) -> Findings:
+    """Report comments that name rules and say no more."""
+    for comment in suppressions.comments:
+        if comment.names and not comment.reason:
+            names = ", ".join(comment.names)
+            yield finding(
+                comment.place, f"ignore[{names}] has no effect: no reason stands behind the bracket"
+            )
+
+
+GOOD = [
+    "<!-- subt-check: ignore[SEN005] the device really has 15 Hz -->\n<link name='a'/>",
+    "<!-- ignore[SEN005] -->\n<link name='a'/>",
+]
+BAD = [
+    "<!-- subt-check: ignore[SEN005] --> <!-- ^ CFG001 -->\n<link name='a'/>",
+    {
+        "config/a.yaml": "gain: 1  # subt-check: ignore[ROS001, ROS002]\n",
+        "@reported": ["config/a.yaml:1"],
+    },
+]

@@ -1,0 +1,70 @@
+"""A suppression of a rule that finds nothing there.
+
+What it was for is mended or has moved, and it would hide the next fault of that kind. A comment is
+about its own line and, alone on its line, about the one below. Only rules that looked count.
+
+Fix: remove the comment or the entry of the settings, or move it to the line that the finding names.
+Source: README, section "Suppress".
+"""
+
+from collections.abc import Iterator
+
+from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.suppression.parts import Suppressions, UnusedEntries
+
+
+@rule("CFG002", "unused-suppression", Severity.WARNING)
+def check(suppressions: Suppressions) -> Findings:
+    """Report comments and entries of settings without a finding."""
+    for each in suppressions.unused:
+        message = f"ignore[{each.rule}] is of no use: {each.rule} finds nothing on its line"
+        yield finding(each.comment.place, message)
+    yield from _entries(suppressions.unused_entries)
+
+
+def _entries(unused: UnusedEntries) -> Iterator[Finding]:
+    """Report entries one by one; those of settings for many packages serve others, maybe."""
+    if unused.own:
+        for entry in unused.entries:
+            yield _finding(unused, str(entry), Severity.WARNING)
+    elif unused.entries:
+        yield _finding(unused, "; ".join(map(str, unused.entries)), Severity.INFO)
+
+
+def _finding(unused: UnusedEntries, what: str, severity: Severity) -> Finding:
+    message = f"suppress in {unused.file} is of no use here: nothing is found of {what}"
+    return finding(unused.place, message, severity=severity)
+
+
+def _axle(child: str, comment: str) -> str:
+    return f"""
+<link name="wheel"/>
+<joint name="axle" type="revolute">
+  <parent>base_link</parent>
+  {comment}
+  <child>{child}</child>
+</joint>
+"""
+
+
+_COMMENT = "<!-- subt-check: ignore[KIN001] the launcher adds the wheel -->"
+_SETTINGS = """
+[[suppress]]
+rule = "unknown-joint-end"
+reason = "the launcher adds the wheel"
+"""
+
+GOOD = [
+    {"@with": ["KIN001"], "@fragment": _axle("tyre", _COMMENT)},
+    {"@with": ["KIN001"], "@fragment": _axle("tyre", ""), "subt-check.toml": _SETTINGS},
+    {"@with": [], "@fragment": _axle("wheel", _COMMENT)},
+]
+BAD = [
+    {"@with": ["KIN001"], "@fragment": _axle("wheel", _COMMENT + "  <!-- ^ CFG002 -->")},
+    {
+        "@with": ["KIN001"],
+        "@fragment": _axle("wheel", ""),
+        "subt-check.toml": _SETTINGS,
+        "@reported": ["subt-check.toml:1"],
+    },
+]
