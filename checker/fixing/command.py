@@ -9,8 +9,8 @@ from typing import Any
 
 from checker.finding import Safety
 from checker.fixing.packages import FixedPackage, fix_paths
-from checker.fixing.patch import patch
 from checker.output import EXIT_CLEAN, EXIT_FINDINGS, say_progress, show, write
+from checker.patching.patch import patch
 from checker.report.report import ReportedFinding
 from checker.report.wording import count, listed, plain
 

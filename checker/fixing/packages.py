@@ -11,10 +11,10 @@ from checker.cache import NO_CACHE, Cache, cache_folder
 from checker.check import Task
 from checker.errors import UnreadableInput
 from checker.finding import Safety
-from checker.fixing.rounds import Fixed, Judge, fix_package
 from checker.fixing.writing import write_files
 from checker.judging import findings_of
 from checker.package.opening import open_input
+from checker.patching.rounds import Fixed, Judge, fix_package
 from checker.settings import Settings
 
 _ARCHIVES_STAY = "unpack it first; --diff shows what would change"

@@ -10,8 +10,8 @@ from glob import escape
 from pathlib import Path
 
 from checker.errors import CheckerError
-from checker.fixing.rounds import FixedFile
 from checker.package.package import Package
+from checker.patching.rounds import FixedFile
 from checker.source.decode import NotText, decode, encode_like
 
 _SUFFIX = ".subt-check"

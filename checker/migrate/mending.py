@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from checker.cache import NO_CACHE
 from checker.finding import Safety
-from checker.fixing.rounds import fix_package
 from checker.judging import findings_of
 from checker.migrate.destination import Staging
 from checker.package.opening import open_input
+from checker.patching.rounds import fix_package
 from checker.report.report import ReportedFinding
 from checker.settings import Settings
 

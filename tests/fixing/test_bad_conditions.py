@@ -19,9 +19,9 @@ from checker.cli import main
 from checker.errors import CheckerError
 from checker.finding import Safety
 from checker.fixing.packages import fix_paths
-from checker.fixing.rounds import Fixed
 from checker.fixing.writing import write_files
 from checker.package.opening import open_input
+from checker.patching.rounds import Fixed
 from tests.conftest import SAMPLES
 
 BROKEN = "broken_rover_sensor_config_1"

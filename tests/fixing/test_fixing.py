@@ -18,7 +18,7 @@ from checker.cli import main
 from checker.errors import CheckerError
 from checker.finding import Safety
 from checker.fixing.packages import FixedPackage, fix_paths
-from checker.fixing.patch import patch
+from checker.patching.patch import patch
 from checker.report.report import ReportedFinding
 from checker.settings import Settings
 from tests.conftest import SAMPLES

@@ -15,10 +15,10 @@ import pytest
 from checker.cache import NO_CACHE
 from checker.discovery import all_rules
 from checker.finding import Safety, Severity
-from checker.fixing.rounds import fix_package
 from checker.judging import findings_of
 from checker.package.opening import open_input
 from checker.package.package import Package
+from checker.patching.rounds import fix_package
 from checker.profiles import profile
 from checker.report.report import ReportedFinding
 from checker.rule import Rule

@@ -6,8 +6,8 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from checker.finding import Safety
-from checker.fixing.edits import EditedText, take
 from checker.package.package import Package
+from checker.patching.edits import EditedText, take
 from checker.report.report import ReportedFinding
 from checker.source.text import SourceText
 
@@ -74,6 +74,15 @@ def fix_package(package: Package, judge: Judge, allowed: Collection[Safety]) -> 
         tuple(each for each in findings if each.fix and each.fix.safety not in allowed),
         rounds,
     )
+
+
+def one_round(
+    package: Package, findings: Sequence[ReportedFinding], allowed: Collection[Safety]
+) -> tuple[FixedFile, ...]:
+    """Return what the fixes of these findings come to, as far as they go together."""
+    edited: dict[str, SourceText] = {}
+    _round([each for each in findings if each.fix and each.fix.safety in allowed], package, edited)
+    return tuple(_changes(package, edited))
 
 
 def _elsewhere(finding: ReportedFinding) -> bool:

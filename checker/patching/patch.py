@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from difflib import unified_diff
 
-from checker.fixing.rounds import FixedFile
+from checker.patching.rounds import FixedFile
 
 _NO_NEWLINE = "\\ No newline at end of file\n"
 
