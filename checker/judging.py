@@ -9,15 +9,18 @@ from checker.cache import Cache
 from checker.collection import collection_put_off
 from checker.confined import Child
 from checker.discovery import all_rules
-from checker.engine import crashed, needed_parts, run_rules
+from checker.engine import crashed, needed_parts
 from checker.facts import facts_of
+from checker.finding import Safety
 from checker.measured import measured
 from checker.model.known_devices import known_devices
 from checker.options import check_against_rules
 from checker.package.package import Package
+from checker.parts import NotAtHand
 from checker.profiles import profile
 from checker.report.report import (
     Cause,
+    Display,
     InheritedPart,
     NotChecked,
     PackageReport,
@@ -27,6 +30,7 @@ from checker.saying import Say
 from checker.settings import Settings
 from checker.stages import Stages
 from checker.subject import Subject
+from checker.suppressing import run_and_set_aside
 from checker.trial.robot_trial import RobotTrial
 
 
@@ -75,7 +79,8 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
     try:
         check_against_rules(settings, all_rules())
         with collection_put_off():
-            return run_rules(all_rules(), subject, profile(settings.profile), settings).findings
+            judge = profile(settings.profile)
+            return run_and_set_aside(all_rules(), subject, judge, settings).findings
     finally:
         subject.close()
 
@@ -93,19 +98,22 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
     package, judge = subject.package, profile(settings.profile)
     with subject.stages.stage("rules", "rules"):
         subject.start(needed_parts(all_rules(), judge, settings))
-        outcome = run_rules(all_rules(), subject, judge, settings)
+        if settings.display and not isinstance(subject.displaying, NotAtHand):
+            subject.displaying.begin()
+        outcome = run_and_set_aside(all_rules(), subject, judge, settings)
     blind = [
         NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
         for fault in package.index.faults
     ]
     facts, trouble = _facts(subject)
     driven = subject.provided(RobotTrial)
+    display, undrawn = _display(subject) if settings.display else (None, ())
     return PackageReport(
         package.name,
         shown,
         str(package.kind),
         outcome.findings,
-        (*outcome.not_checked, *blind, *trouble),
+        (*outcome.not_checked, *blind, *trouble, *undrawn),
         tuple(
             InheritedPart(each.part, each.package_name, each.at_hand) for each in package.inherited
         ),
@@ -115,6 +123,10 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         settings.fail_on,
         settings.description,
         measured(driven[0], outcome) if driven else None,
+        suppressed=outcome.suppressed,
+        looked=tuple(outcome.looked),
+        display=display,
+        patch=_patch(package, outcome.findings) if settings.display else "",
     )
 
 
@@ -123,3 +135,21 @@ def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]
         return facts_of(subject), ()
     except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
         return {}, (crashed("facts", error),)
+
+
+def _patch(package: Package, findings: tuple[ReportedFinding, ...]) -> str:
+    """Return what the safe fixes change, for those who want to see it."""
+    from checker.patching.patch import patch
+    from checker.patching.rounds import one_round
+
+    return patch(one_round(package, findings, (Safety.SAFE,)))
+
+
+def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
+    if isinstance(subject.displaying, NotAtHand):
+        return None, ()
+    driven = subject.provided(RobotTrial)
+    try:
+        return subject.displaying.made(driven[0].trial if driven else None), ()
+    except Exception as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
+        return None, (crashed("display", error),)

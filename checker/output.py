@@ -37,14 +37,14 @@ def say_progress(words: str) -> None:
         sys.stderr.flush()
 
 
-def write(path: Path, text: str) -> None:
-    """Write a file, and the folders above it.
+def write(path: Path, content: str | bytes) -> None:
+    """Write a file, and the folders above it; text in UTF-8.
 
     Raises:
         CheckerError: It cannot be written.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, "utf-8")
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
     except OSError as error:
         raise CheckerError(f"{path} cannot be written: {error.strerror}") from None

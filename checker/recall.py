@@ -26,8 +26,9 @@ from checker.versions import version_of
 
 KIND = "report"
 _LIBRARIES = (
-    *("lxml", "markdown-it-py", "mujoco", "numpy", "pin", "pycollada", "pyelftools", "pyyaml"),
-    *("scipy", "subt-check", "tree-sitter", "tree-sitter-ruby", "trimesh", "xacro", "yourdfpy"),
+    *("fast-simplification", "lxml", "markdown-it-py", "mujoco", "numpy", "pillow", "pin"),
+    *("pycollada", "pyelftools", "pyyaml", "scipy", "subt-check", "tree-sitter"),
+    *("tree-sitter-ruby", "trimesh", "xacro", "yourdfpy"),
 )
 ENTRIES_LIMIT = 100_000
 """Files beside a package; with more of them, looking at all takes longer than checking."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from checker.cache import NO_CACHE, Cache
 from checker.collection import collection_put_off
@@ -48,6 +48,9 @@ from checker.spawning import SpawnedXml, StartedXml, WorkspaceFiles, emitted_xml
 from checker.stages import Stages, TimedMeshes
 from checker.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.view.viewing import Viewing
+
+if TYPE_CHECKING:
+    from checker.display.displaying import Displaying
 
 T = TypeVar("T")
 
@@ -122,9 +125,9 @@ class Subject:
         for robot in robots if isinstance(robots, tuple) else ():
             if isinstance(robot.meshes, TimedMeshes):
                 robot.meshes.stop()
-        for name in ("driving", "describing", "viewing"):
-            each = self.__dict__.get(name)
-            if isinstance(each, Driving | Describing | Viewing):
+        names = ("driving", "describing", "displaying", "viewing")
+        for each in map(self.__dict__.get, names):
+            if each is not None and not isinstance(each, NotAtHand):
                 each.stop()
 
     @cached_property
@@ -270,6 +273,14 @@ class Subject:
     def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAtHand:
         """The robots and their trials, also at half the time step."""
         return self.driving if isinstance(self.driving, NotAtHand) else self.driving.twice
+
+    @cached_property
+    def displaying(self) -> Displaying | NotAtHand:
+        """The robot in 3D; a check that shows nothing loads none of the modules behind it."""
+        from checker.display.displaying import Displaying
+
+        had = self.robots
+        return had if isinstance(had, NotAtHand) else Displaying(had, self.cache, self.stages)
 
     @cached_property
     def viewing(self) -> Viewing | NotAtHand:

@@ -70,7 +70,7 @@ def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
         label=first["label"],
         value=f"{'…'.join(ends)}{joint}{unit}",
         verdict=verdict,
-        limits=", ".join(f"{key.replace('_', ' ')} {limit:g}" for key, limit in _limits(first)),
+        limits=", ".join(_limit(key, value, first["unit"]) for key, value in _limits(first)),
         rule=first["rule"],
         parts=len(figures),
         matters=name in HEADLINES or verdict in _SEVERITIES,
@@ -79,6 +79,12 @@ def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
 
 def _limits(figure: Mapping[str, Any]) -> list[tuple[str, float]]:
     return list(figure["limits"].items())
+
+
+def _limit(name: str, value: float, unit: str) -> str:
+    """Return a limit in words; of what is no angle, some are shares of another figure."""
+    words = name.replace("_", " ")
+    return f"{words} {math.degrees(value):.3g}°" if unit == "rad" else f"{words} {value:g}"
 
 
 def _number(value: float, unit: str) -> str:

@@ -7,7 +7,13 @@ from dataclasses import asdict
 from typing import Any
 
 from checker.finding import Edit, Place
-from checker.report.report import SCHEMA_VERSION, PackageReport, Report, ReportedFinding
+from checker.report.report import (
+    SCHEMA_VERSION,
+    PackageReport,
+    Report,
+    ReportedFinding,
+    Suppressed,
+)
 
 
 def to_json(report: Report) -> str:
@@ -35,7 +41,7 @@ def _package(package: PackageReport) -> dict[str, Any]:
         "verdict": str(package.verdict),
         "inherited": [asdict(part) for part in package.inherited],
         "findings": [_finding(each) for each in package.findings],
-        "suppressed": [],
+        "suppressed": [_suppressed(each) for each in package.suppressed],
         "not_checked": [
             {"rule": each.rule, "reason": each.reason, "cause": str(each.cause)}
             for each in package.not_checked
@@ -60,6 +66,15 @@ def _finding(each: ReportedFinding) -> dict[str, Any]:
         edits = [_edit(edit) for edit in each.fix.edits]
         finding["fix"] = {"safety": str(each.fix.safety), "edits": edits}
     return finding
+
+
+def _suppressed(each: Suppressed) -> dict[str, Any]:
+    return {
+        "finding": _finding(each.finding),
+        "by": str(each.by),
+        "reason": each.reason,
+        "place": None if each.place is None else _place(each.place),
+    }
 
 
 def _place(place: Place) -> dict[str, Any]:

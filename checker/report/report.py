@@ -59,6 +59,8 @@ class ReportedFinding:
         why: First words of the rule's page.
         how: How to mend it, from the rule's page.
         key: What its places have in common, where the rule says so.
+        title: Of the rule's page: what is wrong in general.
+        source: Where the rule comes from.
     """
 
     rule: str
@@ -71,6 +73,8 @@ class ReportedFinding:
     why: str = ""
     how: str = ""
     key: str = ""
+    title: str = ""
+    source: str = ""
 
     @property
     def help(self) -> str:
@@ -93,6 +97,10 @@ class SuppressedBy(enum.StrEnum):
     COMMENT = "comment"
     SETTINGS = "settings"
     BASELINE = "baseline"
+
+
+IN_BASELINE = "in the baseline"
+"""The reason for what the baseline sets aside and nobody gave one for."""
 
 
 @dataclass(frozen=True)
@@ -158,6 +166,8 @@ class PackageReport:
         timings: Seconds by stage.
         suppressed: What was found and does not count.
         display: None where nobody asked to see the robot, or where there is nothing to see.
+        patch: What the safe fixes change, where somebody asked to see the robot.
+        looked: Ids of the rules that had all they asked for.
     """
 
     name: str
@@ -174,6 +184,8 @@ class PackageReport:
     trial: Mapping[str, Any] | None = None
     suppressed: tuple[Suppressed, ...] = ()
     display: Display | None = None
+    patch: str = ""
+    looked: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> VerdictKind:

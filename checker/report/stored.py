@@ -53,6 +53,7 @@ def from_stored(said: Mapping[str, Any], path: str) -> PackageReport:
             "fail_on": Severity(said["fail_on"]),
             "suppressed": tuple(_suppressed(each) for each in said["suppressed"]),
             "display": _display(said["display"]),
+            "looked": tuple(said["looked"]),
         }
     )
 

@@ -18,10 +18,10 @@ from checker.report.report import (
     ReportedFinding,
 )
 from checker.report.summary import summary_text
+from checker.report.suppressed_text import suppressed_text
 from checker.report.trial_text import trial_text
 from checker.report.verdict import sentence
 from checker.report.wording import count, listed, plain, shortened
-
 
 SHOWN_LIMIT = 200
 """Findings of one package that are shown in full; the rest is counted."""
@@ -58,6 +58,7 @@ def _package(
     lines += [f"settings: {plain(shortened(package.settings, MESSAGE_LIMIT))}"] * bool(
         package.settings
     )
+    lines += suppressed_text(package.suppressed)
     lines += _inherited(package)
     lines += _not_checked(package.not_checked)
     lines += trial_text(package.trial, palette) if package.trial else []

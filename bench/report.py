@@ -1,0 +1,99 @@
+"""What a report costs: time on top of the check, size, and how long a browser takes to open it.
+
+Run with `python -m bench.report` from the top folder, as `make bench` does; SUBT_CHECK_CORPUS names
+the folder of real packages, the samples stand in where there is none. Machines differ and are
+shared: compare ratios, not milliseconds.
+"""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+from bench.static import ROOT, real_packages
+from tests.browser import started
+
+SIZE_LIMIT, EXTRA_LIMIT, OPEN_LIMIT = 10.0, 2.0, 3.0
+"""MB of a report, seconds on top of the check, seconds until the robot is seen."""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of one package.
+
+    Attributes:
+        cold: Seconds on top of the check when nothing is in the cache.
+        warm: The same when meshes, views and the trial are.
+    """
+
+    name: str
+    cold: float
+    warm: float
+    megabytes: float
+    opening: float
+
+
+def seconds(package: Path, cache: str, *more: str) -> float:
+    """Return how long the command takes in a process of its own."""
+    begun = perf_counter()
+    subprocess.run(
+        [sys.executable, "-m", "checker.cli", str(package), *more],
+        cwd=ROOT, capture_output=True, check=False, env={**os.environ, "SUBT_CHECK_CACHE": cache},
+    )  # fmt: skip
+    return perf_counter() - begun
+
+
+def opening(page: Path) -> float:
+    """Return how long a browser takes until it shows the robot."""
+    with started() as browser:
+        tab = browser.new_page()
+        begun = perf_counter()
+        tab.goto(page.as_uri())
+        tab.wait_for_function("() => window.subtCheckStage !== undefined")
+        return perf_counter() - begun
+
+
+def measured(package: Path, folder: Path) -> Cost:
+    """Measure one package."""
+    target = folder / "out"
+    report = ("--report", str(target))
+    plain, full, before = (str(folder / name) for name in ("plain", "full", "before"))
+    check = seconds(package, plain)
+    cold = seconds(package, full, *report) - check
+    seconds(package, before)
+    # Another setting, so that no whole report is recalled.
+    again = seconds(package, before, "--fail-on", "warning")
+    warm = seconds(package, before, "--fail-on", "warning", *report) - again
+    page = target / "report.html"
+    return Cost(package.name, cold, warm, page.stat().st_size / 1e6, opening(page))
+
+
+def main() -> None:
+    """Measure and print everything."""
+    costs = []
+    print(f"{'':<36} {'cold':>7} {'warm':>7} {'MB':>6} {'open':>6}")
+    for package in real_packages():
+        with tempfile.TemporaryDirectory() as folder:
+            cost = measured(package, Path(folder))
+        costs.append(cost)
+        figures = f"{cost.cold:7.2f} {cost.warm:7.2f} {cost.megabytes:6.2f} {cost.opening:6.2f}"
+        print(f"{cost.name:<36} {figures}")
+    for name, values, limit in (
+        ("time on top, cold, s", [each.cold for each in costs], EXTRA_LIMIT),
+        ("time on top, warm, s", [each.warm for each in costs], EXTRA_LIMIT),
+        ("size, MB", [each.megabytes for each in costs], SIZE_LIMIT),
+        ("opening, s", [each.opening for each in costs], OPEN_LIMIT),
+    ):
+        judged = "yes" if max(values) <= limit else "NO"
+        middle = statistics.median(values)
+        print(f"{name:<24} median {middle:.2f}, most {max(values):.2f} (≤ {limit:g}: {judged})")
+
+
+if __name__ == "__main__":
+    main()

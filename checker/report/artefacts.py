@@ -1,0 +1,62 @@
+"""The files that `--report DIR` writes: what is kept of a run, beside each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import chain
+from urllib.parse import quote
+
+from checker.report.formats import FORMATS, Manner
+from checker.report.report import PackageReport, Report
+
+Artefact = tuple[str, str | bytes]
+"""Path of a file, relative to the folder, and what it holds."""
+
+PAGE = "report.html"
+
+
+def _for_programs(report: Report, manner: Manner) -> Iterator[Artefact]:
+    yield "report.json", FORMATS["json"](report, manner)
+    yield "report.sarif", FORMATS["sarif"](report, manner)
+
+
+def _for_people(report: Report, manner: Manner) -> Iterator[Artefact]:
+    """Yield the page of one package; of several, a folder for each and a list of them."""
+    if len(report.packages) == 1:
+        yield from _package(report.packages[0], report, manner, "")
+        return
+    from checker.report.html.page import to_index
+
+    folders = _folders(report)
+    for package, folder in zip(report.packages, folders, strict=True):
+        yield from _package(package, report, manner, f"{folder}/")
+    yield "index.html", to_index(report, [f"{quote(folder)}/{PAGE}" for folder in folders])
+
+
+def _package(
+    package: PackageReport, report: Report, manner: Manner, prefix: str
+) -> Iterator[Artefact]:
+    from checker.report.html.page import to_html
+
+    yield prefix + PAGE, to_html(package, report.versions, manner.folder)
+    if package.display is not None:
+        yield f"{prefix}robot.glb", package.display.glb
+
+
+def _folders(report: Report) -> list[str]:
+    """Name a folder after each package; those of one name are numbered."""
+    names: dict[str, int] = {}
+    folders = []
+    for package in report.packages:
+        name = "".join(c if c.isalnum() or c in "-_" else "_" for c in package.name)[:100] or "_"
+        names[name] = names.get(name, 0) + 1
+        folders.append(f"{name}~{names[name]}" if names[name] > 1 else name)
+    return folders
+
+
+_MAKERS: tuple[Callable[[Report, Manner], Iterator[Artefact]], ...] = (_for_programs, _for_people)
+
+
+def artefacts(report: Report, manner: Manner) -> Iterator[Artefact]:
+    """Yield the files one after the other; each is made when it is asked for."""
+    return chain.from_iterable(maker(report, manner) for maker in _MAKERS)

@@ -1,0 +1,78 @@
+"""The formats of a report by name; each loads what it needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from checker.report.palette import Palette
+from checker.report.report import Report
+
+
+@dataclass(frozen=True)
+class Manner:
+    """What a format may need to know besides the report.
+
+    Attributes:
+        palette: Colours for a terminal.
+        folder: Where the command was run, absolute; paths of the report start there.
+    """
+
+    palette: Palette
+    folder: str
+
+
+def _text(report: Report, manner: Manner) -> str:
+    from checker.report.text_report import to_text
+
+    return to_text(report, manner.palette)
+
+
+def _json(report: Report, _: Manner) -> str:
+    from checker.report.json_report import to_json
+
+    return to_json(report)
+
+
+def _sarif(report: Report, manner: Manner) -> str:
+    from checker.report.sarif import to_sarif
+
+    return to_sarif(report, manner.folder)
+
+
+def _github(report: Report, _: Manner) -> str:
+    from checker.report.github import to_github
+
+    return to_github(report)
+
+
+def _junit(report: Report, _: Manner) -> str:
+    from checker.report.junit import to_junit
+
+    return to_junit(report)
+
+
+def _markdown(report: Report, _: Manner) -> str:
+    from checker.report.markdown import to_markdown
+
+    return to_markdown(report)
+
+
+def _html(report: Report, manner: Manner) -> str:
+    """Return the page of the one package, or a list of all."""
+    from checker.report.html.page import to_html, to_index
+
+    if len(report.packages) != 1:
+        return to_index(report, ())
+    return to_html(report.packages[0], report.versions, manner.folder)
+
+
+FORMATS: Mapping[str, Callable[[Report, Manner], str]] = {
+    "text": _text,
+    "json": _json,
+    "sarif": _sarif,
+    "github": _github,
+    "junit": _junit,
+    "markdown": _markdown,
+    "html": _html,
+}

@@ -1,0 +1,66 @@
+"""What was not looked at and what was set aside, by reason."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from checker.report.report import Cause, NotChecked, Suppressed
+from checker.report.wording import plain, shortened
+
+_TEXT_LIMIT = 600
+_SHOWN = 300
+_CAUSES = {
+    Cause.CRASHED: "went wrong",
+    Cause.NOT_AT_HAND: "not at hand",
+    Cause.SWITCHED_OFF: "switched off",
+    Cause.NOT_APPLICABLE: "nothing to look at",
+}
+"""In words, what keeps a package from being ready first."""
+
+
+@dataclass(frozen=True)
+class Reason:
+    """A reason and the rules that did not look because of it."""
+
+    cause: str
+    reason: str
+    rules: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class SetAside:
+    """A finding that does not count: what it says, where, and why it does not."""
+
+    rule: str
+    message: str
+    where: str
+    by: str
+    reason: str
+
+
+def reasons_of(not_checked: Sequence[NotChecked]) -> list[Reason]:
+    """Join what has one reason; what keeps the package from being ready comes first."""
+    found: dict[tuple[Cause, str], list[str]] = {}
+    for each in not_checked:
+        found.setdefault((each.cause, each.reason), []).append(each.rule)
+    order = list(_CAUSES)
+    ordered = sorted(found.items(), key=lambda item: order.index(item[0][0]))
+    return [
+        Reason(_CAUSES[cause], plain(shortened(reason, _TEXT_LIMIT)), tuple(dict.fromkeys(rules)))
+        for (cause, reason), rules in ordered[:_SHOWN]
+    ]
+
+
+def suppressed_of(suppressed: Sequence[Suppressed]) -> list[SetAside]:
+    """Return what was set aside, as the page shows it."""
+    return [
+        SetAside(
+            plain(each.finding.rule),
+            plain(shortened(each.finding.message, _TEXT_LIMIT)),
+            plain(str(each.finding.places[0])),
+            str(each.by),
+            plain(shortened(each.reason, _TEXT_LIMIT)),
+        )
+        for each in suppressed[:_SHOWN]
+    ]

@@ -1,0 +1,147 @@
+"""The report as a comment on a pull request: Markdown as GitHub reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from checker.finding import Severity
+from checker.report.fact_words import facts_in_words
+from checker.report.finding_text import path_of
+from checker.report.markdown_words import T, code, escaped, fitting, with_code
+from checker.report.ownership import each_once
+from checker.report.report import (
+    Cause,
+    NotOpened,
+    PackageReport,
+    Report,
+    ReportedFinding,
+    Suppressed,
+)
+from checker.report.summary import ready_of_all, summary_markdown
+from checker.report.verdict import sentence
+from checker.report.wording import count, shortened
+
+SIZE_LIMIT = 65_000
+"""Bytes; GitHub takes comments of up to 65 536 characters."""
+
+_PACKAGES_ROOM, _FINDINGS_ROOM, _DETAILS_ROOM = 10_000, 28_000, 5_000
+_TEXT_LIMIT = 300
+
+
+def to_markdown(report: Report) -> str:
+    """Return verdicts, a table of findings, and the rest folded; below `SIZE_LIMIT`."""
+    found = sorted(each_once(report), key=lambda pair: pair[1].severity.rank)
+    pages = {each.rule: each for _, each in found if each.severity is not Severity.INFO}
+    blocks = [
+        *_verdicts(report),
+        _findings(found),
+        _folded("Why, and how to mend it", list(pages.values()), _page),
+        _folded("Suppressed", _pairs(report, lambda package: package.suppressed), _aside),
+        _folded("Not checked", _pairs(report, _unseen), _unseen_line),
+        _folded("Facts", _pairs(report, _facts), _facts_line),
+    ]
+    return "\n\n".join(filter(None, blocks)) + "\n"
+
+
+def _verdicts(report: Report) -> Iterator[str]:
+    if len(report.packages) > 1:
+        yield f"## {ready_of_all(report.packages)}"
+        table, left = summary_markdown(report.packages, _PACKAGES_ROOM)
+        yield table + _left(left, "package")
+    for package in report.packages if len(report.packages) == 1 else ():
+        said, name = sentence(package), _short(package.name)
+        aside = f" ({escaped(said.aside)})" if said.aside else ""
+        yield f"## {name}: {said.lead}"
+        yield f"{escaped(said.rest)}{aside}"
+    unopened = [each for each in report.not_opened if each.failed]
+    rows, left = fitting(unopened, _unopened, _DETAILS_ROOM)
+    yield "\n".join(rows) + _left(left, "path")
+
+
+def _unopened(each: NotOpened) -> str:
+    return f"- {code(shortened(each.path, _TEXT_LIMIT))}: {_short(each.reason)}"
+
+
+def _findings(found: Sequence[tuple[PackageReport, ReportedFinding]]) -> str:
+    rows, left = fitting(found, _row, _FINDINGS_ROOM)
+    if not rows:
+        return ""
+    head = ["| severity | rule | place | what |", "|---|---|---|---|"]
+    return "\n".join([*head, *rows]) + _left(left, "finding", "; `--format json` lists all")
+
+
+def _row(found: tuple[PackageReport, ReportedFinding]) -> str:
+    package, each = found
+    place = each.places[0]
+    path = path_of(place, package)
+    where = code(f"…{path[-200:]}" if len(path) > 200 else path)
+    line = f" line {place.line}" if place.file else ""
+    repeats = sum(not other.note for other in each.places[1:])
+    more = f" (and {count(repeats, 'more place')})" if repeats else ""
+    rule = f"{each.rule} {_short(each.name)}"
+    return f"| {each.severity} | {rule} | {where}{line} | {_short(each.message)}{more} |"
+
+
+def _page(each: ReportedFinding) -> str:
+    how = f" **Fix:** {with_code(each.how)}" if each.how else ""
+    return f"- **{each.rule}** {with_code(each.why)}{how}"
+
+
+def _pairs(report: Report, items_of: Callable[[PackageReport], Iterable[T]]) -> list[tuple[str, T]]:
+    """Return things of packages, each with its package's name where there are several."""
+    several = len(report.packages) > 1
+    return [
+        (package.name if several else "", item)
+        for package in report.packages
+        for item in items_of(package)
+    ]
+
+
+def _begin(name: str) -> str:
+    return f"- **{_short(name)}**: " if name else "- "
+
+
+def _aside(pair: tuple[str, Suppressed]) -> str:
+    name, each = pair
+    said = f"{each.finding.rule} {_short(each.finding.message)}"
+    return f"{_begin(name)}{said} ({each.by}: {_short(each.reason)})"
+
+
+def _unseen(package: PackageReport) -> Iterable[tuple[str, list[str]]]:
+    """Return reasons, each with the rules that it kept from looking."""
+    by_reason: dict[str, list[str]] = {}
+    for each in package.not_checked:
+        if each.cause is not Cause.NOT_APPLICABLE:
+            by_reason.setdefault(each.reason, []).append(each.rule)
+    return by_reason.items()
+
+
+def _unseen_line(pair: tuple[str, tuple[str, list[str]]]) -> str:
+    name, (reason, rules) = pair
+    return f"{_begin(name)}{_short(', '.join(rules))}: {_short(reason)}"
+
+
+def _facts(package: PackageReport) -> Iterable[Mapping[str, Any]]:
+    return [package.facts] if package.facts else []
+
+
+def _facts_line(pair: tuple[str, Mapping[str, Any]]) -> str:
+    name, facts = pair
+    return _begin(name) + _short(", ".join(fact.phrase for fact in facts_in_words(facts)))
+
+
+def _folded(title: str, items: Sequence[T], line: Callable[[T], str]) -> str:
+    rows, left = fitting(items, line, _DETAILS_ROOM)
+    if not rows:
+        return ""
+    body = "\n".join(rows) + _left(left, "line")
+    return f"<details><summary>{title}</summary>\n\n{body}\n\n</details>"
+
+
+def _left(number: int, noun: str, end: str = "") -> str:
+    return f"\n\nand {count(number, f'more {noun}')}{end}" if number else ""
+
+
+def _short(text: str) -> str:
+    return escaped(shortened(text, _TEXT_LIMIT))

@@ -1,0 +1,76 @@
+"""Whose a finding is: several packages may report the same place of a file that they share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from checker.finding import Place
+from checker.report.finding_text import path_of
+from checker.report.report import PackageReport, Report, ReportedFinding
+
+Identity = tuple[str, int, int, str, str]
+
+
+def identity(package: PackageReport, finding: ReportedFinding) -> Identity:
+    """Return what is equal for one fault that several packages report: path, place and words."""
+    place = finding.places[0]
+    path = path_of(place, package)
+    return path, place.line, place.column, finding.rule, finding.message
+
+
+def is_foreign(place: Place) -> bool:
+    """Say whether a place lies outside the package that the report is about."""
+    return place.file.startswith("../")
+
+
+def owners(report: Report) -> Mapping[Identity, str]:
+    """Return the name of the package in whose own files each finding lies."""
+    return {
+        identity(package, each): package.name
+        for package in report.packages
+        for each in package.findings
+        if not is_foreign(each.places[0])
+    }
+
+
+@dataclass(frozen=True)
+class Share:
+    """What is said about one package.
+
+    Attributes:
+        own: Findings to be said here.
+        elsewhere: Counts of findings that are said about other packages, by their names.
+    """
+
+    own: tuple[ReportedFinding, ...]
+    elsewhere: Mapping[str, int]
+
+
+def share_of(package: PackageReport, said_by: Mapping[Identity, str]) -> Share:
+    """Set apart the findings in another package's files that its own report holds too.
+
+    Args:
+        package: Whose findings to part.
+        said_by: As `owners` returns it.
+    """
+    own: list[ReportedFinding] = []
+    elsewhere: dict[str, int] = {}
+    for finding in package.findings:
+        owner = said_by.get(identity(package, finding))
+        if owner is not None and is_foreign(finding.places[0]):
+            elsewhere[owner] = elsewhere.get(owner, 0) + 1
+        else:
+            own.append(finding)
+    return Share(tuple(own), elsewhere)
+
+
+def each_once(report: Report) -> Iterator[tuple[PackageReport, ReportedFinding]]:
+    """Yield every finding once, however many packages share the file it lies in."""
+    said_by, said = owners(report), set[Identity]()
+    for package in report.packages:
+        for finding in share_of(package, said_by).own:
+            known = identity(package, finding)
+            if not (is_foreign(finding.places[0]) and known in said):
+                yield package, finding
+            said.add(known)

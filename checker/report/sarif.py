@@ -1,0 +1,131 @@
+"""The report as SARIF 2.1.0, which code hosts and editors read: one run for all packages."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+
+from checker.report.ownership import each_once
+from checker.report.report import (
+    Cause,
+    NotChecked,
+    PackageReport,
+    Report,
+    ReportedFinding,
+)
+from checker.report.sarif_places import BASE, Json
+from checker.report.sarif_results import LEVELS, Marks, Said, result, words
+from checker.report.wording import count, plain
+
+SCHEMA = (
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+)
+RESULTS_LIMIT = 5000
+"""Results of a run that code hosts show."""
+NOTIFICATIONS_LIMIT = 1000
+
+
+def to_sarif(report: Report, folder: str) -> str:
+    """Return the report as a SARIF log, in plain ASCII.
+
+    Args:
+        report: What was found.
+        folder: Where the command was run, absolute; paths below it are written relative to it.
+    """
+    log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [_run(report, folder)]}
+    return json.dumps(log, indent=1) + "\n"
+
+
+def _run(report: Report, folder: str) -> Json:
+    said = sorted(
+        _all_said(report),
+        key=lambda each: (each.suppressed is not None, each.finding.severity.rank),
+    )
+    shown = said[:RESULTS_LIMIT]
+    rules = _first_by_rule(shown)
+    driver: Json = {"name": "subt-check", "rules": [_rule(each) for each in rules.values()]}
+    # An installation may not know its own version.
+    if (version := report.versions.get("subt-check", ""))[:1].isdigit():
+        driver["version"] = plain(version)
+    indices = {rule: index for index, rule in enumerate(rules)}
+    marks = Marks(any(each.in_baseline for each in said), any(each.set_aside for each in said))
+    return {
+        "tool": {"driver": driver},
+        "columnKind": "unicodeCodePoints",
+        "originalUriBaseIds": {
+            BASE: {"description": {"text": "The folder where subt-check was run."}}
+        },
+        "invocations": [_invocation(report, len(said) - len(shown))],
+        "results": [result(each, indices[each.finding.rule], marks, folder) for each in shown],
+        "properties": {"packages": [_package(each) for each in report.packages]},
+    }
+
+
+def _all_said(report: Report) -> Iterator[Said]:
+    for package, finding in each_once(report):
+        yield Said(package, finding)
+    for package in report.packages:
+        for each in package.suppressed:
+            yield Said(package, each.finding, each)
+
+
+def _package(package: PackageReport) -> Json:
+    return {"name": plain(package.name), "verdict": str(package.verdict)}
+
+
+def _first_by_rule(said: Sequence[Said]) -> Mapping[str, ReportedFinding]:
+    """Return the first finding of each rule, which is the gravest that counts."""
+    rules: dict[str, ReportedFinding] = {}
+    for each in said:
+        rules.setdefault(each.finding.rule, each.finding)
+    return rules
+
+
+def _rule(finding: ReportedFinding) -> Json:
+    """Describe a rule by what its findings quote of its page."""
+    parts = [("", finding.why), ("Fix: ", finding.how), ("Source: ", finding.source)]
+    said = [(label, plain(text)) for label, text in parts if text]
+    text = [f"{label}{words}" for label, words in said]
+    marked = [f"**{label.strip()}** {words}" if label else words for label, words in said]
+    rule: Json = {
+        "id": finding.rule,
+        "name": "".join(word[:1].upper() + word[1:] for word in plain(finding.name).split("-")),
+        "shortDescription": {"text": plain(finding.title or finding.name)},
+        "help": {
+            "text": "\n\n".join([*text, finding.help]),
+            "markdown": "\n\n".join([*marked, f"`{finding.help}`"]),
+        },
+        "defaultConfiguration": {"level": LEVELS[finding.severity]},
+        "properties": {"tags": [finding.rule.rstrip("0123456789")]},
+    }
+    if finding.why:
+        rule["fullDescription"] = {"text": plain(finding.why)}
+    return rule
+
+
+def _invocation(report: Report, left_out: int) -> Json:
+    """Say what went wrong or could not be looked at."""
+    crashed = any(package.crashed for package in report.packages)
+    failed = any(each.failed for each in report.not_opened)
+    said = [_notification(n, package) for package in report.packages for n in package.blind_spots]
+    for each in report.not_opened:
+        level = "error" if each.failed else "note"
+        text = f"{plain(each.path)} {plain(each.reason)}"
+        said.append({"level": level, "message": {"text": words(text)}})
+    said = sorted(said, key=lambda each: str(each["level"]))[:NOTIFICATIONS_LIMIT]
+    if left_out:
+        text = f"{count(left_out, 'result')} left out, {RESULTS_LIMIT} shown, the gravest first"
+        said.append({"level": "warning", "message": {"text": text}})
+    return {
+        "executionSuccessful": not (crashed or failed),
+        "toolExecutionNotifications": said,
+    }
+
+
+def _notification(unseen: NotChecked, package: PackageReport) -> Json:
+    text = f"{package.name}: {unseen.rule} could not look: {unseen.reason}"
+    return {
+        "level": "error" if unseen.cause is Cause.CRASHED else "note",
+        "message": {"text": words(text)},
+        "associatedRule": {"id": plain(unseen.rule)},
+    }

@@ -1,0 +1,77 @@
+"""All packages of a run at a glance: a line each, and which rules found how much."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from checker.finding import Severity
+from checker.report.markdown_words import escaped, fitting
+from checker.report.ownership import each_once
+from checker.report.palette import Palette
+from checker.report.report import PackageReport, Report, VerdictKind
+from checker.report.wording import count, plain, shortened
+
+_NAME_LIMIT = 200
+
+
+def summary_text(packages: Sequence[PackageReport], palette: Palette) -> str:
+    """Return a line for each package, then the counts of all."""
+    width = max((len(plain(package.name)) for package in packages), default=0)
+    lines = []
+    for package in packages:
+        numbers = "  ".join(f"{package.count(level):4d} {level}" for level in Severity)
+        verdict = palette.verdict(package.verdict, f"{verdict_word(package.verdict):<10}")
+        lines.append(f"{plain(package.name):<{width}}  {verdict}  {numbers}")
+    return "\n".join([*lines, ready_of_all(packages)]) + "\n"
+
+
+def summary_markdown(packages: Sequence[PackageReport], room: int) -> tuple[str, int]:
+    """Return a table of the first packages, and the number of those for which there is no room.
+
+    Args:
+        packages: A row each.
+        room: Bytes.
+    """
+    head = "| package | verdict | " + " | ".join(f"{level}s" for level in Severity) + " |"
+    rows, left = fitting(packages, _row_in_markdown, room)
+    return "\n".join([head, "|---|---|" + "---:|" * len(Severity), *rows]), left
+
+
+def _row_in_markdown(package: PackageReport) -> str:
+    numbers = " | ".join(str(package.count(level)) for level in Severity)
+    name = escaped(shortened(package.name, _NAME_LIMIT))
+    return f"| {name} | {verdict_word(package.verdict)} | {numbers} |"
+
+
+def ready_of_all(packages: Sequence[PackageReport]) -> str:
+    """Return `12 packages, 9 ready`."""
+    ready = sum(package.verdict is VerdictKind.READY for package in packages)
+    return f"{count(len(packages), 'package')}, {ready} ready"
+
+
+def verdict_word(verdict: VerdictKind) -> str:
+    """Return `not ready`."""
+    return verdict.replace("_", " ")
+
+
+def statistics_text(report: Report) -> str:
+    """Return how many findings each rule has, in how many packages; most findings first."""
+    rows = [("rule", "severity", "findings", "packages", "name"), *_rows(report)]
+    if len(rows) == 1:
+        return "No findings.\n"
+    widths = [max(len(row[column]) for row in rows) for column in range(4)]
+    return "".join(
+        f"{rule:<{widths[0]}}  {severity:<{widths[1]}}  {found:>{widths[2]}}  "
+        f"{packages:>{widths[3]}}  {name}\n"
+        for rule, severity, found, packages, name in rows
+    )
+
+
+def _rows(report: Report) -> Iterator[tuple[str, str, str, str, str]]:
+    """Count a rule apart for each severity that it found something of."""
+    packages: dict[tuple[str, Severity, str], list[str]] = {}
+    for package, each in each_once(report):
+        packages.setdefault((each.rule, each.severity, each.name), []).append(package.path)
+    ordered = sorted(packages.items(), key=lambda row: (-len(row[1]), row[0][0], row[0][1].rank))
+    for (rule, severity, name), found_in in ordered:
+        yield rule, str(severity), str(len(found_in)), str(len(set(found_in))), plain(name)

@@ -1,0 +1,131 @@
+"""The page of a package: complete, escaped, bounded."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from lxml import html
+
+from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.report.html.page import to_html, to_index, with_code
+from checker.report.report import (
+    Cause,
+    NotChecked,
+    NotOpened,
+    PackageReport,
+    Report,
+    ReportedFinding,
+    Suppressed,
+    SuppressedBy,
+)
+from checker.report.wording import plain
+
+HOSTILE = [
+    "</script><script>alert(1)</script>",
+    "\"><img src=x onerror=alert(1)>",
+    "'; alert(1); '",
+    "{{ 7*7 }}{% for x in y %}",
+    "🤖 \u202eevil\u202c \u0000\u001b[31m",
+    "<!-- -->]]>",
+    "</style><style>*{display:none}",
+    "javascript:alert(1)",
+]  # fmt: skip
+VERSIONS = {"subt-check": "1.0", "mujoco": "4.0"}
+
+
+def finding(text: str, number: int = 0) -> ReportedFinding:
+    place = Place(f"{text}.sdf", 3, 1, 3, 4, f"sdf/model[{text}]", text, f"  {text}")
+    fix = Fix(Safety.UNSAFE, (Edit(place, text, text[:3]),))
+    severity = list(Severity)[number % 3]
+    fingerprint = f"{number:016x}"
+    return ReportedFinding(
+        "SEN005", "lidar-scan-resolution", severity, text, fingerprint, (place, place),
+        fix, "Why.", "write `1`.",
+    )  # fmt: skip
+
+
+def package(text: str, findings: int = 1) -> PackageReport:
+    found = tuple(finding(text, number) for number in range(findings))
+    return PackageReport(
+        text, f"models/{text}", "robot", found,
+        (NotChecked("SEN001", text, Cause.NOT_AT_HAND),),
+        facts={"robot": text, "mass_kg": 2.0}, settings=text,
+        suppressed=(Suppressed(finding(text), SuppressedBy.COMMENT, text, None),),
+    )  # fmt: skip
+
+
+def page(report: PackageReport) -> html.HtmlElement:
+    return html.fromstring(to_html(report, VERSIONS, "/work"))
+
+
+def skeleton(tree: html.HtmlElement) -> list[tuple[str, tuple[str, ...]]]:
+    """Return tags and names of attributes: what no text may change, lines of a patch aside."""
+    return [
+        (str(each.tag), tuple(sorted(each.attrib)))
+        for each in tree.iter()
+        if each.tag not in ("ins", "del")
+    ]
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_hostile_text_stays_text(text: str) -> None:
+    tree = page(package(text))
+    assert skeleton(tree) == skeleton(page(package("harmless")))
+    assert plain(text) in tree.findtext(".//h1/bdi")
+
+
+@given(st.text(min_size=1, max_size=60))
+def test_any_text_leaves_the_page_as_it_is(text: str) -> None:
+    assert skeleton(page(package(f"a{text}"))) == skeleton(page(package("harmless")))
+
+
+def test_nothing_is_asked_for_outside() -> None:
+    said = to_html(package("rover"), VERSIONS, "/work")
+    assert not re.search(r"""(?:src|href)=["']?(?:https?:)?//""", said)
+    policy = page(package("rover")).xpath("//meta[@http-equiv]/@content")[0]
+    assert policy.startswith("default-src 'none'")
+    assert "unsafe-eval" not in policy
+
+
+def test_ten_thousand_findings_are_capped_and_counted() -> None:
+    report = package("rover", findings=10_000)
+    said = to_html(report, VERSIONS, "/work")
+    tree = html.fromstring(said)
+    assert len(said) < 5_000_000
+    shown = len(tree.xpath("//section[contains(@class, 'finding')]"))
+    hidden = sum(map(int, re.findall(r"and (\d+) more findings", said)))
+    assert shown + hidden == 10_000
+    assert "3334 errors" in said
+
+
+def test_groups_stand_with_the_gravest_first() -> None:
+    found = sorted((finding("a", n) for n in range(6)), key=lambda each: each.severity.rank)
+    tree = page(replace(package("rover"), findings=tuple(found)))
+    assert tree.xpath("//article/@data-severity") == ["error", "warning", "info"]
+
+
+def test_backticks_of_a_page_are_code() -> None:
+    assert with_code("write `<a>` & go") == "write <code>&lt;a&gt;</code> &amp; go"
+    assert with_code("one ` alone <") == "one ` alone &lt;"
+
+
+def test_downloads_hold_the_report() -> None:
+    tree = page(package("rover"))
+    names = tree.xpath("//a[@download]/@download")
+    assert names == ["report.json", "report.sarif"]
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_the_index_lists_every_package(text: str) -> None:
+    report = Report(
+        (package(text), replace(package("b"), findings=())), VERSIONS,
+        (NotOpened(text, "is nothing", failed=True),),
+    )  # fmt: skip
+    tree = html.fromstring(to_index(report, ["", "b/report.html"]))
+    assert tree.xpath("//tbody//a/@href") == ["b/report.html"]
+    assert tree.xpath("//tbody//th/bdi/text()")[0] == plain(text)
+    assert "0 of 2 packages ready" in tree.findtext(".//title")

@@ -1,0 +1,53 @@
+"""Tables over many packages and many rules."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from checker.finding import Place, Severity
+from checker.report.palette import Palette
+from checker.report.report import PackageReport, Report
+from checker.report.summary import statistics_text, summary_markdown, summary_text
+from tests.report.any_report import many
+
+(PACKAGE,) = many(3).packages
+OTHER = replace(PACKAGE, name="other|one", path="models/other")
+GOOD = PackageReport("good", "models/good", "robot", ())
+
+
+def test_a_line_for_each_package() -> None:
+    assert summary_text((GOOD, PACKAGE), Palette(enabled=False)).splitlines() == [
+        "good   ready          0 error     0 warning     0 info",
+        "rover  not ready      3 error     0 warning     0 info",
+        "2 packages, 1 ready",
+    ]
+
+
+def test_a_name_ends_no_cell() -> None:
+    table, left = summary_markdown((GOOD, OTHER), 1000)
+    assert table.splitlines()[-1] == "| other&#124;one | not ready | 3 | 0 | 0 |"
+    assert left == 0
+    assert summary_markdown((GOOD, OTHER), 40)[1] == 1
+
+
+def test_statistics_count_findings_and_packages_by_rule() -> None:
+    first = PACKAGE.findings[0]
+    warnings = tuple(
+        replace(first, rule=rule, name="too-high", severity=Severity.WARNING, places=(Place(rule),))
+        for rule in ("GEO002", "GEO001")
+    )
+    mixed = replace(OTHER, findings=(*PACKAGE.findings, *warnings))
+    assert statistics_text(Report((PACKAGE, mixed, GOOD), {})).splitlines() == [
+        "rule    severity  findings  packages  name",
+        "SDF004  error            6         2  unknown-element",
+        "GEO001  warning          1         1  too-high",
+        "GEO002  warning          1         1  too-high",
+    ]
+    assert statistics_text(Report((GOOD,), {})) == "No findings.\n"
+
+
+def test_what_packages_share_counts_once() -> None:
+    shared = replace(PACKAGE.findings[0], places=(Place("../base/model.sdf"),))
+    packages = [replace(GOOD, name=n, path=f"models/{n}", findings=(shared,)) for n in "ab"]
+    (_, row) = statistics_text(Report(tuple(packages), {})).splitlines()
+    assert row == "SDF004  error            1         1  unknown-element"
