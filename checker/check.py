@@ -10,6 +10,7 @@ from time import perf_counter
 from typing import Any
 
 from checker.cache import NO_CACHE, Cache, cache_folder
+from checker.collection import collection_put_off
 from checker.errors import UnreadableInput
 from checker.package.opening import open_input
 from checker.package.package import Package
@@ -149,9 +150,10 @@ def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     from checker.mesh.early import early_child
 
     mesh_child = None if settings.select else early_child(package, cache)
-    from checker.judging import judged
+    with collection_put_off():
+        from checker.judging import judged
 
-    report = judged(package, shown, settings, cache, task.say, mesh_child)
+        report = judged(package, shown, settings, cache, task.say, mesh_child)
     remember(cache, key, report)
     return report
 

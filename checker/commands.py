@@ -7,7 +7,6 @@ import json
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TextIO
 
 from checker.check import check_paths
 from checker.discovery import all_rules
@@ -24,13 +23,16 @@ from checker.output import (
     write,
 )
 from checker.page import parse_page
-from checker.report.json_report import to_json
+from checker.report.artefacts import artefacts
+from checker.report.formats import FORMATS, Manner
 from checker.report.palette import palette_for
 from checker.report.report import Report
-from checker.report.text_report import to_text
+from checker.report.summary import statistics_text
 from checker.report.wording import plain, shortened
 from checker.rule import Rule
 from checker.saying import say_nothing
+from checker.suppression.baseline import Baseline, read_baseline
+from checker.suppression.writing import baseline_to_renew, write_baseline
 
 
 def check(options: argparse.Namespace) -> int:
@@ -43,8 +45,16 @@ def check(options: argparse.Namespace) -> int:
         "trial": False if options.no_trial else None,
         "thorough": True if options.thorough else None,
         "cache": False if options.no_cache else None,
+        "baseline": _baseline(options),
+        "display": True if options.report or options.format == "html" else None,
     }
     paths = [Path(path) for path in options.paths]
+    if options.files:
+        from checker.package.changed import changed_packages
+
+        paths = changed_packages(paths, Path.cwd())
+        if not paths:
+            return EXIT_CLEAN
     if options.diff or options.fix:
         from checker.fixing.command import apply_fixes, show_patch
 
@@ -60,17 +70,38 @@ def check(options: argparse.Namespace) -> int:
                 f"subt-check: {plain(shortened(each.path, 300))} {plain(each.reason)}",
                 file=sys.stderr,
             )
-    if options.output:
-        write(Path(options.output), _rendered(report, options.format, options.color, None))
-    else:
-        show(_rendered(report, options.format, options.color, sys.stdout))
-    if options.report:
-        write(Path(options.report) / "report.json", to_json(report))
+    if options.write_baseline:
+        ids = {rule.id for rule in all_rules()}
+        show(write_baseline(baseline_to_renew(options.baseline), report, ids))
+        return EXIT_CLEAN if exit_code(report) == EXIT_FINDINGS else exit_code(report)
+    _tell(report, options)
     return exit_code(report)
 
 
-def _rendered(report: Report, form: str, color: str, stream: TextIO | None) -> str:
-    return to_json(report) if form == "json" else to_text(report, palette_for(color, stream))
+def _baseline(options: argparse.Namespace) -> Baseline | None:
+    """Return the baseline that the command line wants; None leaves it to the settings."""
+    if options.write_baseline:
+        baseline_to_renew(options.baseline)  # what cannot be written is said before all is checked
+        return Baseline()
+    return read_baseline(Path(options.baseline)) if options.baseline else None
+
+
+def _tell(report: Report, options: argparse.Namespace) -> None:
+    """Write the report in all the ways that are asked for."""
+    stream = None if options.output else sys.stdout
+    manner = Manner(palette_for(options.color, stream), str(Path.cwd()))
+    written = FORMATS[options.format](report, manner)
+    if options.output:
+        write(Path(options.output), written)
+    else:
+        show(written)
+    if options.report:
+        for name, content in artefacts(report, manner):
+            write(Path(options.report) / name, content)
+    if options.statistics:
+        # Behind another format's report it would spoil it.
+        tell = show if options.output or options.format == "text" else say_progress
+        tell("\n" + statistics_text(report))
 
 
 def exit_code(report: Report) -> int:
@@ -128,6 +159,14 @@ def migrate(options: argparse.Namespace) -> int:
     return exit_code(report)
 
 
+def init(options: argparse.Namespace) -> int:
+    """Write what a repository needs to be checked."""
+    from checker.starting.command import init
+
+    show(init(Path(options.path)))
+    return EXIT_CLEAN
+
+
 def _page_text(rule: Rule) -> str:
     page = parse_page(rule.page)
     parts = [f"{rule.id} {rule.name} ({rule.severity})", page.title + ".", page.why]
@@ -149,7 +188,7 @@ def _example(example: object) -> str:
     shown = []
     for path, text in example.items():
         match path, text:
-            case "@reported", _:
+            case "@reported" | "@with", _:
                 pass
             case "@fragment", _:
                 shown.append(f"model.sdf:\n{_indented(text.strip())}")

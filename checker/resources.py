@@ -1,10 +1,12 @@
-"""Tables of facts that come with the checker (`checker/data`)."""
+"""What comes with the checker beside its code: tables of facts (`checker/data`), and templates."""
 
 from __future__ import annotations
 
 import json
 from functools import cache
 from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
 from typing import Any
 
 
@@ -16,3 +18,9 @@ def table(name: str) -> Any:
         FileNotFoundError: There is no such table.
     """
     return json.loads(files("checker").joinpath("data", f"{name}.json").read_text("utf-8"))
+
+
+def templates(name: str) -> Traversable:
+    """Return a folder of templates: in the wheel below `checker`, in a checkout beside it."""
+    installed = files("checker").joinpath("templates", name)
+    return installed if installed.is_dir() else Path(__file__).parents[1] / "templates" / name

@@ -13,23 +13,24 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 LAYERS = (
-    {"cache", "collection", "confined", "errors", "finding", "page", "parts"},
+    {"cache", "collection", "confined", "errors", "finding", "fingerprint", "page", "parts"},
     {"resources", "saying", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
     {"checklist", "discovery", "dynamics", "flattening"}
-    | {"mesh", "paperwork", "profiles", "spawning"},
-    {"stages", "trial", "xacro"},
+    | {"mesh", "paperwork", "profiles", "spawning", "suppression"},
+    {"rule_pages", "stages", "trial", "xacro"},
     {"view"},
+    {"display"},
     {"driving", "including", "launching", "settings"},
     {"controlling", "describing"},
     {"options", "subject"},
-    {"engine", "facts", "recall"},
-    {"measured"},
+    {"engine", "facts", "patching", "recall"},
+    {"measured", "suppressing"},
     {"judging"},
     {"check", "convert"},
     {"fixing"},
-    {"migrate"},
+    {"doctor", "migrate", "starting"},
     {"commands"},
     {"cli"},
 )
@@ -37,7 +38,7 @@ LAYERS = (
 
 FOR_RULES = {
     *("dynamics", "finding", "flattening", "launching", "model", "package", "paperwork"),
-    *("resources", "rule", "source", "spawner", "spawning", "trial"),
+    *("resources", "rule", "source", "spawner", "spawning", "suppression", "trial"),
 }
 """What a rule may import: the parts of a package, and what a rule's author reads."""
 

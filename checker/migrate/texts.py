@@ -6,9 +6,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cache
-from importlib.resources import files
-from importlib.resources.abc import Traversable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from checker.convert.writing import exact
@@ -18,6 +15,7 @@ from checker.migrate.measured_facts import Facts, sensor_lines
 from checker.migrate.naming import Names
 from checker.migrate.papers import Papers
 from checker.migrate.servos import Servo
+from checker.resources import templates
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -113,7 +111,7 @@ def _environment() -> Environment:
     from jinja2 import Environment, FunctionLoader, StrictUndefined
 
     made = Environment(
-        loader=FunctionLoader(lambda name: _folder().joinpath(name).read_text("utf-8")),
+        loader=FunctionLoader(lambda name: templates("migrate").joinpath(name).read_text("utf-8")),
         # What becomes XML is escaped; names in Ruby were looked at before (`check_names`).
         autoescape=_becomes_xml,  # noqa: S701
         undefined=StrictUndefined,
@@ -123,11 +121,3 @@ def _environment() -> Environment:
     )
     made.filters["number"] = exact
     return made
-
-
-def _folder() -> Traversable:
-    """Return the folder of the templates: in the wheel below `checker`, in a checkout beside it."""
-    installed = files("checker").joinpath("templates", "migrate")
-    if installed.is_dir():
-        return installed
-    return Path(__file__).parents[2] / "templates" / "migrate"

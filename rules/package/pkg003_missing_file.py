@@ -1,8 +1,8 @@
 """A file or folder that a submission needs is not there.
 
-Parts that the package inherits from a sibling count as there. Without model, spawner or manifest
-the robot cannot be started; without specifications.md no review begins; the others are what a
-reviewer opens first.
+Without model, spawner or manifest the robot cannot be started; without specifications.md no review
+begins; the others are what a reviewer opens first. Parts that the package inherits from a sibling
+count as there.
 
 Fix: add the file; the guide's example package shows what each one holds.
 Source: Model Migration Guide, final directory structure; Robot Model Checklist.

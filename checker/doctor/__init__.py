@@ -1,0 +1,1 @@
+"""Says whether everything works where the checker is installed; the command `doctor`."""

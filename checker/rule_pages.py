@@ -1,0 +1,151 @@
+"""The rule book as Markdown (`docs/rules`): a page for each group, written from the rules."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
+from pathlib import PurePosixPath
+from textwrap import dedent
+from typing import Any
+
+from checker.page import parse_page
+from checker.profiles import profile, profile_names
+from checker.rule import Rule
+
+_GENERATED = "This page is generated from the rules: `make golden`."
+_SHORT = 16
+"""Lines of an example that is shown."""
+_CODE = re.compile(r"(?<!`)(`+)(?!`).*?(?<!`)\1(?!`)", re.DOTALL)
+_LANGUAGES = {".rb": "ruby", ".md": "markdown", ".yaml": "yaml", ".yml": "yaml", ".txt": "cmake"}
+"""By the suffix of a file; the others hold XML."""
+
+
+def pages(rules: Iterable[Rule]) -> dict[str, str]:
+    """Return the text of each page by its file name."""
+    groups = [
+        (group, list(members))
+        for group, members in groupby(sorted(rules, key=lambda r: r.id), lambda r: r.group)
+    ]
+    made = {f"{group}.md": _group_page(group, members) for group, members in groups}
+    return {"README.md": _index(groups), **made}
+
+
+def anchor(rule: Rule) -> str:
+    """Return the part of a link behind `#` that leads to a rule on its group's page."""
+    return f"{rule.id.lower()}-{rule.name}"
+
+
+def _index(groups: Sequence[tuple[str, Sequence[Rule]]]) -> str:
+    count = sum(len(members) for _, members in groups)
+    lines = ["# The rule book", "", f"{count} rules in {len(groups)} groups. {_GENERATED}", ""]
+    for group, members in groups:
+        lines += [f"## [{group}]({group}.md): {_about(members)}", ""]
+        lines += [f"- [{r.id}]({group}.md#{anchor(r)}) {_title(r)}" for r in members]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _group_page(group: str, members: Sequence[Rule]) -> str:
+    top = [f"# {group}: {_about(members)}", f"{_GENERATED} [All rules](README.md)"]
+    return "\n\n".join([*top, *(block for rule in members for block in _rule(rule))]) + "\n"
+
+
+def _about(members: Sequence[Rule]) -> str:
+    """Return what a group is about: the docstring of its folder, without its letters."""
+    folder = sys.modules[members[0].check.__module__.rpartition(".")[0]]
+    said = inspect.getdoc(folder) or ""
+    return escaped(said.partition("\n")[0].partition(": ")[2].rstrip("."))
+
+
+def _title(rule: Rule) -> str:
+    return escaped(parse_page(rule.page).title)
+
+
+def _rule(rule: Rule) -> Iterator[str]:
+    page = parse_page(rule.page)
+    yield f"## {rule.id} {rule.name}"
+    yield f"{escaped(page.title)}."
+    yield f"Usually **{rule.severity}**; in the profiles {', '.join(_profiles(rule))}."
+    yield escaped(page.why)
+    yield f"**Fix:** {escaped(page.fix)}"
+    yield f"**Source:** {escaped(page.source)}"
+    if rule.options:
+        yield from _options(rule)
+    for words, examples in (("Reported", rule.bad), ("Right", rule.good)):
+        shown = next(filter(None, map(_example, examples)), "")
+        if shown:
+            yield f"{words}:"
+            yield shown
+
+
+def _profiles(rule: Rule) -> Iterator[str]:
+    """Yield the profiles that a rule belongs to, each with its severity where it differs."""
+    for judge in map(profile, profile_names()):
+        if judge.includes(rule):
+            other = judge.severity.get(rule.id, rule.severity)
+            yield f"`{judge.name}`" + (f" ({other})" if other != rule.severity else "")
+
+
+def _options(rule: Rule) -> Iterator[str]:
+    """Yield what the rule does, in the words that name its options, and their defaults."""
+    yield f"**Options**, below `[rules.{rule.id}]`. {escaped(inspect.getdoc(rule.check) or '')}"
+    rows = [f"| `{name}` | `{_as_toml(value)}` |" for name, value in rule.options.items()]
+    yield "\n".join(["| option | default |", "|---|---|", *rows])
+
+
+def _as_toml(value: object) -> str:
+    """Return a value as a settings file has it."""
+    match value:
+        case bool():
+            return str(value).lower()
+        case str():
+            return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        case tuple():
+            return f"[{', '.join(map(_as_toml, value))}]"
+        case _:
+            return str(value)
+
+
+def _example(example: object) -> str:
+    """Show an example that is short and all in one text; else nothing."""
+    match example:
+        case str():
+            return _fenced(example, "model.sdf")
+        case Mapping() if len(example) == 1:
+            ((path, text),) = example.items()
+            return _shown(path, text)
+        case _:
+            return ""
+
+
+def _shown(path: str, text: Any) -> str:
+    if not isinstance(text, str) or (path.startswith("@") and path not in ("@fragment", "@urdf")):
+        return ""
+    block = _fenced(text, "model.sdf" if path.startswith("@") else path)
+    return block if path.startswith("@") or not block else f"`{path}`\n\n{block}"
+
+
+def _fenced(text: str, path: str) -> str:
+    code = dedent(text.strip("\n")).rstrip()
+    if not code or len(code.splitlines()) > _SHORT or "```" in code:
+        return ""
+    language = _LANGUAGES.get(PurePosixPath(path).suffix, "xml")
+    return f"```{language}\n{code}\n```"
+
+
+def escaped(text: str) -> str:
+    """Return a docstring's text so that Markdown shows it as it stands; code in backticks stays."""
+    parts, end = [], 0
+    for code in _CODE.finditer(text):
+        parts += [_escaped(text[end : code.start()]), code[0]]
+        end = code.end()
+    return "".join([*parts, _escaped(text[end:])])
+
+
+def _escaped(text: str) -> str:
+    text = re.sub(r"([\\`<&*~\[\]|]|(?<!\w)_|_(?!\w))", r"\\\1", text)
+    text = re.sub(r"(?m)^(\s*)([-+#>=])", r"\1\\\2", text)
+    return re.sub(r"(?m)^(\s*\d+)([.)])", r"\1\\\2", text)

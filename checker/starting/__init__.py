@@ -1,0 +1,1 @@
+"""What a repository needs to be checked: settings and a commit hook; the command `init`."""

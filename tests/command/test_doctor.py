@@ -1,0 +1,115 @@
+"""`subt-check doctor`: what is needed works, and what is missing is named."""
+
+from __future__ import annotations
+
+import platform
+import sys
+from importlib.metadata import PackageNotFoundError
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checker.doctor import installation, self_test
+from checker.doctor.command import doctor
+from checker.doctor.installation import numbers
+from checker.doctor.result import Result, State
+from checker.doctor.surroundings import surroundings
+from tests.command.conftest import Run
+from tests.conftest import SAMPLES
+
+BROKEN = "broken_rover_sensor_config_1"
+
+
+def states(text: str) -> dict[str, str]:
+    """Return `ok`, `note` or `problem` by the first word of what it is said of."""
+    lines = [line.split() for line in text.splitlines()[:-1]]
+    return {words[1].rstrip(":"): words[0] for words in lines}
+
+
+def test_all_that_is_needed_works_here(run: Run, tmp_path: Path) -> None:
+    done = run("doctor", SUBT_CHECK_CACHE=str(tmp_path / "cache"))
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert done.stdout.endswith("everything that is needed works\n")
+    said = states(done.stdout)
+    needed = {"subt-check", "Python", "libraries", "cache", "self-test"}
+    assert {said[each] for each in needed} == {"ok"}
+    assert {said["pictures"], said["3D"]} <= {"ok", "note"}
+    assert f"cache {tmp_path}/cache: 0 entries" in done.stdout
+    assert f"Python {platform.python_version()} ({sys.executable})" in done.stdout
+
+
+def test_a_cache_that_cannot_be_written_is_a_note(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("SUBT_CHECK_CACHE", str(tmp_path / "file/cache"))
+    found = next(surroundings())
+    assert found.state is State.NOTE
+    assert found.what.startswith(f"cache {tmp_path}/file/cache cannot be written to (Not a dir")
+
+
+def test_a_missing_library_is_a_problem(run: Run, tmp_path: Path) -> None:
+    """A folder that comes first on the path and has a library that cannot be imported."""
+    (tmp_path / "lxml").mkdir()
+    (tmp_path / "lxml/__init__.py").write_text("raise ImportError('no lxml here')")
+    done = run("doctor", PYTHONPATH=str(tmp_path))
+    assert done.returncode == 1
+    assert "problem self-test cannot begin: no lxml here; install subt-check again" in done.stdout
+
+
+def test_a_library_that_is_missing_or_too_old_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    wanted = ["lxml>=999.1", "no-such-library>=1.0", "dbos>=999; extra == 'service'", "numpy>=2.0"]
+    monkeypatch.setattr(installation, "requires", lambda _: wanted)
+    old, missing, rest = list(installation.installation())[-3:]
+    assert (old.state, missing.state, rest.state) == (State.PROBLEM, State.PROBLEM, State.OK)
+    assert old.what.endswith("expected 999.1 or newer")
+    assert old.advice == "pip install --upgrade 'lxml>=999.1'"
+    assert str(missing) == (
+        "problem no-such-library is not installed; pip install 'no-such-library>=1.0'"
+    )
+
+
+def test_without_an_installation_the_versions_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
+    def nothing(name: str) -> list[str]:
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr(installation, "requires", nothing)
+    assert list(installation.installation())[-1].state is State.NOTE
+
+
+def test_a_robot_with_faults_fails_the_self_test(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(self_test, "sample", lambda: SAMPLES / BROKEN)
+    assert doctor() == 1
+    assert "problem self-test fails: " in capsys.readouterr().out
+
+
+def test_a_sample_that_is_not_there_fails_the_self_test(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(self_test, "sample", lambda: tmp_path / "gone")
+    assert self_test.self_test().state is State.PROBLEM
+
+
+@pytest.mark.parametrize(
+    ("version", "expected"),
+    [("2.0", (2,)), ("4.1.0rc1", (4, 1)), ("1.0.0.post1", (1,)), ("", ()), ("unknown", ())],
+)
+def test_numbers_of_a_version(version: str, expected: tuple[int, ...]) -> None:
+    assert numbers(version) == expected
+
+
+@given(*[st.lists(st.integers(0, 99), min_size=1, max_size=4)] * 2)
+def test_versions_are_ordered_by_their_numbers(one: list[int], other: list[int]) -> None:
+    length = max(len(one), len(other))
+    padded = [each + [0] * (length - len(each)) for each in (one, other)]
+    shown = [numbers(".".join(map(str, each))) for each in (one, other)]
+    assert (shown[0] < shown[1]) == (padded[0] < padded[1])
+
+
+def test_a_line_says_what_to_do() -> None:
+    assert str(Result(State.OK, "cache")) == "ok      cache"
+    assert str(Result(State.NOTE, "no OpenGL", "install it")) == "note    no OpenGL; install it"

@@ -1,0 +1,147 @@
+"""The action for GitHub: its steps, run by bash as a runner runs them."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from checker import cli
+from tests.conftest import SAMPLES
+from tests.repository.conftest import BROKEN, GOOD, ROOT
+
+ACTION: dict[str, Any] = yaml.safe_load((ROOT / "action.yml").read_text("utf-8"))
+INSTALL, CHECK = ACTION["runs"]["steps"]
+_INPUT = re.compile(r"\$\{\{ inputs\.([\w-]+) \}\}")
+
+
+@pytest.fixture(scope="module")
+def runner(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """The environment of a runner on which the first step has been done.
+
+    The project is really installed; the libraries, 900 MB of them, are those of the tests.
+    """
+    temporary = tmp_path_factory.mktemp("runner")
+    given = {"RUNNER_TEMP": str(temporary), "GITHUB_ACTION_PATH": str(ROOT)}
+    environment = {**os.environ, **given, "GITHUB_OUTPUT": str(temporary / "output")}
+    own = temporary / "subt-check"
+    pip = [own / "bin/pip", "install", "-q", "-c", ROOT / "constraints.txt", "hatchling"]
+    subprocess.run(["python3", "-m", "venv", own], check=True)
+    subprocess.run(pip, check=True)
+    without = {"PIP_NO_DEPS": "1", "PIP_NO_BUILD_ISOLATION": "0"}
+    done = bash(INSTALL["run"], environment | without, temporary)
+    assert done.returncode == 0, done.stdout + done.stderr
+    installed = sysconfig.get_path("purelib")
+    deeper = [place for place in sys.path if place.startswith(installed + os.sep)]
+    (packages,) = own.glob("lib/python*/site-packages")
+    (packages / "running.pth").write_text("\n".join([installed, *deeper, ""]))
+    return environment
+
+
+def bash(
+    script: str, environment: dict[str, str], folder: Path
+) -> subprocess.CompletedProcess[str]:
+    """Run a script as `shell: bash` does."""
+    command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", script]
+    return subprocess.run(
+        command, env=environment, cwd=folder, capture_output=True, text=True, check=False
+    )
+
+
+def check(runner: dict[str, str], folder: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
+    """Run the second step with inputs, in words with `_` for `-`."""
+    defaults = {name: str(given["default"]) for name, given in ACTION["inputs"].items()}
+    values = defaults | {name.replace("_", "-"): value for name, value in inputs.items()}
+    own = {
+        name: _INPUT.sub(lambda found: values[found.group(1)], text)
+        for name, text in CHECK["env"].items()
+    }
+    return bash(CHECK["run"], {**runner, **own}, folder)
+
+
+@pytest.fixture
+def checkout(tmp_path: Path) -> Path:
+    for name in (GOOD, BROKEN):
+        shutil.copytree(SAMPLES / name, tmp_path / name)
+    return tmp_path
+
+
+def outputs(runner: dict[str, str]) -> dict[str, str]:
+    lines = Path(runner["GITHUB_OUTPUT"]).read_text("utf-8").splitlines()
+    return dict(line.split("=", 1) for line in lines)
+
+
+def test_no_input_stands_in_a_script() -> None:
+    for step in ACTION["runs"]["steps"]:
+        assert step["shell"] == "bash"
+        assert "${{" not in step["run"]
+    taken = {name for text in CHECK["env"].values() for name in _INPUT.findall(text)}
+    assert taken == set(ACTION["inputs"])
+
+
+def test_inputs_name_all_profiles() -> None:
+    said = ACTION["inputs"]["profile"]["description"]
+    assert all(profile in said for profile in cli.PROFILES)
+
+
+def test_the_page_tells_of_all_inputs_and_outputs() -> None:
+    page = (ROOT / "docs/github-actions.md").read_text("utf-8")
+    told = re.findall(r"(?m)^\| `([\w-]+)` \|", page)
+    assert told == [*ACTION["inputs"], *reversed(ACTION["outputs"])]
+    (workflow,) = re.findall(r"(?s)```yaml\n(.*?)```", page)
+    (job,) = yaml.safe_load(workflow)["jobs"].values()
+    (step,) = (each for each in job["steps"] if each.get("id") == "check")
+    assert set(step["with"]) <= set(ACTION["inputs"])
+    assert set(re.findall(r"steps\.check\.outputs\.(\w+)", workflow)) == set(ACTION["outputs"])
+
+
+def test_a_good_package_passes(runner: dict[str, str], checkout: Path) -> None:
+    done = check(runner, checkout, path=GOOD, trial="false")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "::error" not in done.stdout
+
+
+def test_faults_are_annotations_and_sarif(runner: dict[str, str], checkout: Path) -> None:
+    done = check(runner, checkout, path=f"{GOOD}\n\n{BROKEN}\n", trial="false")
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert re.search(rf"^::error .*file={BROKEN}/model\.sdf,line=39\b", done.stdout, re.MULTILINE)
+    written = outputs(runner)
+    (run,) = json.loads(Path(written["sarif"]).read_text("utf-8"))["runs"]
+    assert "REF001" in {result["ruleId"] for result in run["results"]}
+    assert Path(written["sarif"]).parent == Path(written["report"])
+
+
+def test_warnings_fail_where_the_workflow_says_so(runner: dict[str, str], checkout: Path) -> None:
+    (checkout / GOOD / "launch/example.ign").unlink()
+    assert check(runner, checkout, path=GOOD, trial="false").returncode == 0
+    assert check(runner, checkout, path=GOOD, trial="false", fail_on="warning").returncode == 1
+
+
+@pytest.mark.parametrize(
+    "inputs",
+    [
+        {"path": "'; touch run #"},
+        {"path": '"; touch run; "'},
+        {"path": "$(touch run)"},
+        {"path": "`touch run`\n--output=run"},
+        {"profile": "$(touch run)"},
+        {"profile": "sdf --output run"},
+        {"fail_on": "error; touch run"},
+    ],
+    ids=str,
+)
+def test_nothing_in_an_input_is_run(
+    runner: dict[str, str], checkout: Path, inputs: dict[str, str]
+) -> None:
+    done = check(runner, checkout, **{"path": GOOD, "trial": "false", **inputs})
+    assert done.returncode == 2
+    assert not (checkout / "run").exists()
