@@ -5,6 +5,9 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass
 
+SNIPPET_LIMIT = 240
+"""Characters of a line that a place keeps."""
+
 
 class Severity(enum.StrEnum):
     """How grave a finding is.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 from checker.cache import Cache
@@ -32,6 +33,9 @@ from checker.stages import Stages
 from checker.subject import Subject
 from checker.suppressing import run_and_set_aside
 from checker.trial.robot_trial import RobotTrial
+
+_PATCHED = 2000
+"""Findings whose fixes a report's patch holds; `--fix` makes all."""
 
 
 def judged(
@@ -126,7 +130,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         suppressed=outcome.suppressed,
         looked=tuple(outcome.looked),
         display=display,
-        patch=_patch(package, outcome.findings) if settings.display else "",
+        patch=_patch(subject, outcome.findings) if settings.display else "",
     )
 
 
@@ -137,12 +141,15 @@ def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]
         return {}, (crashed("facts", error),)
 
 
-def _patch(package: Package, findings: tuple[ReportedFinding, ...]) -> str:
+def _patch(subject: Subject, findings: tuple[ReportedFinding, ...]) -> str:
     """Return what the safe fixes change, for those who want to see it."""
     from checker.patching.patch import patch
     from checker.patching.rounds import one_round
 
-    return patch(one_round(package, findings, (Safety.SAFE,)))
+    # Who needs a patch that cannot be made asks for it, and hears why.
+    with subject.stages.stage("patch"), suppress(Exception):
+        return patch(one_round(subject.package, findings[:_PATCHED], (Safety.SAFE,)))
+    return ""
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:

@@ -57,8 +57,9 @@ def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
 
 
 def remember(cache: Cache, key: str, report: PackageReport) -> None:
-    """Keep a report, unless something could not be looked at: it may be there the next time."""
-    if key and not report.blind_spots:
+    """Keep a report, unless something was not at hand or not drawn: it may be the next time."""
+    undrawn = report.display is not None and not report.display.pictures
+    if key and not report.blind_spots and not undrawn:
         cache.put(KIND, key, to_stored(report))
 
 

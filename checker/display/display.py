@@ -17,7 +17,7 @@ from checker.report.report import Display
 if TYPE_CHECKING:
     from checker.trial.trial import Trial
 
-BYTES = 6_000_000
+BYTES = 4_500_000
 """The most that a GLB takes: a report with it stays below 10 MB."""
 
 _MARKS = (Layer.INERTIA, Layer.FRAME, Layer.JOINT, Layer.MASS, Layer.VIEW)

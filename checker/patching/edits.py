@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, insort
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -28,7 +29,11 @@ class Stretch:
 
 @dataclass
 class EditedText:
-    """A text and the edits gathered for it."""
+    """A text and the edits gathered for it.
+
+    Attributes:
+        stretches: In the order of the text; none collides with another.
+    """
 
     source: SourceText
     stretches: list[Stretch] = field(default_factory=list)
@@ -40,18 +45,24 @@ class EditedText:
 
     def accepts(self, stretch: Stretch) -> bool:
         """Whether a stretch is free; one that is to become the same text already is."""
-        return all(stretch == each or not stretch.collides(each) for each in self.stretches)
+        beside = self._beside(stretch)
+        return stretch in beside or not any(map(stretch.collides, beside))
 
     def add(self, stretch: Stretch) -> None:
-        """Take a stretch among the edits."""
-        if stretch not in self.stretches:
-            self.stretches.append(stretch)
+        """Take a stretch that the text accepts among the edits."""
+        if stretch not in self._beside(stretch):
+            insort(self.stretches, stretch)
+
+    def _beside(self, stretch: Stretch) -> list[Stretch]:
+        """Return the stretches in front of and behind a place; one that is further off is free."""
+        behind = bisect_left(self.stretches, stretch)
+        return self.stretches[max(behind - 1, 0) : behind + 1]
 
     @property
     def result(self) -> str:
         """The text after all edits."""
         pieces, end = [], 0
-        for each in sorted(self.stretches):
+        for each in self.stretches:
             pieces += [self.source.text[end : each.start], each.replacement]
             end = each.end
         return "".join((*pieces, self.source.text[end:]))

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from difflib import unified_diff
 
 from checker.patching.rounds import FixedFile
+from checker.report.wording import plain
 
 _NO_NEWLINE = "\\ No newline at end of file\n"
 
@@ -14,10 +15,11 @@ def patch(files: Iterable[FixedFile], folder: str = "") -> str:
     """Return the changes as a unified diff.
 
     Args:
-        files: What changes.
+        files: What changes; those whose names would break the patch are left out.
         folder: What to put in front of the paths, such as the package's name.
     """
-    return "".join(line for file in files for line in _diff(file, folder))
+    named = (file for file in files if plain(file.path) == file.path)
+    return "".join(line for file in named for line in _diff(file, folder))
 
 
 def _diff(file: FixedFile, folder: str) -> Iterator[str]:

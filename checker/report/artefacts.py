@@ -6,13 +6,16 @@ from collections.abc import Callable, Iterator
 from itertools import chain
 from urllib.parse import quote
 
-from checker.report.formats import FORMATS, Manner
+from checker.report.formats import FORMATS
+from checker.report.manner import Manner
 from checker.report.report import PackageReport, Report
 
 Artefact = tuple[str, str | bytes]
 """Path of a file, relative to the folder, and what it holds."""
 
-PAGE = "report.html"
+PAGE, INDEX, MODEL = "report.html", "index.html", "robot.glb"
+STALE = (PAGE, INDEX, MODEL)
+"""Files of an earlier run that this one may not write anew: they would tell of something else."""
 
 
 def _for_programs(report: Report, manner: Manner) -> Iterator[Artefact]:
@@ -30,7 +33,7 @@ def _for_people(report: Report, manner: Manner) -> Iterator[Artefact]:
     folders = _folders(report)
     for package, folder in zip(report.packages, folders, strict=True):
         yield from _package(package, report, manner, f"{folder}/")
-    yield "index.html", to_index(report, [f"{quote(folder)}/{PAGE}" for folder in folders])
+    yield INDEX, to_index(report, [f"{quote(folder)}/{PAGE}" for folder in folders])
 
 
 def _package(
@@ -38,9 +41,9 @@ def _package(
 ) -> Iterator[Artefact]:
     from checker.report.html.page import to_html
 
-    yield prefix + PAGE, to_html(package, report.versions, manner.folder)
+    yield prefix + PAGE, to_html(package, report, manner)
     if package.display is not None:
-        yield f"{prefix}robot.glb", package.display.glb
+        yield prefix + MODEL, package.display.glb
 
 
 def _folders(report: Report) -> list[str]:

@@ -3,23 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
-from checker.report.palette import Palette
+from checker.report.manner import Manner
 from checker.report.report import Report
-
-
-@dataclass(frozen=True)
-class Manner:
-    """What a format may need to know besides the report.
-
-    Attributes:
-        palette: Colours for a terminal.
-        folder: Where the command was run, absolute; paths of the report start there.
-    """
-
-    palette: Palette
-    folder: str
 
 
 def _text(report: Report, manner: Manner) -> str:
@@ -64,7 +50,7 @@ def _html(report: Report, manner: Manner) -> str:
 
     if len(report.packages) != 1:
         return to_index(report, ())
-    return to_html(report.packages[0], report.versions, manner.folder)
+    return to_html(report.packages[0], report, manner)
 
 
 FORMATS: Mapping[str, Callable[[Report, Manner], str]] = {

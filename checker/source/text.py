@@ -7,12 +7,10 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import ClassVar, Generic, Protocol, TypeVar
 
-from checker.finding import Edit, Place
+from checker.finding import SNIPPET_LIMIT, Edit, Place
 from checker.source.record import record
 
 T = TypeVar("T")
-
-SNIPPET_LIMIT = 240
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,8 @@ from hypothesis import given
 
 from checker import cli
 from checker.output import EXIT_CLEAN, EXIT_FINDINGS
-from checker.report.formats import FORMATS, Manner
+from checker.report.formats import FORMATS
+from checker.report.manner import Manner
 from checker.report.palette import Palette
 from checker.report.report import Report
 from checker.report.stored import from_stored, to_stored

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from checker.finding import Edit, Fix, Place
+from checker.finding import SNIPPET_LIMIT, Edit, Fix, Place
 from checker.report.wording import plain, shortened
 
 WIDTH = 400
 """Characters of a line that are shown."""
 _LEAD = 120
 """Of them at most in front of the mark."""
-_EDITS_SHOWN = 40
-_LINES_SHOWN = 40
+_EDITS_SHOWN = 20
+_LINES_SHOWN = 20
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,8 @@ def changes_of(fix: Fix) -> Iterator[Change]:
 def _lines_around(edit: Edit) -> tuple[str, str]:
     """Return the whole lines before and after an edit, where the place knows them."""
     place = edit.place
-    if place.end_line == place.line and place.snippet:
+    known = place.end_column - 1 <= len(place.snippet) < SNIPPET_LIMIT
+    if place.end_line == place.line and place.snippet and known:
         head, tail = place.snippet[: place.column - 1], place.snippet[place.end_column - 1 :]
         return place.snippet.strip(), f"{head}{edit.replacement}{tail}".strip()
     return edit.original, edit.replacement

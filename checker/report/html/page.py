@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import shlex
 from base64 import b64encode
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache
 from itertools import chain, repeat
 from typing import TYPE_CHECKING, Any
@@ -15,8 +15,14 @@ from checker.report.fact_words import facts_in_words
 from checker.report.figures import rows_of
 from checker.report.html.findings import groups_of
 from checker.report.html.plots import plots_of, spans_of
-from checker.report.html.unchecked import reasons_of, suppressed_of
+from checker.report.html.unchecked import (
+    SHOWN,
+    reasons_of,
+    suppressed_of,
+    why_not_driven,
+)
 from checker.report.json_report import to_json
+from checker.report.manner import Manner
 from checker.report.report import PackageReport, Report, VerdictKind
 from checker.report.sarif import to_sarif
 from checker.report.verdict import sentence
@@ -31,34 +37,41 @@ SCRIPTS = ("findings.js", "plots.js", "stage.js")
 """The page's own behaviour, in the order of their dependence."""
 VIEWER = "viewer.js"
 """The 3D viewer, built from `templates/viewer`; a page without it shows pictures."""
-DOWNLOAD_LIMIT = 3_000_000
-"""Bytes of JSON that a page carries along; more is had by `--format json`."""
+DOWNLOADS_LIMIT = 1_500_000
+"""Bytes of other reports that a page carries along; `--report` writes them beside it."""
 
 
-def to_html(package: PackageReport, versions: Mapping[str, str], folder: str) -> str:
+def to_html(package: PackageReport, report: Report, manner: Manner) -> str:
     """Return the page of one package.
 
     Args:
         package: What was found out.
-        versions: Of the program and its libraries, by name.
-        folder: Where the command was run, absolute; the SARIF file's paths start there.
+        report: Of the run that it belongs to.
+        manner: Where the command was run, and which it was.
     """
     script = _script(with_viewer=package.display is not None)
+    trial = package.trial
     return environment().get_template("report.html.j2").render(
         package=package,
         sentence=sentence(package),
         groups=groups_of(package.findings),
         counts=[(level, package.count(level)) for level in Severity],
         facts=[(plain(fact.name), plain(fact.value)) for fact in facts_in_words(package.facts)],
-        reasons=reasons_of(package.not_checked),
+        reasons=reasons_of(package.not_checked)[:SHOWN],
+        more_reasons=max(0, len(reasons_of(package.not_checked)) - SHOWN),
+        unchecked=len({each.rule for each in package.not_checked}),
         suppressed=suppressed_of(package.suppressed),
-        trial=package.trial,
-        rows=rows_of(package.trial["measurements"]) if package.trial else [],
-        plots=plots_of(package.trial) if package.trial else [],
-        spans=spans_of(package.trial["course"]) if package.trial else [],
-        downloads=_downloads(Report((package,), versions), folder),
+        more_suppressed=max(0, len(package.suppressed) - SHOWN),
+        not_opened=report.not_opened,
+        trial=trial,
+        why_not_driven=why_not_driven(package.not_checked),
+        rows=rows_of(trial["measurements"]) if trial else [],
+        plots=plots_of(trial) if trial else [],
+        spans=spans_of(trial["course"]) if trial else [],
+        downloads=_downloads(Report((package,), report.versions), manner.folder),
         has_viewer=package.display is not None and has_viewer(),
-        versions=versions,
+        command=manner.command,
+        versions=report.versions,
         style=text_of("report.css"),
         script=script,
         script_hash=_hash(script),
@@ -141,14 +154,17 @@ def _hash(script: str) -> str:
 
 
 def _downloads(report: Report, folder: str) -> list[dict[str, Any]]:
-    """Return the files that a page carries along."""
+    """Return the files that a page carries along, as many as there is room for."""
     made = [
-        ("report.json", "application/json", to_json(report).encode()),
-        ("report.sarif", "application/json", to_sarif(report, folder).encode()),
-        ("fixes.patch", "text/plain", report.packages[0].patch.encode()),
+        ("fixes.patch", "text/plain", report.packages[0].patch),
+        ("report.json", "application/json", to_json(report)),
+        ("report.sarif", "application/json", to_sarif(report, folder)),
     ]
-    return [
-        {"name": name, "url": data_url(content, kind)}
-        for name, kind, content in made
-        if 0 < len(content) <= DOWNLOAD_LIMIT
-    ]
+    room = DOWNLOADS_LIMIT
+    carried = []
+    for name, kind, text in made:
+        content = text.encode("utf-8", "surrogatepass")
+        if 0 < len(content) <= room:
+            room -= len(content)
+            carried.append({"name": name, "url": data_url(content, kind)})
+    return carried

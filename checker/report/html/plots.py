@@ -175,7 +175,9 @@ def _near_zero(low: float, high: float) -> bool:
 
 
 def _ticks(low: float, high: float) -> tuple[Tick, ...]:
-    """Return two or three round values on the axis."""
+    """Return two or three round values on the axis; none where figures are beyond all bounds."""
+    if not 0.0 < high - low < math.inf:
+        return ()
     step = 10 ** math.floor(math.log10((high - low) / 2))
     step *= next((factor for factor in (5, 2) if (high - low) / (step * factor) >= 2), 1)
     first = math.ceil(low / step)

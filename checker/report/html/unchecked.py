@@ -9,7 +9,8 @@ from checker.report.report import Cause, NotChecked, Suppressed
 from checker.report.wording import plain, shortened
 
 _TEXT_LIMIT = 600
-_SHOWN = 300
+SHOWN = 300
+"""Entries of a list; what goes beyond is counted."""
 _CAUSES = {
     Cause.CRASHED: "went wrong",
     Cause.NOT_AT_HAND: "not at hand",
@@ -48,12 +49,12 @@ def reasons_of(not_checked: Sequence[NotChecked]) -> list[Reason]:
     ordered = sorted(found.items(), key=lambda item: order.index(item[0][0]))
     return [
         Reason(_CAUSES[cause], plain(shortened(reason, _TEXT_LIMIT)), tuple(dict.fromkeys(rules)))
-        for (cause, reason), rules in ordered[:_SHOWN]
+        for (cause, reason), rules in ordered
     ]
 
 
 def suppressed_of(suppressed: Sequence[Suppressed]) -> list[SetAside]:
-    """Return what was set aside, as the page shows it."""
+    """Return what was set aside, as far as the page shows it."""
     return [
         SetAside(
             plain(each.finding.rule),
@@ -62,5 +63,11 @@ def suppressed_of(suppressed: Sequence[Suppressed]) -> list[SetAside]:
             str(each.by),
             plain(shortened(each.reason, _TEXT_LIMIT)),
         )
-        for each in suppressed[:_SHOWN]
+        for each in suppressed[:SHOWN]
     ]
+
+
+def why_not_driven(not_checked: Sequence[NotChecked]) -> str:
+    """Return why the rules on the trial did not look; empty where they say nothing."""
+    reasons = (each.reason for each in not_checked if each.rule.startswith("TRI"))
+    return plain(shortened(next(reasons, ""), _TEXT_LIMIT))

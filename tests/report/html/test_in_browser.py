@@ -11,6 +11,8 @@ import pytest
 
 from checker.check import check_package
 from checker.report.html.page import to_html
+from checker.report.manner import Manner
+from checker.report.palette import Palette
 from checker.settings import Settings
 from tests.browser import watched_page, without_webgl
 from tests.conftest import SAMPLES
@@ -34,7 +36,8 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], str]:
         file: Path = folder / f"{name}.html"
         if not file.exists():
             found = check_package(SAMPLES / name, Settings(display=True))
-            file.write_text(to_html(found.packages[0], found.versions, str(SAMPLES)), "utf-8")
+            manner = Manner(Palette(enabled=False), str(SAMPLES))
+            file.write_text(to_html(found.packages[0], found, manner), "utf-8")
         return file.as_uri()
 
     return made

@@ -12,6 +12,8 @@ from lxml import html
 
 from checker.finding import Edit, Fix, Place, Safety, Severity
 from checker.report.html.page import to_html, to_index, with_code
+from checker.report.manner import Manner
+from checker.report.palette import Palette
 from checker.report.report import (
     Cause,
     NotChecked,
@@ -58,8 +60,13 @@ def package(text: str, findings: int = 1) -> PackageReport:
     )  # fmt: skip
 
 
+def rendered(package: PackageReport, command: str = "") -> str:
+    manner = Manner(Palette(enabled=False), "/work", command)
+    return to_html(package, Report((package,), VERSIONS), manner)
+
+
 def page(report: PackageReport) -> html.HtmlElement:
-    return html.fromstring(to_html(report, VERSIONS, "/work"))
+    return html.fromstring(rendered(report))
 
 
 def skeleton(tree: html.HtmlElement) -> list[tuple[str, tuple[str, ...]]]:
@@ -84,7 +91,7 @@ def test_any_text_leaves_the_page_as_it_is(text: str) -> None:
 
 
 def test_nothing_is_asked_for_outside() -> None:
-    said = to_html(package("rover"), VERSIONS, "/work")
+    said = rendered(package("rover"))
     assert not re.search(r"""(?:src|href)=["']?(?:https?:)?//""", said)
     policy = page(package("rover")).xpath("//meta[@http-equiv]/@content")[0]
     assert policy.startswith("default-src 'none'")
@@ -93,7 +100,7 @@ def test_nothing_is_asked_for_outside() -> None:
 
 def test_ten_thousand_findings_are_capped_and_counted() -> None:
     report = package("rover", findings=10_000)
-    said = to_html(report, VERSIONS, "/work")
+    said = rendered(report)
     tree = html.fromstring(said)
     assert len(said) < 5_000_000
     shown = len(tree.xpath("//section[contains(@class, 'finding')]"))
