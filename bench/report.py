@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from bench.static import ROOT, real_packages
+from bench.static import ROOT, keep_bytecode, real_packages
 from tests.browser import started
 
 SIZE_LIMIT, EXTRA_LIMIT, OPEN_LIMIT = 10.0, 2.0, 3.0
@@ -76,6 +76,7 @@ def measured(package: Path, folder: Path) -> Cost:
 
 def main() -> None:
     """Measure and print everything."""
+    keep_bytecode()
     costs = []
     print(f"{'':<36} {'cold':>7} {'warm':>7} {'MB':>6} {'open':>6}")
     for package in real_packages():

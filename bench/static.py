@@ -75,6 +75,11 @@ def show(name: str, value: float) -> None:
     print(f"{name:<32} {value:8.3f} s{judged}")
 
 
+def keep_bytecode() -> None:
+    """Let the processes that are measured keep compiled sources, as those of users do."""
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+
 def real_packages() -> list[Path]:
     """Return the packages of the corpus, else the samples."""
     folder = Path(os.environ.get("SUBT_CHECK_CORPUS") or ROOT / "samples")
@@ -83,6 +88,7 @@ def real_packages() -> list[Path]:
 
 def main() -> None:
     """Measure and print everything."""
+    keep_bytecode()
     packages = real_packages()
     with tempfile.TemporaryDirectory() as folder:
         os.environ["SUBT_CHECK_CACHE"] = folder

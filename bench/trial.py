@@ -115,6 +115,8 @@ def show_commands(folder: Path) -> None:
 
 def main() -> None:
     """Measure and print everything."""
+    # The processes that are measured keep compiled sources, as those of users do.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     with tempfile.TemporaryDirectory() as folder:
         show_commands(Path(folder))
     # Before this process drives itself: the figure is the largest of all processes below it.
