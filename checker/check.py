@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 
 from checker.cache import NO_CACHE, Cache, cache_folder
 from checker.collection import collection_put_off
-from checker.errors import UnreadableInput
+from checker.errors import InvalidSettings, UnreadableInput
 from checker.package.opening import open_input
 from checker.package.package import Package
 from checker.recall import memory_key, recalled, remember
@@ -20,6 +21,7 @@ from checker.report.report import (
     PackageReport,
     Report,
 )
+from checker.report.wording import shortened
 from checker.saying import Say, say_nothing
 from checker.settings import Settings, find_settings, folders_above
 from checker.versions import versions
@@ -34,7 +36,8 @@ def check_package(path: Path, settings: Settings | None = None) -> Report:
 
     Raises:
         UnreadableInput: There is nothing to check at the path.
-        InvalidSettings: The settings name what does not exist.
+        InvalidSettings: The settings name what does not exist; not raised for those in a package's
+            own folder, which the report tells among what was not opened.
     """
     return _report([list(_check_input(Task(path, settings=settings)))])
 
@@ -51,7 +54,8 @@ def check_paths(
         say: Told what takes long when it begins; called in each of the processes.
 
     Raises:
-        InvalidSettings: The settings name what does not exist.
+        InvalidSettings: The settings name what does not exist; not raised for those in a package's
+            own folder, which the report tells among what was not opened.
     """
     tasks = [task for path in paths for task in _tasks(path, wishes, jobs, say)]
     if jobs > 1 and len(tasks) > 1:
@@ -114,6 +118,8 @@ def _tasks(path: Path, wishes: Mapping[str, Any], jobs: int, say: Say) -> list[T
 
 
 _Checked = list[PackageReport | NotOpened]
+_PROBLEM_LIMIT = 600
+"""Characters of what is wrong with settings."""
 
 
 def _check_or_say_why_not(task: Task) -> _Checked:
@@ -129,10 +135,41 @@ def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:
         opening = perf_counter() - started
         for package in opened.packages:
             if task.only in ("", package.name):
-                report = _recalled_or_judged(package, task)
-                yield replace(report, timings={"open": opening, **report.timings})
+                report = _checked(package, task)
+                if isinstance(report, PackageReport):
+                    report = replace(report, timings={"open": opening, **report.timings})
+                yield report
         for each in opened.skipped:
             yield NotOpened(str(task.path / each.name), each.reason, failed=False)
+
+
+def _checked(package: Package, task: Task) -> PackageReport | NotOpened:
+    """Check a package; where its own settings are at fault, the others are checked all the same."""
+    try:
+        return _recalled_or_judged(package, task)
+    except InvalidSettings as error:
+        if task.settings or error.path is None or not error.path.is_relative_to(package.root):
+            raise
+        file = error.path.relative_to(package.root)
+        problem = shortened(error.problem, _PROBLEM_LIMIT)
+        reason = f"is not checked: its settings cannot be used: {file}: {problem}"
+        return NotOpened(task.shown(package), reason, failed=True)
+
+
+def settings_of(path: Path) -> Iterator[Settings]:
+    """Yield the settings of each package at a path, but for those that cannot be used.
+
+    For packages in an archive these are the defaults: nothing that they name lasts.
+
+    Raises:
+        UnreadableInput: There is nothing to check at the path.
+    """
+    task = Task(path)
+    with open_input(path) as opened:
+        for package in opened.packages:
+            lasts = package.only or path.is_dir()
+            with suppress(InvalidSettings):
+                yield task.settings_for(package) if lasts else Settings()
 
 
 def _recalled_or_judged(package: Package, task: Task) -> PackageReport:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import product
 from typing import Any
 
 from checker.finding import Fix, Place, Safety, Severity
-from checker.fingerprint import fingerprint, numbered
+from checker.fingerprint import fingerprint, numbered, without_line_numbers
 from checker.options import options_of
 from checker.page import parse_page
 from checker.parts import NotAtHand, Parts
@@ -19,9 +19,9 @@ from checker.report.wording import shortened
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.settings import Settings
 from checker.suppression.silencing import Silencer, parted
+from checker.suppression.spots import Spot, spot
 from checker.trial.robot_trial import RepeatedTrial, RobotTrial
 
-_LINE_NUMBER = re.compile(r"\bline \d+")
 TEXT_LIMIT = 1000
 """Characters of a message, note or reason; names in a package may be longer than any of them."""
 
@@ -63,7 +63,8 @@ def run_rules(
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
         found = [each for each in said if isinstance(each, Finding)]
-        for silence, group in parted(rule.id, found, silencer).items():
+        spot_of = partial(_spot, rule, profile, settings)
+        for silence, group in parted(rule.id, found, silencer, spot_of).items():
             reported = _report(rule, group, profile, settings)
             if silence is None:
                 findings += reported
@@ -213,6 +214,13 @@ def _joined_fix(fixes: list[Fix]) -> Fix | None:
     return Fix(max((fix.safety for fix in fixes), key=list(Safety).index), tuple(edits))
 
 
+def _spot(rule: Rule, profile: Profile, settings: Settings, found: Finding) -> Spot:
+    """Return how the baseline knows a finding, in the words of the report."""
+    severity = _severity(rule, found, profile, settings)
+    message = shortened(found.message, TEXT_LIMIT)
+    return spot(rule.id, severity, found.places[0], found.key, message)
+
+
 def _severity(rule: Rule, found: Finding, profile: Profile, settings: Settings) -> Severity:
     """The user's word counts most, then the finding's, then the rule's; a profile can lower it."""
     if rule.id in settings.severity:
@@ -229,7 +237,7 @@ def _identity(found: Finding) -> str:
     has to do, without the numbers of lines in it.
     """
     message = "" if found.places[0].element else found.message
-    return _LINE_NUMBER.sub("line", found.key or message)
+    return without_line_numbers(found.key or message)
 
 
 def _sorted(findings: list[ReportedFinding]) -> list[ReportedFinding]:

@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Iterable
+
+_LINE_NUMBER = re.compile(r"\bline \d+")
 
 
 def fingerprint(*parts: str) -> str:
     """Return 16 hexadecimal digits that stand for these texts in this order."""
     return hashlib.sha256("\0".join(parts).encode(errors="surrogatepass")).hexdigest()[:16]
+
+
+def without_line_numbers(message: str) -> str:
+    """Return a message in which no number changes when lines move."""
+    return _LINE_NUMBER.sub("line", message)
 
 
 def numbered(bases: Iterable[str]) -> list[str]:
@@ -20,16 +28,3 @@ def numbered(bases: Iterable[str]) -> list[str]:
         seen[base] = number + 1
         distinct.append(fingerprint(base, str(number)) if number else base)
     return distinct
-
-
-def bases_of(fingerprints: Iterable[str]) -> list[str]:
-    """Undo `numbered`: return what each fingerprint was made of."""
-    seen: dict[str, int] = {}
-    expected: dict[str, str] = {}
-    bases = []
-    for each in fingerprints:
-        base = expected.pop(each, each)
-        seen[base] = seen.get(base, 0) + 1
-        expected[fingerprint(base, str(seen[base]))] = base
-        bases.append(base)
-    return bases

@@ -27,15 +27,25 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
     for id in (*settings.severity, *settings.options):
         if id not in by_id:
             raise InvalidSettings(settings.source, no_such_rule(id, by_id))
-    for entry in settings.suppress:
-        if entry.rule.upper() not in by_id and entry.rule.lower() not in known:
-            raise InvalidSettings(settings.source, no_such_rule(entry.rule, known))
+    _check_entries(settings, rules)
     if settings.baseline.fault:
         raise InvalidSettings(settings.baseline.path, settings.baseline.fault)
     for id in settings.options:
         options_of(by_id[id], settings)
     if rules and not any(map(settings.selects, rules)):
         raise InvalidSettings(settings.source, "select and ignore leave no rule to run")
+
+
+def _check_entries(settings: Settings, rules: Sequence[Rule]) -> None:
+    """Make sure that entries of `[[suppress]]` name single rules."""
+    groups = {rule.group for rule in rules}
+    single = {name for rule in rules for name in (rule.id, rule.name)}
+    for entry in settings.suppress:
+        if entry.rule.upper() in groups:
+            problem = f"suppress names the group {entry.rule!r}; entries name single rules"
+            raise InvalidSettings(settings.source, problem)
+        if entry.rule.upper() not in single and entry.rule.lower() not in single:
+            raise InvalidSettings(settings.source, no_such_rule(entry.rule, single))
 
 
 def no_such_rule(name: str, known: Iterable[str]) -> str:

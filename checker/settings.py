@@ -253,12 +253,19 @@ def _suppressed(value: Any, path: Path) -> tuple[SettingsEntry, ...]:
 
 def _baseline(value: Any, path: Path) -> Baseline:
     """Read the baseline beside a settings file: a stranger's may not name files elsewhere."""
-    folder = path.parent.resolve()
     inside = normal_path(value) if isinstance(value, str) else None
-    if inside is None or not (folder / inside).resolve().is_relative_to(folder):
+    if inside is None or not _lies_in(path.parent, inside):
         expected = "expected the path of a file in the folder of these settings or below"
         raise InvalidSettings(path, f"baseline is {value!r}, {expected}")
     return read_baseline(path.parent / inside)
+
+
+def _lies_in(folder: Path, inside: str) -> bool:
+    """Say whether a path stays in a folder; not so one that cannot be followed to its end."""
+    try:
+        return (folder / inside).resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError, ValueError):
+        return False
 
 
 def _one_of(key: str, value: Any, choices: Sequence[str], path: Path) -> str:

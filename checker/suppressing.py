@@ -1,13 +1,13 @@
 """Runs the rules, and judges at the end how their findings were set aside.
 
-Rules about suppressions need to know what all others found; those about the baseline, what is
-left after the suppressions.
+Rules about suppressions need to know what all others found; those about the baseline, which of its
+entries nothing was found of.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from checker.discovery import all_rules
 from checker.engine import Outcome, joined, run_rules
@@ -16,8 +16,6 @@ from checker.profiles import Profile
 from checker.rule import Rule
 from checker.settings import Settings
 from checker.subject import Subject
-from checker.suppression.baseline import BaselineEntry
-from checker.suppression.matching import matched, stale_by_rule
 from checker.suppression.parts import BaselineUse, Suppressions
 from checker.suppression.silencing import Silencer
 
@@ -42,11 +40,13 @@ def run_and_set_aside(
     of_baseline = [rule for rule in rules if BaselineUse in rule.needs.values()]
     first = [rule for rule in rules if rule not in (*of_suppressions, *of_baseline)]
 
-    silencer = Silencer(subject.package, settings.suppress, all_rules())
+    held = settings.baseline.packages.get(subject.package.name, ())
+    silencer = Silencer(subject.package, settings.suppress, all_rules(), held)
     outcome = run_rules(first, subject, profile, settings, silencer)
     used = silencer.suppressions(_looked(outcome), settings.source)
     said = run_rules(of_suppressions, _With(subject, used), profile, settings, silencer)
-    outcome, stale = _without_baseline(joined(outcome, said), subject.package.name, settings)
+    outcome = joined(outcome, said)
+    stale = _stale(silencer, outcome, settings)
     said = run_rules(of_baseline, _With(subject, stale), profile, settings, silencer)
     return joined(outcome, said)
 
@@ -56,16 +56,8 @@ def _looked(outcome: Outcome) -> set[str]:
     return set(outcome.looked) - {each.rule for each in outcome.not_checked}
 
 
-def _without_baseline(
-    outcome: Outcome, package: str, settings: Settings
-) -> tuple[Outcome, BaselineUse]:
-    """Set aside what the baseline holds, and return what of it is stale."""
-    baseline = settings.baseline
-    known: Mapping[str, Sequence[BaselineEntry]] = baseline.packages
-    found = matched(outcome.findings, known.get(package, ()))
-    left = replace(
-        outcome, findings=found.left, suppressed=(*outcome.suppressed, *found.suppressed)
-    )
-    file = baseline.path.name if baseline.path else ""
+def _stale(silencer: Silencer, outcome: Outcome, settings: Settings) -> BaselineUse:
+    """Return what of the baseline is gone."""
+    path = settings.baseline.path
     ids = {rule.id for rule in all_rules()}
-    return left, BaselineUse(stale_by_rule(found.stale, ids, _looked(outcome), file))
+    return BaselineUse(silencer.held.stale(ids, _looked(outcome), path.name if path else ""))

@@ -13,8 +13,10 @@ from itertools import islice
 from checker.finding import Place
 from checker.report.wording import shortened
 from checker.source.text import SourceText
+from checker.suppression.entries import REASON_LIMIT
 
-MARK = "subt-check:"
+STEM = "subt-check"
+"""What every mark holds, in small letters or capitals."""
 XML_SUFFIXES = (
     *(".sdf", ".urdf", ".xacro", ".xml", ".launch", ".config", ".world", ".gazebo", ".srdf"),
     *(".ign", ".md"),
@@ -29,11 +31,11 @@ COMMENTS_LIMIT = 1_000
 NAMES_LIMIT = 20
 """Of one comment."""
 
-REASON_LIMIT = 1_000
-"""Characters; every finding repeats it."""
-
 _LENGTH_LIMIT = 4_000
-_START = re.compile(r"(<!--|#)[ \t]*subt-check:")
+_START = re.compile(
+    r"(<!--\s{0,200}|#[ \t]{0,200})subt-check[ \t]*(:|(?=\s{0,9}ignore\s{0,9}\[))", re.IGNORECASE
+)
+"""Without the colon, what follows tells that it is meant as a mark."""
 _CONTENT = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?(.*)", re.DOTALL)
 
 
@@ -44,6 +46,7 @@ class Comment:
     Attributes:
         place: Where it stands.
         names: Ids or names of rules; none where the comment has another form.
+        fault: What is wrong with its form, as a part of a sentence; empty when nothing is.
         reason: Why; empty when it does not say.
         lines: Of the file, counted from 1: findings there are set aside.
     """
@@ -52,30 +55,29 @@ class Comment:
     names: tuple[str, ...]
     reason: str
     lines: tuple[int, ...]
+    fault: str = ""
 
 
 def comments_of(source: SourceText) -> tuple[Comment, ...]:
     """Return the comments of a file, in their order."""
-    stretches = list(islice(_stretches(source), COMMENTS_LIMIT))
-    below = _lines_below(source, stretches)
-    return tuple(
-        comment for start, end in stretches if (comment := _read(source, start, end, below))
-    )
+    marks = list(islice(_marks(source), COMMENTS_LIMIT))
+    below = _lines_below(source, [(mark.start(), end) for mark, end in marks])
+    return tuple(comment for mark, end in marks if (comment := _read(source, mark, end, below)))
 
 
-def _stretches(source: SourceText) -> Iterator[tuple[int, int]]:
-    """Yield start and end of each comment that carries the mark."""
+def _marks(source: SourceText) -> Iterator[tuple[re.Match[str], int]]:
+    """Yield the beginning of each comment that carries the mark, and where the comment ends."""
     only_xml = source.file.lower().endswith(XML_SUFFIXES)
     for found in _START.finditer(source.text):
         end = _end(source.text, found)
-        if end > 0 and not (only_xml and found.group(1) == "#"):
-            yield found.start(), end
+        if end > 0 and not (only_xml and found[0].startswith("#")):
+            yield found, end
 
 
 def _end(text: str, found: re.Match[str]) -> int:
     """Return where a comment ends, or -1 when it does not end soon."""
     limit = found.end() + _LENGTH_LIMIT
-    if found.group(1) == "<!--":
+    if found[0].startswith("<!--"):
         end = text.find("-->", found.end(), limit)
         return end + 3 if end >= 0 else -1
     end = text.find("\n", found.end(), limit)
@@ -109,21 +111,22 @@ def _is_alone(text: str, start: int, end: int) -> bool:
     return not before.strip() and all(ended and not rest.strip() for _, ended, rest in behind)
 
 
-def _read(source: SourceText, start: int, end: int, below: dict[int, int]) -> Comment | None:
+def _read(
+    source: SourceText, mark: re.Match[str], end: int, below: dict[int, int]
+) -> Comment | None:
     """Return what a comment says; None when it is about something else."""
-    text = source.text[start:end].removesuffix("-->")
-    content = _CONTENT.match(text.partition(MARK)[2])
+    content = _CONTENT.match(source.text[mark.end() : end].removesuffix("-->"))
     if content is None:
         return None
-    word, names, reason = content.groups()
-    if names is None and word != "ignore":
+    word, bracket, reason = content.groups()
+    ignores = word.lower() == "ignore"
+    if bracket is None and not ignores:
         return None
-    named = [name.strip() for name in (names or "").split(",")] if word == "ignore" else []
-    place = source.place(start, end)
-    lines = {place.line, place.end_line, below.get(place.line, place.line)}
-    return Comment(
-        place,
-        tuple(dict.fromkeys(filter(None, named)))[:NAMES_LIMIT],
-        shortened(" ".join(reason.split()), REASON_LIMIT) if re.search(r"\w", reason) else "",
-        tuple(sorted(lines)),
-    )
+    place = source.place(mark.start(), end)
+    lines = tuple(sorted({place.line, place.end_line, below.get(place.line, place.line)}))
+    if not mark[2]:
+        return Comment(place, (), "", lines, "no colon stands behind subt-check")
+    words = [name.strip() for name in (bracket or "").split(",")] if ignores else []
+    names = tuple(dict.fromkeys(filter(None, words)))[:NAMES_LIMIT]
+    why = shortened(" ".join(reason.split()), REASON_LIMIT) if re.search(r"\w", reason) else ""
+    return Comment(place, names, why, lines, "" if names else "no ignore[RULE] stands in it")

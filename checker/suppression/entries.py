@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
@@ -11,7 +10,10 @@ from checker.finding import Place
 ENTRIES_LIMIT = 200
 REASON_LIMIT = 1_000
 """Characters; every finding repeats it."""
+PATTERN_LIMIT = 1_000
+"""Characters of a file or an element."""
 _KEYS = ("rule", "file", "element", "reason")
+_LIMITS = {"file": PATTERN_LIMIT, "element": PATTERN_LIMIT, "reason": REASON_LIMIT}
 
 
 @dataclass(frozen=True)
@@ -57,16 +59,13 @@ def _entry(number: int, value: object) -> SettingsEntry:
         raise ValueError(f"suppress {number} is no table")
     for key, said in value.items():
         if key not in _KEYS:
-            raise ValueError(f"suppress {number} has {key!r}, expected {_listed(_KEYS)}")
+            raise ValueError(f"suppress {number} has {key!r}, expected {', '.join(_KEYS)}")
         if not isinstance(said, str):
             raise ValueError(f"suppress {number} has {key} = {said!r}, expected a text")
-    if len(value.get("reason", "")) > REASON_LIMIT:
-        raise ValueError(f"suppress {number} has a reason of more than {REASON_LIMIT} characters")
+    for key, limit in _LIMITS.items():
+        if len(value.get(key, "")) > limit:
+            raise ValueError(f"suppress {number} has {key} of more than {limit} characters")
     for key in ("rule", "reason"):
         if not value.get(key, "").strip():
             raise ValueError(f"suppress {number} has no {key}, expected one")
     return SettingsEntry(**value)
-
-
-def _listed(words: Sequence[str]) -> str:
-    return ", ".join(words)

@@ -61,14 +61,16 @@ class StaleEntries:
     """Findings of one rule that the baseline holds and that are gone.
 
     Attributes:
-        rule: Its id.
+        rules: Its id; those of all rules that do not exist, together.
         messages: What they said.
         file: What to call the baseline's file.
+        known: Whether the rule exists.
     """
 
-    rule: str
+    rules: tuple[str, ...]
     messages: tuple[str, ...]
     file: str
+    known: bool = True
 
 
 @dataclass(frozen=True)

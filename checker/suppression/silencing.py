@@ -1,8 +1,8 @@
-"""Decides which findings do not count because of a comment or a settings file."""
+"""Decides which findings do not count: because of a comment, a settings file or the baseline."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,18 +10,21 @@ from checker.finding import Place
 from checker.model.suggestions import Suggestions
 from checker.package.package import Package
 from checker.package.reading import TEXT_LIMIT, NotReadable
-from checker.report.report import SuppressedBy
+from checker.report.report import IN_BASELINE, SuppressedBy
 from checker.rule import Finding, Rule
-from checker.suppression.comments import MARK, TEXT_SUFFIXES, Comment, comments_of
+from checker.suppression.baseline import BaselineEntry
+from checker.suppression.comments import STEM, TEXT_SUFFIXES, Comment, comments_of
 from checker.suppression.entries import SettingsEntry
+from checker.suppression.matching import Held
 from checker.suppression.parts import Suppressions, UnknownName, UnusedComment, UnusedEntries
+from checker.suppression.spots import Spot
 
 SEARCHED_LIMIT = 100_000_000
 """Bytes of a package's own files in which comments are looked for before findings point there."""
 COMMENTS_LIMIT = 2_000
 """Of a package and the siblings that its findings point at."""
 
-_MARKS = tuple(MARK.encode(encoding) for encoding in ("utf-8", "utf-16-le", "utf-16-be"))
+_STEMS = tuple(STEM.encode(encoding) for encoding in ("utf-8", "utf-16-le", "utf-16-be"))
 _Line = tuple[str, int, str]
 """A file, a line of it, and the id of a rule that is not to count there."""
 
@@ -31,7 +34,7 @@ class Silence:
     """Why a finding does not count.
 
     Attributes:
-        place: Of the comment that says so; None for settings.
+        place: Of the comment that says so; None for what stands elsewhere.
     """
 
     by: SuppressedBy
@@ -40,11 +43,20 @@ class Silence:
 
 
 class Silencer:
-    """The wishes about one package, and which of them were of use."""
+    """The wishes about one package, and which of them were of use.
+
+    Attributes:
+        held: What the baseline holds of the package.
+    """
 
     def __init__(
-        self, package: Package, entries: Sequence[SettingsEntry], rules: Iterable[Rule]
+        self,
+        package: Package,
+        entries: Sequence[SettingsEntry],
+        rules: Iterable[Rule],
+        baseline: Iterable[BaselineEntry] = (),
     ) -> None:
+        self.held = Held(baseline)
         self._package = package
         self._ids = {name: rule.id for rule in rules for name in (rule.id, rule.name)}
         self._entries: dict[str, list[SettingsEntry]] = {}
@@ -57,8 +69,33 @@ class Silencer:
         self._comments_left = COMMENTS_LIMIT
         self._own = tuple(self._own_comments())
 
-    def silence(self, rule: str, place: Place) -> Silence | None:
-        """Return why a finding of a rule at this place does not count; None when it does."""
+    def silences(
+        self, rule: str, found: Sequence[Finding], spot_of: Callable[[Finding], Spot]
+    ) -> list[Silence | None]:
+        """Return why each finding of a rule does not count; None for those that do.
+
+        Args:
+            rule: Its id.
+            found: All that it found.
+            spot_of: Returns how the baseline knows a finding.
+        """
+        silences = [self._by_wish(rule, each.places[0]) for each in found]
+        # A place that is reported twice in the same words is one place of the finding.
+        spots = {
+            at: (each.places[0], spot_of(each))
+            for at, each in enumerate(found)
+            if silences[at] is None
+        }
+        distinct = list(dict.fromkeys(spots.values()))
+        entries = self.held.entries_of(rule, [spot for _, spot in distinct])
+        held = dict(zip(distinct, entries, strict=True))
+        for at, spot in spots.items():
+            if entry := held[spot]:
+                silences[at] = Silence(SuppressedBy.BASELINE, entry.reason or IN_BASELINE)
+        return silences
+
+    def _by_wish(self, rule: str, place: Place) -> Silence | None:
+        """Return the comment or the entry of the settings that is about a place."""
         comment = self._comment_at(rule, place)
         entries = [each for each in self._entries.get(rule, ()) if each.covers(place)]
         self._used_entries.update(entries)
@@ -136,13 +173,13 @@ class Silencer:
 
     def _is_marked(self, path: str) -> bool:
         data = self._package.read_bytes(path, TEXT_LIMIT)
-        return not isinstance(data, NotReadable) and any(mark in data for mark in _MARKS)
+        return not isinstance(data, NotReadable) and any(stem in data.lower() for stem in _STEMS)
 
     def _comments_in(self, path: str) -> tuple[Comment, ...]:
         if not path.lower().endswith(TEXT_SUFFIXES):
             return ()
         source = self._package.read(path)
-        if isinstance(source, NotReadable) or MARK not in source.text:
+        if isinstance(source, NotReadable) or STEM not in source.text.lower():
             return ()
         comments = comments_of(source)[: self._comments_left]
         self._comments_left -= len(comments)
@@ -159,11 +196,15 @@ class Silencer:
 
 
 def parted(
-    rule: str, found: Iterable[Finding], silencer: Silencer | None
+    rule: str,
+    found: Sequence[Finding],
+    silencer: Silencer | None,
+    spot_of: Callable[[Finding], Spot],
 ) -> dict[Silence | None, list[Finding]]:
     """Part what a rule found by why it does not count; what does stands under None."""
+    nothing = [None] * len(found)
+    silences = silencer.silences(rule, found, spot_of) if silencer else nothing
     parts: dict[Silence | None, list[Finding]] = {}
-    for each in found:
-        silence = silencer.silence(rule, each.places[0]) if silencer else None
+    for each, silence in zip(found, silences, strict=True):
         parts.setdefault(silence, []).append(each)
     return parts

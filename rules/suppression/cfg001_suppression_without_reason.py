@@ -2,7 +2,7 @@
 
 It has no effect: who reads the report wants to know why a finding does not count.
 
-Fix: write the reason behind the bracket: `subt-check: ignore[SEN005] the device has 15 Hz`.
+Fix: write the reason behind the bracket: `subt-check: ignore[SEN015] the device has 15 Hz`.
 Source: README, section "Suppress".
 """
 

@@ -1,7 +1,8 @@
 """A suppression of a rule that finds nothing there.
 
-What it was for is mended or has moved, and it would hide the next fault of that kind. A comment is
-about its own line and, alone on its line, about the one below. Only rules that looked count.
+What it was for is mended or has moved, and it would hide the next fault of that kind. A comment
+reaches one line: its own or, alone on its line, also the one below. Only rules that looked count;
+comments on CFG rules are not judged.
 
 Fix: remove the comment or the entry of the settings, or move it to the line that the finding names.
 Source: README, section "Suppress".

@@ -7,29 +7,38 @@ Fix: write ids or names of rules into the bracket: `subt-check: ignore[SEN005, G
 Source: README, section "Suppress".
 """
 
+from itertools import islice
+
 from checker.rule import Findings, Severity, finding, rule
 from checker.suppression.parts import Suppressions
+
+_NAMED = 5
+"""Unknown names that the message tells; the rest is counted."""
 
 
 @rule("CFG003", "unknown-suppressed-rule", Severity.WARNING)
 def check(suppressions: Suppressions) -> Findings:
     """Report comments that name other words than rules, or nothing."""
-    for each in suppressions.unknown:
-        yield finding(each.comment.place, f"there is no rule {each.name!r}{each.hint}")
+    names = dict.fromkeys(f"{each.name!r}{each.hint}" for each in suppressions.unknown)
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    message = f"there is no rule {', nor '.join(islice(names, _NAMED))}{more}"
+    for comment in dict.fromkeys(each.comment for each in suppressions.unknown):
+        yield finding(comment.place, message, key="unknown names")
     for comment in suppressions.comments:
-        if not comment.names:
-            yield finding(
-                comment.place, "comment has no effect, expected 'ignore[RULE] reason' in it"
-            )
+        if comment.fault:
+            expected = "expected 'subt-check: ignore[RULE] reason'"
+            yield finding(comment.place, f"comment has no effect: {comment.fault}, {expected}")
 
 
 GOOD = [
     "<!-- subt-check: ignore[KIN001, imprecise-angle] added at the start -->\n<link name='a'/>",
     "<!-- subt-check: see the README for how this is checked -->\n<link name='a'/>",
+    "<!-- subt-check ignores[1] this -->\n<link name='a'/>",
 ]
 BAD = [
     "<!-- subt-check: ignore[KIN01] added at the start -->  <!-- ^ CFG003 -->\n<link name='a'/>",
     "<!-- subt-check: ignore KIN001 -->  <!-- ^ CFG003 -->\n<link name='a'/>",
+    "<!-- subt-check ignore[KIN001] no colon -->  <!-- ^ CFG003 -->\n<link name='a'/>",
     {
         "launch/extra.rb": "x = 1 # subt-check: disable[KIN001] it is so\n",
         "@reported": ["launch/extra.rb:1"],

@@ -1,11 +1,13 @@
 """A finding of the baseline that is gone.
 
 It is mended: as long as the baseline holds it, the same fault may come back unseen. Only rules
-that looked count, and those that exist no more.
+that looked count, and those that do not exist.
 
 Fix: write the baseline anew with `--write-baseline`, or remove the entry from its file.
 Source: README, section "Suppress".
 """
+
+from collections.abc import Sequence
 
 from checker.finding import Place
 from checker.rule import Findings, Severity, finding, rule
@@ -16,19 +18,29 @@ from checker.suppression.parts import BaselineUse
 def check(baseline: BaselineUse) -> Findings:
     """Report entries without a finding, rule by rule."""
     for each in baseline.stale:
-        first, *others = each.messages
-        more = f" and {len(others)} more" if others else ""
-        yield finding(
-            Place(""), f"{each.file} holds what {each.rule} finds no more: {first!r}{more}"
-        )
+        if each.known:
+            said = f"what {each.rules[0]} finds no more: {_some(each.messages)}"
+        else:
+            said = f"findings of rules that do not exist: {_some(each.rules)}"
+        yield finding(Place(""), f"{each.file} holds {said}")
+
+
+def _some(texts: Sequence[str]) -> str:
+    more = f" and {len(texts) - 1} more" if len(texts) > 1 else ""
+    return f"{texts[0]!r}{more}"
 
 
 def _baseline(rule: str, message: str) -> str:
     return f"""{{
-  "version": 1,
+  "version": 2,
   "packages": {{
     "acme_rover_sensor_config_1": [
-      {{"fingerprint": "{"0" * 16}", "rule": "{rule}", "message": "{message}"}}
+      {{
+        "rule": "{rule}",
+        "severity": "error",
+        "message": "{message}",
+        "places": {{"model.sdf#sdf/model[acme_rover_sensor_config_1]/joint[axle]/child": 1}}
+      }}
     ]
   }}
 }}
@@ -58,6 +70,11 @@ BAD = [
         "@with": ["KIN001"],
         "subt-check.toml": _SETTINGS,
         "baseline.json": _baseline("KIN001", _GONE),
+        "@reported": [".:1"],
+    },
+    {
+        "subt-check.toml": _SETTINGS,
+        "baseline.json": _baseline("OLD001", _GONE),
         "@reported": [".:1"],
     },
 ]

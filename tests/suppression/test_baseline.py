@@ -1,4 +1,4 @@
-"""Findings that were there before: the file, and what in it is the same fault as one of now."""
+"""The baseline's file, and what becomes of it when a package is checked."""
 
 from __future__ import annotations
 
@@ -10,17 +10,35 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.errors import InvalidSettings
-from checker.finding import Place, Severity
-from checker.fingerprint import numbered
-from checker.report.report import IN_BASELINE, ReportedFinding
+from checker.finding import Severity
+from checker.report.report import IN_BASELINE
 from checker.settings import parse_settings
-from checker.suppression.baseline import BaselineEntry, baseline_text, read_baseline
-from checker.suppression.matching import matched, stale_by_rule
+from checker.suppression.baseline import (
+    ENTRIES_LIMIT,
+    SIZE_LIMIT,
+    BaselineEntry,
+    baseline_text,
+    read_baseline,
+)
+from checker.suppression.entries import REASON_LIMIT
+from checker.suppression.writing import baseline_to_renew
 from tests.examples import NAME, write_example
 from tests.suppression.stage import axle, checked_again, found, set_aside
 
-_texts = st.text(max_size=20)
-_entries = st.builds(BaselineEntry, _texts, _texts, _texts, _texts, _texts)
+PLACE = f"model.sdf#sdf/model[{NAME}]/joint[axle]/child"
+ENTRY = {"rule": "KIN001", "severity": "error", "message": "m", "places": {PLACE: 1}}
+
+_texts = st.text(st.characters(exclude_categories=()), max_size=20)
+_said = st.text(min_size=1, max_size=20)
+_entries = st.builds(
+    BaselineEntry,
+    _said,
+    st.sampled_from(Severity),
+    _said,
+    st.dictionaries(_texts, st.integers(1), min_size=1, max_size=3),
+    _texts,
+    _texts,
+)
 
 
 @given(packages=st.dictionaries(_texts, st.lists(_entries, max_size=4).map(tuple), max_size=3))
@@ -32,89 +50,7 @@ def test_what_is_written_is_read(
     assert text.isascii()
     file.write_text(text, "utf-8")
     read = read_baseline(file)
-    complete = {
-        n: tuple(e for e in es if all((e.rule, e.message, e.fingerprint)))
-        for n, es in packages.items()
-    }
-    if complete == packages:
-        assert (read.fault, read.packages) == ("", packages)
-    else:
-        assert "an entry has no" in read.fault
-
-
-def finding(base: str, message: str, key: str = "", rule: str = "KIN001") -> ReportedFinding:
-    place = (Place("model.sdf"),)
-    return ReportedFinding(rule, "name", Severity.ERROR, message, base, place, key=key)
-
-
-def findings(*said: tuple[str, str]) -> list[ReportedFinding]:
-    prints = numbered([base for base, _ in said])
-    return [finding(own, message) for own, (_, message) in zip(prints, said, strict=True)]
-
-
-def entries(said: list[ReportedFinding]) -> list[BaselineEntry]:
-    return [BaselineEntry(each.fingerprint, each.rule, each.message, each.key) for each in said]
-
-
-def left(now: list[ReportedFinding], before: list[ReportedFinding]) -> list[str]:
-    return [each.message for each in matched(now, entries(before)).left]
-
-
-def stale(now: list[ReportedFinding], before: list[ReportedFinding]) -> list[str]:
-    return [each.message for each in matched(now, entries(before)).stale]
-
-
-_said = st.lists(st.tuples(st.sampled_from("abc"), st.sampled_from("xyz")), max_size=12)
-
-
-@given(_said)
-def test_what_did_not_change_is_in_the_baseline(said: list[tuple[str, str]]) -> None:
-    same = findings(*said)
-    assert left(same, same) == stale(same, same) == []
-
-
-@given(_said, _said)
-def test_every_finding_takes_one_entry(
-    one: list[tuple[str, str]], other: list[tuple[str, str]]
-) -> None:
-    now, before = findings(*one), findings(*other)
-    found = matched(now, entries(before))
-    assert len(found.findings) == len(now)
-    assert len(found.suppressed) + len(found.left) == len(now)
-    assert len(found.suppressed) + len(found.stale) == len(before)
-
-
-@given(_said, st.integers(0, 11))
-def test_mending_one_leaves_nothing_new(said: list[tuple[str, str]], mended: int) -> None:
-    now = said[:mended] + said[mended + 1 :]
-    assert left(findings(*now), findings(*said)) == []
-    assert len(stale(findings(*now), findings(*said))) == len(said) - len(now)
-
-
-def test_of_equals_the_new_one_is_reported() -> None:
-    before = findings(("a", "first"), ("a", "second"))
-    now = findings(("a", "new"), ("a", "first"), ("a", "second"))
-    assert left(now, before) == ["new"]
-
-
-def test_a_value_may_change() -> None:
-    assert left(findings(("a", "mass is 2")), findings(("a", "mass is 1"))) == []
-
-
-def test_the_first_of_several_places_may_be_mended() -> None:
-    """The fingerprint is that of the first place, the words are those of the fault."""
-    assert left(findings(("b", "angle is 1.57")), findings(("a", "angle is 1.57"))) == []
-    keyed = matched([finding("b", "one", "k")], entries([finding("a", "other", "k")]))
-    assert keyed.left == ()
-
-
-def test_stale_entries_are_those_of_rules_that_looked_or_are_gone() -> None:
-    old = [BaselineEntry("0", rule, "m") for rule in ("KIN001", "KIN001", "KIN002", "OLD001")]
-    said = stale_by_rule(old, {"KIN001", "KIN002"}, {"KIN001"}, "b.json")
-    assert [(each.rule, each.messages) for each in said] == [
-        ("KIN001", ("m", "m")),
-        ("OLD001", ("m",)),
-    ]
+    assert (read.fault, read.packages) == ("", packages)
 
 
 @pytest.mark.parametrize(
@@ -123,39 +59,111 @@ def test_stale_entries_are_those_of_rules_that_looked_or_are_gone() -> None:
         ("", "is no baseline"),
         ("{", "is no baseline"),
         ("[]", "it has no version"),
-        ('{"version": 2, "packages": {}}', "it has version 2, expected 1"),
-        ('{"version": 1}', "packages is no table of lists"),
-        ('{"version": 1, "packages": {"a": {}}}', "packages is no table of lists"),
-        ('{"version": 1, "packages": {"a": [7]}}', "an entry is no table of texts"),
-        ('{"version": 1, "packages": {"a": [{"rule": 1}]}}', "an entry is no table of texts"),
-        ('{"version": 1, "packages": {"a": [{"rule": "b"}]}}', "an entry has no fingerprint"),
+        ('{"version": 1, "packages": {}}', "it has version 1, expected 2"),
+        ('{"version": 2}', "packages is no table of lists"),
+        ('{"version": 2, "packages": {"a": {}}}', "packages is no table of lists"),
+        ('{"version": 2, "packages": {"a": [7]}}', "an entry is no table"),
+        ('{"version": 2, "packages": {"a": [{"rule": 1}]}}', "an entry holds what is no text"),
+        ('{"version": 2, "packages": {"a": [{"message": "b"}]}}', "an entry has no rule"),
         ("[" * 100_000, "is no baseline"),
         ("\udcff", "is no baseline"),
+        (" " * (SIZE_LIMIT + 1), "has 5.0 MB, more than the 5 MB that are read"),
     ],
 )
 def test_what_is_no_baseline_says_why(text: str, fault: str, tmp_path: Path) -> None:
     file = tmp_path / "baseline.json"
     file.write_text(text, "utf-8", "surrogateescape")
     assert fault in read_baseline(file).fault
-    assert "does not exist" in read_baseline(tmp_path / "none.json").fault
 
 
-def in_baseline(package: Path, rule: str = "KIN001", **more: str) -> None:
-    entry = {"fingerprint": "0" * 16, "rule": rule, "message": "m", **more}
-    content = {"version": 1, "packages": {NAME: [entry]}}
-    (package / "b.json").write_text(json.dumps(content), "utf-8")
+@pytest.mark.parametrize(
+    ("more", "fault"),
+    [
+        ({"severity": "grave"}, "an entry has severity 'grave'"),
+        ({"severity": ["error"]}, r"an entry has severity ['error']"),
+        ({"places": {"a": 0}}, "no places with their counts"),
+        ({"places": {"a": True}}, "no places with their counts"),
+        ({"places": ["a"]}, "no places with their counts"),
+        ({"places": None}, "no places with their counts"),
+        ({"reason": 7}, "an entry holds what is no text"),
+    ],
+)
+def test_an_entry_of_another_form_says_why(
+    more: dict[str, object], fault: str, tmp_path: Path
+) -> None:
+    file = written(tmp_path / "b.json", {**ENTRY, **more})
+    assert fault in read_baseline(file).fault
+
+
+def written(file: Path, *entries: object) -> Path:
+    content = {"version": 2, "packages": {NAME: entries}}
+    file.write_text(json.dumps(content), "utf-8")
+    return file
+
+
+def test_a_baseline_is_bounded(tmp_path: Path) -> None:
+    short = {"rule": "A", "severity": "info", "message": "m", "places": {"b": 1}}
+    file = written(tmp_path / "b.json", *[short] * (ENTRIES_LIMIT + 1))
+    assert "has 20001 entries, more than the 20000 that are read" in read_baseline(file).fault
+    file = written(tmp_path / "b.json", {**ENTRY, "reason": "x" * 2 * REASON_LIMIT})
+    ((entry,),) = read_baseline(file).packages.values()
+    assert len(entry.reason) == REASON_LIMIT
+
+
+def test_what_would_not_be_read_is_not_written() -> None:
+    entry = BaselineEntry("A", Severity.INFO, "m" * 1_000, {"b": 1})
+    with pytest.raises(ValueError, match="would have 20001 entries"):
+        baseline_text({"a": [entry] * (ENTRIES_LIMIT + 1)})
+    with pytest.raises(ValueError, match=r"would have \d\.\d MB, more than the 5 MB"):
+        baseline_text({"a": [entry] * 6_000})
+
+
+def test_a_missing_file_is_named_as_it_is_to_be_given(tmp_path: Path) -> None:
+    file = tmp_path / "below" / "none.json"
+    fault = read_baseline(file).fault
+    assert fault == f"does not exist; --write-baseline --baseline {file} makes it"
+
+
+@pytest.mark.parametrize(
+    "name", ["x" * 5_000, "a" * 300 + "/b", "loop", "loop/b", "gone", "file/b", "a\0b"]
+)
+def test_a_path_that_leads_nowhere_is_a_fault(name: str, tmp_path: Path) -> None:
+    (tmp_path / "loop").symlink_to("loop")
+    (tmp_path / "gone").symlink_to("nowhere")
+    (tmp_path / "file").touch()
+    fault = read_baseline(tmp_path / name).fault
+    assert fault.startswith(("cannot be read: ", "is a link that leads nowhere"))
+    with pytest.raises(InvalidSettings, match="remove it, or name another file"):
+        baseline_to_renew(tmp_path / name)
+    if "loop" in name or "\0" in name:
+        with pytest.raises(InvalidSettings, match="in the folder of these settings"):
+            parse_settings({"baseline": name}, tmp_path / "subt-check.toml")
+    else:
+        settings = parse_settings({"baseline": name}, tmp_path / "subt-check.toml")
+        assert settings.baseline.fault == fault
+
+
+def in_baseline(package: Path, **more: object) -> None:
+    written(package / "b.json", {**ENTRY, **more})
     (package / "subt-check.toml").write_text('baseline = "b.json"\n', "utf-8")
 
 
 def test_settings_name_a_baseline(tmp_path: Path) -> None:
     package = write_example(axle(), tmp_path)
-    (fault,) = checked_again(package).findings
-    in_baseline(package, fingerprint=fault.fingerprint)
+    in_baseline(package)
     report = checked_again(package)
     assert (found(report), set_aside(report)) == ([], [("KIN001", "baseline", IN_BASELINE)])
     assert "baseline b.json" in report.settings
-    in_baseline(package, fingerprint=fault.fingerprint, reason="next year")
+    in_baseline(package, reason="next year")
     assert set_aside(checked_again(package)) == [("KIN001", "baseline", "next year")]
+
+
+def test_what_is_graver_than_it_was_counts(tmp_path: Path) -> None:
+    package = write_example(axle(), tmp_path)
+    in_baseline(package, severity="warning")
+    report = checked_again(package)
+    assert [each.rule for each in report.findings] == ["KIN001"]
+    assert report.suppressed == ()
 
 
 def test_what_is_gone_is_reported(tmp_path: Path) -> None:
@@ -166,6 +174,44 @@ def test_what_is_gone_is_reported(tmp_path: Path) -> None:
     assert gone.message == "b.json holds what KIN001 finds no more: 'm'"
     in_baseline(package, rule="KIN002")  # did not look
     assert found(checked_again(package)) == []
+
+
+def test_rules_that_do_not_exist_are_one_finding(tmp_path: Path) -> None:
+    package = write_example(axle("<child>base_link</child>"), tmp_path)
+    (package / "subt-check.toml").write_text('baseline = "b.json"\n', "utf-8")
+    written(package / "b.json", *({**ENTRY, "rule": f"OLD{n}"} for n in range(1_000)))
+    (gone,) = checked_again(package).findings
+    said = "findings of rules that do not exist: 'OLD0' and 999 more"
+    assert gone.message == f"b.json holds {said}"
+
+
+def turned(*names: str, roll: str = "1.57") -> str:
+    """Return visuals with an angle each that GEO001 joins to one finding."""
+    pose = f"<pose>0 0 0 {roll} 0 0</pose><geometry><box/></geometry>"
+    return "\n".join(f"<visual name='{name}'>{pose}</visual>" for name in names)
+
+
+def test_new_places_of_an_old_finding_are_reported(tmp_path: Path) -> None:
+    package = write_example(turned("a", "b"), tmp_path)
+    (old,) = checked_again(package, "GEO001").findings
+    here = {place.element for place in old.places}
+    places = {f"model.sdf#{element}": 1 for element in here}
+    entry = {"rule": "GEO001", "severity": old.severity, "message": "x", "key": old.key}
+    write_example(turned("c", "a", "b"), tmp_path)
+    (package / "subt-check.toml").write_text('baseline = "b.json"\n', "utf-8")
+    written(package / "b.json", {**entry, "places": places})
+    report = checked_again(package, "GEO001")
+    (new,), (aside,) = report.findings, report.suppressed
+    assert "visual[c]" in new.places[0].element
+    assert len(new.places) == 1
+    assert new.fix is not None
+    assert {edit.place.line for edit in new.fix.edits} == {new.places[0].line}
+    assert {place.element for place in aside.finding.places} == here
+    assert new.fingerprint != aside.finding.fingerprint
+    write_example(turned("c", "b"), tmp_path)  # one gone, another new
+    report = checked_again(package, "GEO001")
+    assert ["visual[c]" in each.places[0].element for each in report.findings] == [True]
+    assert len(report.suppressed[0].finding.places) == 1
 
 
 @pytest.mark.parametrize("path", ["/etc/passwd", "../b.json", "a/../../b.json", "link", "", 7])

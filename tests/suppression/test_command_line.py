@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -39,7 +40,7 @@ def test_the_verdict_and_the_exit_code_count_what_is_left(
     assert main([NAME, *CHOSEN]) == 0
     shown = capsys.readouterr().out.splitlines()
     assert "suppressed: 1 finding of KIN001 by a comment: it is so" in shown
-    assert shown[-1] == f"{NAME}: Ready: nothing to fix (1 suppressed)"
+    assert shown[-1] == f"{NAME}: Ready: nothing to fix (1 suppressed, 1 of them an error)"
 
 
 def test_a_baseline_is_written_and_holds(rover: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -71,8 +72,8 @@ def test_writing_anew_keeps_reasons_and_what_was_not_checked(rover: Path) -> Non
     content = json.loads(Path("b.json").read_text("utf-8"))
     (entry,) = content["packages"][NAME]
     entry["reason"] = "next year"
-    unseen = {"fingerprint": "0", "rule": "GEO001", "message": "not looked at"}
-    gone = {"fingerprint": "1", "rule": "OLD001", "message": "no rule any more"}
+    unseen = {**entry, "rule": "GEO001", "message": "not looked at"}
+    gone = {**entry, "rule": "OLD001", "message": "no rule any more"}
     content["packages"] = {NAME: [entry, unseen, gone], "other": [unseen]}
     Path("b.json").write_text(json.dumps(content), "utf-8")
     main([NAME, *CHOSEN, "--write-baseline", "--baseline", "b.json"])
@@ -83,8 +84,61 @@ def test_writing_anew_keeps_reasons_and_what_was_not_checked(rover: Path) -> Non
 def test_a_baseline_wins_over_the_one_of_the_settings(rover: Path) -> None:
     (rover / "subt-check.toml").write_text('baseline = "none.json"\n', "utf-8")
     assert main([NAME, *CHOSEN]) == 2
-    assert main([NAME, *CHOSEN, "--write-baseline"]) == 0
+    assert main([NAME, *CHOSEN, "--write-baseline", "--baseline", FILE]) == 0
     assert main([NAME, *CHOSEN, "--baseline", FILE]) == 0
+
+
+def test_the_file_that_the_settings_name_is_written(
+    rover: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (rover / "subt-check.toml").write_text('baseline = "own.json"\n', "utf-8")
+    assert main([NAME, *CHOSEN, "--write-baseline"]) == 0
+    assert capsys.readouterr().out == f"{NAME}/own.json holds 1 finding of 1 package\n"
+    assert main([NAME, *CHOSEN]) == 0
+    assert main([NAME, *CHOSEN, "--write-baseline"]) == 0
+
+
+def test_where_settings_name_different_files_the_usual_one_is_written(rover: Path) -> None:
+    (rover / "subt-check.toml").write_text('baseline = "own.json"\n', "utf-8")
+    write_example({"@fragment": axle(), "@name": "other_rover_sensor_config_1"}, Path.cwd())
+    assert main([".", *CHOSEN, "--write-baseline"]) == 0
+    assert not (rover / "own.json").exists()
+    assert len(json.loads(Path(FILE).read_text("utf-8"))["packages"]) == 2
+
+
+def test_no_file_in_an_archive_is_written(rover: Path) -> None:
+    (rover / "subt-check.toml").write_text('baseline = "own.json"\n', "utf-8")
+    shutil.make_archive("packed", "zip", ".", NAME)
+    assert main(["packed.zip", *CHOSEN, "--write-baseline"]) == 0
+    assert NAME in json.loads(Path(FILE).read_text("utf-8"))["packages"]
+
+
+def test_packages_of_one_name_are_refused(rover: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    shutil.copytree(rover, f"other/{NAME}")
+    assert main([NAME, f"other/{NAME}", *CHOSEN, "--write-baseline"]) == 2
+    said = f"subt-check: {NAME} and other/{NAME} are packages of one name, {NAME}, by which a "
+    assert capsys.readouterr().err.startswith(said)
+    assert not Path(FILE).exists()
+
+
+def test_what_another_package_has_in_the_baseline_is_not_asked_about(
+    rover: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main([NAME, *CHOSEN, "--write-baseline"])
+    mend(rover, "<child>base_link</child>")
+    rover.rename("other_rover_sensor_config_1")
+    assert main(["other_rover_sensor_config_1", *CHOSEN, "--baseline", FILE]) == 0
+    assert "CFG004" not in capsys.readouterr().out
+
+
+def test_a_replaced_place_is_reported(rover: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """KIN001 says the same of both joints, and one takes the place of the other."""
+    main([NAME, *CHOSEN, "--write-baseline"])
+    model = rover / "model.sdf"
+    model.write_text(model.read_text("utf-8").replace('"axle"', '"spare"'), "utf-8")
+    capsys.readouterr()
+    assert main([NAME, *CHOSEN, "--baseline", FILE]) == 1
+    assert "joint 'spare' has child 'tyre'" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("content", ["", "{}", '{"version": 9}', "<sdf/>"])
@@ -109,7 +163,7 @@ def test_nothing_is_remembered_across_baselines(
     """Reports are kept by all that they depend on, the content of the baseline too."""
     assert main([str(rover), *CHOSEN, "--write-baseline"]) == 0
     assert main([NAME, *CHOSEN, "--baseline", FILE]) == 0
-    Path(FILE).write_text('{"version": 1, "packages": {}}', "utf-8")
+    Path(FILE).write_text('{"version": 2, "packages": {}}', "utf-8")
     assert main([NAME, *CHOSEN, "--baseline", FILE]) == 1
     capsys.readouterr()
 

@@ -12,11 +12,11 @@ from checker.source.text import SourceText
 from checker.suppression.comments import (
     COMMENTS_LIMIT,
     NAMES_LIMIT,
-    REASON_LIMIT,
     TEXT_SUFFIXES,
     Comment,
     comments_of,
 )
+from checker.suppression.entries import REASON_LIMIT
 
 
 def comments(text: str, file: str = "model.sdf") -> tuple[Comment, ...]:
@@ -34,6 +34,8 @@ def only(text: str, file: str = "model.sdf") -> Comment:
         ("model.sdf", "<a/> <!-- subt-check: ignore[SEN005] as built -->"),
         ("model.sdf", "<!--subt-check:ignore [ SEN005 ]as  built-->"),
         ("model.sdf", "<!-- subt-check: ignore[SEN005] as\n     built -->"),
+        ("model.sdf", "<!--\n  subt-check: ignore[SEN005] as built\n-->"),
+        ("model.sdf", "<!-- Subt-Check : Ignore[SEN005] as built -->"),
         ("specifications.md", "15 Hz <!-- subt-check: ignore[SEN005] as built -->"),
         ("launch/spawner.rb", "x = 1 # subt-check: ignore[SEN005] as built"),
         ("launch/spawner.rb", "  <a/> <!-- subt-check: ignore[SEN005] as built -->"),
@@ -61,7 +63,25 @@ def test_a_reason_has_a_word(text: str) -> None:
     "text", ["ignore SEN005 as built", "ignore[] x", "off[SEN005] x", "ignore"]
 )
 def test_another_form_names_no_rule(text: str) -> None:
-    assert only(f"<!-- subt-check: {text} -->").names == ()
+    comment = only(f"<!-- subt-check: {text} -->")
+    assert (comment.names, comment.fault) == ((), "no ignore[RULE] stands in it")
+
+
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("model.sdf", "<!-- subt-check ignore[SEN005] as built -->"),
+        ("model.sdf", "<!--\nsubt-check\nignore [SEN005] as built -->"),
+        ("a.rb", "x = 1 # SUBT-CHECK ignore[SEN005]"),
+    ],
+)
+def test_a_mark_without_its_colon_is_at_fault(file: str, text: str) -> None:
+    comment = only(text, file)
+    assert (comment.names, comment.fault) == ((), "no colon stands behind subt-check")
+
+
+def test_a_mark_in_its_form_is_without_fault() -> None:
+    assert only("<!-- subt-check: ignore[SEN005] as built -->").fault == ""
 
 
 @pytest.mark.parametrize(
@@ -69,6 +89,8 @@ def test_another_form_names_no_rule(text: str) -> None:
     [
         ("model.sdf", "<!-- subt-check: looked at this -->"),
         ("model.sdf", "<!-- subt-check: -->"),
+        ("model.sdf", "<!-- subt-check ignores[1] this -->"),
+        ("model.sdf", "<!-- subt-check can ignore[SEN005] by a comment -->"),
         ("model.sdf", "<!-- subt-check: ignore[SEN005] never closed"),
         ("model.sdf", "# subt-check: ignore[SEN005] no comment in XML"),
         ("README.md", "# subt-check: ignore[SEN005] a title"),
@@ -111,7 +133,7 @@ def test_what_is_written_is_read(name: str, reason: str, file: str) -> None:
 
 
 _pieces = st.sampled_from(
-    ["<!--", "-->", "#", "subt-check:", "ignore[", "A]", " ", "\n", "\r", "é"]
+    ["<!--", "-->", "#", "subt-check", ":", "ignore[", "A]", " ", "\n", "\r", "é"]
 )
 
 
@@ -129,6 +151,8 @@ def test_any_text_is_read_with_places_within_it(text: str, suffix: str) -> None:
     [
         "<!-- subt-check: ignore[A] x -->" * 50_000,
         "<!-- subt-check: ignore[A] x\n" * 50_000,
+        ("<!--" + " " * 300) * 10_000 + "subt-check",
+        "<!-- subt-check" + " " * 1_000_000 + "ignore[A] x -->",
         "<!--" * 200_000 + "subt-check: ignore[A] x -->",
         "# subt-check: ignore[" + "A," * 500_000 + "] x",
         "# subt-check: ignore" + " " * 1_000_000,

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.check import check_package
-from checker.fingerprint import bases_of, numbered
+from checker.fingerprint import numbered
 from checker.settings import Settings
 from tests.conftest import SAMPLES
 from tests.suppression.stage import axle, checked
@@ -82,10 +82,10 @@ def test_equal_faults_are_told_apart(tmp_path: Path) -> None:
 
 
 @given(st.lists(st.sampled_from("abcd"), max_size=30))
-def test_numbering_makes_them_different_and_can_be_undone(bases: list[str]) -> None:
+def test_numbering_makes_them_different(bases: list[str]) -> None:
     distinct = numbered(bases)
     assert len(set(distinct)) == len(bases)
-    assert bases_of(distinct) == bases
+    assert set(bases) <= set(distinct)
 
 
 @given(st.lists(st.sampled_from("ab"), max_size=12), st.integers(0, 12))

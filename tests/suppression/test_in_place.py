@@ -70,6 +70,26 @@ def test_what_sets_nothing_aside(child: str, rules: list[str], tmp_path: Path) -
     assert report.suppressed == ()
 
 
+def test_unknown_names_are_one_finding_in_many_places(tmp_path: Path) -> None:
+    marks = "\n".join(ignore(*(f"NO{n}" for n in range(at, at + 9))) for at in range(0, 900, 9))
+    (unknown,) = (
+        each for each in checked(axle(f"{marks}\n<child>base_link</child>"), tmp_path).findings
+    )
+    assert unknown.rule == "CFG003"
+    assert len(unknown.places) == 100
+    assert unknown.message.startswith("there is no rule 'NO0', nor 'NO1', nor 'NO2'")
+    assert unknown.message.endswith(" and 895 more")
+
+
+def test_a_mark_without_its_colon_is_said(tmp_path: Path) -> None:
+    mark = ignore("KIN001").replace("check:", "check")
+    report = checked(axle(f"{mark}\n{TYRE}"), tmp_path)
+    assert {each.rule for each in report.findings} == {"CFG003", "KIN001"}
+    (fault,) = (each for each in report.findings if each.rule == "CFG003")
+    expected = "no colon stands behind subt-check, expected 'subt-check: ignore[RULE] reason'"
+    assert fault.message == f"comment has no effect: {expected}"
+
+
 def test_a_rule_in_use_and_one_that_is_not(tmp_path: Path) -> None:
     report = checked(axle(f"{ignore('KIN001', 'KIN002')}\n{TYRE}"), tmp_path, "KIN001", "KIN002")
     assert set_aside(report) == ASIDE

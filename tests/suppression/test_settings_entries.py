@@ -87,6 +87,8 @@ def test_the_folder_is_a_dot() -> None:
         ([{"rule": "SEN005", "reason": "x"}, {"rule": "SEN005"}], "suppress 2 has no reason"),
         ([{"rule": "SEN005", "reason": " "}], "has no reason"),
         ([{"rule": "SEN005", "reason": "x" * 1_001}], "of more than 1000 characters"),
+        ([{"rule": "A", "reason": "x", "file": "*" * 1_001}], "has file of more than 1000"),
+        ([{"rule": "A", "reason": "x", "element": "e" * 1_001}], "has element of more than 1000"),
         ([{"reason": "x"}], "has no rule"),
         ([{"rule": "SEN005", "reason": 7}], "reason = 7, expected a text"),
         ([{"rule": "SEN005", "reason": "x", "line": "7"}], "has 'line', expected rule, file"),
@@ -97,10 +99,20 @@ def test_entries_of_another_form_are_refused(value: object, problem: str, tmp_pa
         parse_settings({"suppress": value}, tmp_path / "subt-check.toml")
 
 
-def test_an_entry_for_no_rule_is_refused(tmp_path: Path) -> None:
-    content = {"suppress": [{"rule": "SEN999", "reason": REASON}]}
+@pytest.mark.parametrize(
+    ("rule", "problem"),
+    [
+        ("SEN999", r"there is no rule 'SEN999'"),
+        ("unknown-joint-ends", r"no rule 'unknown-joint-ends'; did you mean unknown-joint-end\?"),
+        ("KIM", r"there is no rule 'KIM'; `subt-check rules` lists them"),
+        ("KIN", r"suppress names the group 'KIN'; entries name single rules"),
+        ("kin", r"suppress names the group 'kin'; entries name single rules"),
+    ],
+)
+def test_an_entry_for_no_single_rule_is_refused(rule: str, problem: str, tmp_path: Path) -> None:
+    content = {"suppress": [{"rule": rule, "reason": REASON}]}
     settings = parse_settings(content, tmp_path / "subt-check.toml")
-    with pytest.raises(InvalidSettings, match=r"there is no rule 'SEN999'"):
+    with pytest.raises(InvalidSettings, match=problem):
         check_against_rules(settings, all_rules())
 
 
