@@ -91,7 +91,8 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     check.add_argument(
         "--write-baseline",
         action="store_true",
-        help="write the findings of now there (default: subt-check-baseline.json), no more",
+        help="write the findings of now there, no more (default: into the one that the settings "
+        "name, else subt-check-baseline.json)",
     )
     check.add_argument("--no-trial", action="store_true", help="do not drive the robot")
     check.add_argument(
@@ -189,6 +190,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _end_in_good_order()
     parser = build_parser()
     options = parser.parse_args(words)
+    options.words = list(sys.argv[1:] if arguments is None else arguments)
     if options.version:
         from checker.versions import tool_version
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import argparse
 import json
+import shlex
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 
-from checker.check import check_paths
+from checker.check import check_paths, settings_of
 from checker.discovery import all_rules
-from checker.errors import CheckerError
+from checker.errors import CheckerError, InvalidSettings, UnreadableInput
 from checker.finding import Safety, Severity
 from checker.options import no_such_rule
 from checker.output import (
@@ -18,25 +20,31 @@ from checker.output import (
     EXIT_CRASH,
     EXIT_FINDINGS,
     EXIT_USAGE,
+    empty_of,
+    here,
     say_progress,
     show,
     write,
 )
 from checker.page import parse_page
-from checker.report.artefacts import artefacts
-from checker.report.formats import FORMATS, Manner
+from checker.report.artefacts import STALE, artefacts
+from checker.report.formats import FORMATS
+from checker.report.manner import Manner
 from checker.report.palette import palette_for
 from checker.report.report import Report
 from checker.report.summary import statistics_text
 from checker.report.wording import plain, shortened
 from checker.rule import Rule
 from checker.saying import say_nothing
-from checker.suppression.baseline import Baseline, read_baseline
+from checker.suppression.baseline import DEFAULT_FILE, Baseline, read_baseline
 from checker.suppression.writing import baseline_to_renew, write_baseline
 
 
 def check(options: argparse.Namespace) -> int:
     """Check packages and print the report."""
+    _refuse_together(options)
+    # What cannot be written is said before all is checked.
+    renewed = _to_renew(options) if options.write_baseline else None
     wishes = {
         "profile": options.profile,
         "select": options.select,
@@ -45,9 +53,12 @@ def check(options: argparse.Namespace) -> int:
         "trial": False if options.no_trial else None,
         "thorough": True if options.thorough else None,
         "cache": False if options.no_cache else None,
-        "baseline": _baseline(options),
+        "baseline": Baseline() if renewed else _baseline(options),
         "display": True if options.report or options.format == "html" else None,
     }
+    here()
+    if options.report:
+        empty_of(Path(options.report))  # what cannot be written is said before all is checked
     paths = [Path(path) for path in options.paths]
     if options.files:
         from checker.package.changed import changed_packages
@@ -70,34 +81,78 @@ def check(options: argparse.Namespace) -> int:
                 f"subt-check: {plain(shortened(each.path, 300))} {plain(each.reason)}",
                 file=sys.stderr,
             )
-    if options.write_baseline:
+    if renewed:
         ids = {rule.id for rule in all_rules()}
-        show(write_baseline(baseline_to_renew(options.baseline), report, ids))
+        show(write_baseline(renewed, report, ids))
         return EXIT_CLEAN if exit_code(report) == EXIT_FINDINGS else exit_code(report)
     _tell(report, options)
     return exit_code(report)
 
 
+_APART = {
+    # A hook writes nothing, whatever files of a commit are named.
+    "files": ("fix", "output", "report", "write_baseline"),
+    # It writes one file.
+    "write_baseline": ("fix", "diff", "output", "report", "statistics"),
+}
+"""Options, and those that do not go with them."""
+
+
+def _refuse_together(options: argparse.Namespace) -> None:
+    """Refuse options that contradict each other.
+
+    Raises:
+        CheckerError: There are such options.
+    """
+    for option, others in _APART.items():
+        for other in others if getattr(options, option) else ():
+            if getattr(options, other):
+                one, two = (f"--{name.replace('_', '-')}" for name in (option, other))
+                raise CheckerError(f"{one} and {two} do not go together; leave out one of them")
+    if options.write_baseline and options.format != "text":
+        raise CheckerError("--write-baseline writes the baseline alone; leave out --format")
+
+
 def _baseline(options: argparse.Namespace) -> Baseline | None:
     """Return the baseline that the command line wants; None leaves it to the settings."""
-    if options.write_baseline:
-        baseline_to_renew(options.baseline)  # what cannot be written is said before all is checked
-        return Baseline()
-    return read_baseline(Path(options.baseline)) if options.baseline else None
+    if not options.baseline:
+        return None
+    baseline = read_baseline(Path(options.baseline))
+    if baseline.fault:
+        raise InvalidSettings(baseline.path, baseline.fault)
+    return baseline
+
+
+def _to_renew(options: argparse.Namespace) -> Baseline:
+    """Return the baseline to write: the named one, else that of the settings if all agree on it."""
+    if options.baseline:
+        return baseline_to_renew(Path(options.baseline))
+    named: set[Path | None] = set()
+    for path in map(Path, options.paths):
+        with suppress(UnreadableInput):  # said when it is to be checked
+            named |= {each.baseline.path for each in settings_of(path)}
+    only = named.pop() if len(named) == 1 else None
+    return baseline_to_renew(_from(here(), only) if only else Path(DEFAULT_FILE))
+
+
+def _from(folder: Path, path: Path) -> Path:
+    return path.relative_to(folder) if path.is_relative_to(folder) else path
 
 
 def _tell(report: Report, options: argparse.Namespace) -> None:
     """Write the report in all the ways that are asked for."""
     stream = None if options.output else sys.stdout
-    manner = Manner(palette_for(options.color, stream), str(Path.cwd()))
+    command = shlex.join(("subt-check", *options.words))
+    manner = Manner(palette_for(options.color, stream), str(here()), command)
     written = FORMATS[options.format](report, manner)
     if options.output:
         write(Path(options.output), written)
     else:
         show(written)
     if options.report:
+        folder = empty_of(Path(options.report), STALE)
         for name, content in artefacts(report, manner):
-            write(Path(options.report) / name, content)
+            write(folder / name, content)
     if options.statistics:
         # Behind another format's report it would spoil it.
         tell = show if options.output or options.format == "text" else say_progress

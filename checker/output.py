@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Collection
 from contextlib import suppress
 from pathlib import Path
 
@@ -48,3 +49,30 @@ def write(path: Path, content: str | bytes) -> None:
         path.write_bytes(content.encode() if isinstance(content, str) else content)
     except OSError as error:
         raise CheckerError(f"{path} cannot be written: {error.strerror}") from None
+
+
+def here() -> Path:
+    """Return the current folder.
+
+    Raises:
+        CheckerError: It is gone.
+    """
+    try:
+        return Path.cwd()
+    except OSError as error:
+        raise CheckerError(f"the current folder cannot be used: {error.strerror}") from None
+
+
+def empty_of(folder: Path, names: Collection[str] = ()) -> Path:
+    """Return a folder, made if need be, without some files.
+
+    Raises:
+        CheckerError: It cannot be made or changed.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in names:
+            (folder / name).unlink(missing_ok=True)
+    except OSError as error:
+        raise CheckerError(f"{folder} cannot be written: {error.strerror}") from None
+    return folder

@@ -8,7 +8,9 @@ import sys
 from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, requires
 
-from checker.doctor.result import Result, State
+from checker.doctor.importing import import_troubles
+from checker.doctor.result import INSTALL_AGAIN, Result, State
+from checker.report.wording import plain, shortened
 from checker.versions import UNKNOWN, tool_version, version_of
 
 LEAST_PYTHON = (3, 11)
@@ -38,7 +40,7 @@ def _libraries() -> Iterator[Result]:
     except PackageNotFoundError:
         yield Result(State.NOTE, "subt-check runs without being installed", "see README.md")
         return
-    fitting = []
+    fitting: dict[str, str] = {}
     for match in filter(None, needed):
         name, least = match.groups()
         version = version_of(name)
@@ -48,8 +50,13 @@ def _libraries() -> Iterator[Result]:
             what = f"{name} is {version}, expected {least} or newer"
             yield Result(State.PROBLEM, what, f"pip install --upgrade '{match[0]}'")
         else:
-            fitting.append(f"{name} {version}")
-    yield Result(State.OK, f"libraries: {', '.join(fitting)}")
+            fitting[name] = version
+    troubles = import_troubles(fitting)
+    for name, trouble in troubles.items():
+        said = plain(shortened(trouble, 300))
+        yield Result(State.PROBLEM, f"{name} cannot be imported ({said})", INSTALL_AGAIN)
+    well = [f"{name} {version}" for name, version in fitting.items() if name not in troubles]
+    yield Result(State.OK, f"libraries: {', '.join(well)}")
 
 
 def numbers(version: str) -> tuple[int, ...]:

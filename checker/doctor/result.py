@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+INSTALL_AGAIN = "install subt-check again, with its libraries"
+
 
 class State(StrEnum):
     """`NOTE`: something is missing that the checker can do without."""

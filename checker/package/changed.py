@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from os.path import abspath
 from pathlib import Path
 
+from checker.errors import UnreadableInput
 from checker.package.recognition import looks_like_package
 
 
@@ -22,15 +23,30 @@ def changed_packages(files: Iterable[Path], here: Path) -> list[Path]:
 
     Returns:
         Folders, relative to `here` where they lie below it.
+
+    Raises:
+        UnreadableInput: A file is a folder, or a link to a package.
     """
     by_folder: dict[Path, Path | None] = {}
     for file in files:
+        _refuse_folder(file, here)
         # A changed link is a file as well: it is not followed.
         folder = Path(abspath(here / file)).parent  # noqa: PTH100
         if folder not in by_folder:
             by_folder[folder] = _outermost(folder)
     found = dict.fromkeys(package for package in by_folder.values() if package is not None)
     return [each.relative_to(here) if each.is_relative_to(here) else each for each in found]
+
+
+def _refuse_folder(file: Path, here: Path) -> None:
+    """Refuse what asks for a check of packages by their folders; other links count as files."""
+    place = here / file
+    try:
+        is_folder = place.is_dir() and (not place.is_symlink() or looks_like_package(place))
+    except (OSError, ValueError):
+        return
+    if is_folder:
+        raise UnreadableInput(file, "is a folder", "leave out --files to check folders")
 
 
 def _outermost(folder: Path) -> Path | None:

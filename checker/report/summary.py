@@ -17,9 +17,11 @@ _NAME_LIMIT = 200
 def summary_text(packages: Sequence[PackageReport], palette: Palette) -> str:
     """Return a line for each package, then the counts of all."""
     width = max((len(plain(package.name)) for package in packages), default=0)
+    words = _counted(packages)
     lines = []
     for package in packages:
-        numbers = "  ".join(f"{package.count(level):4d} {level}" for level in Severity)
+        counts = zip(_counts(package), words, strict=False)
+        numbers = "  ".join(f"{number:4d} {word}" for number, word in counts)
         verdict = palette.verdict(package.verdict, f"{verdict_word(package.verdict):<10}")
         lines.append(f"{plain(package.name):<{width}}  {verdict}  {numbers}")
     return "\n".join([*lines, ready_of_all(packages)]) + "\n"
@@ -32,13 +34,29 @@ def summary_markdown(packages: Sequence[PackageReport], room: int) -> tuple[str,
         packages: A row each.
         room: Bytes.
     """
-    head = "| package | verdict | " + " | ".join(f"{level}s" for level in Severity) + " |"
-    rows, left = fitting(packages, _row_in_markdown, room)
-    return "\n".join([head, "|---|---|" + "---:|" * len(Severity), *rows]), left
+    words = _counted(packages)
+    heads = [f"{word}s" if word in list(Severity) else word for word in words]
+    head = "| package | verdict | " + " | ".join(heads) + " |"
+    rows, left = fitting(packages, lambda each: _row_in_markdown(each, len(words)), room)
+    return "\n".join([head, "|---|---|" + "---:|" * len(words), *rows]), left
 
 
-def _row_in_markdown(package: PackageReport) -> str:
-    numbers = " | ".join(str(package.count(level)) for level in Severity)
+def has_suppressed(packages: Sequence[PackageReport]) -> bool:
+    """Say whether something of any package was found and does not count."""
+    return any(package.suppressed for package in packages)
+
+
+def _counted(packages: Sequence[PackageReport]) -> list[str]:
+    """Return what is counted of each package, in words."""
+    return [*map(str, Severity), *["suppressed"] * has_suppressed(packages)]
+
+
+def _counts(package: PackageReport) -> list[int]:
+    return [*map(package.count, Severity), len(package.suppressed)]
+
+
+def _row_in_markdown(package: PackageReport, columns: int) -> str:
+    numbers = " | ".join(map(str, _counts(package)[:columns]))
     name = escaped(shortened(package.name, _NAME_LIMIT))
     return f"| {name} | {verdict_word(package.verdict)} | {numbers} |"
 

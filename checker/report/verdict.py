@@ -58,5 +58,11 @@ def _aside(package: PackageReport) -> str:
     others = sum(reason != NO_TRIAL for reason in off)
     said = ["trial not run"] if NO_TRIAL in off else []
     said += [f"{count(others, 'rule')} switched off"] if others else []
-    said += [f"{len(package.suppressed)} suppressed"] if package.suppressed else []
+    said += [_suppressed(package)] if package.suppressed else []
     return ", ".join(said)
+
+
+def _suppressed(package: PackageReport) -> str:
+    errors = sum(each.finding.severity is Severity.ERROR for each in package.suppressed)
+    of_them = f", {errors} of them {'an error' if errors == 1 else 'errors'}" if errors else ""
+    return f"{len(package.suppressed)} suppressed{of_them}"

@@ -46,12 +46,15 @@ def _settings(folder: Path) -> Iterator[str]:
     if known is not None:
         yield f"left {plain(str(known))} as it is"
         return
+    target = folder / FILE_NAME
+    if os.path.lexists(target):
+        yield f"left {plain(str(target))} as it is: it is no file that holds settings"
+        return
     from jinja2 import StrictUndefined, Template
 
     guess = guessed_profile(folder)
     source = templates("init").joinpath(f"{FILE_NAME}.j2").read_text("utf-8")
     template = Template(source, undefined=StrictUndefined, keep_trailing_newline=True)
-    target = folder / FILE_NAME
     _create(target, template.render(profile=guess.profile, reason=guess.reason))
     profile = f"profile {guess.profile}" if guess.profile else "no profile"
     yield f"wrote {plain(str(target))}: {profile} ({guess.reason})"

@@ -314,9 +314,74 @@ def test_wrong_settings_name_file_and_key_and_end_with_2(run: Run, good: Path) -
     (good / "subt-check.toml").write_text('profile = "\\u001b[31mmars"\n')
     done = run(good)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(f"subt-check: {good}/subt-check.toml: profile is ")
+    said = "is not checked: its settings cannot be used: subt-check.toml: profile is "
+    assert done.stderr.startswith(f"subt-check: {good} {said}")
     assert "\x1b" not in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "text", ["profile = 'mars'", "[", "ignore = ['X']", "baseline = 'b.json'", "baseline = '..'"]
+)
+def test_wrong_settings_in_a_package_take_only_its_report(
+    run: Run, good: Path, rover: Path, text: str
+) -> None:
+    (rover / "subt-check.toml").write_text(text)
+    done = run(good.parent, "--no-trial", "--format", "json")
+    assert done.returncode == 2
+    assert [each["name"] for each in packages(done.stdout)] == [GOOD]
+    assert f"{rover.name} is not checked: its settings cannot be used: " in done.stderr
+    with zipfile.ZipFile(rover.parent / "packed.zip", "w") as archive:
+        for file in ("model.sdf", "subt-check.toml"):
+            archive.write(rover / file, f"{rover.name}/{file}")
+    assert run("packed.zip", "--no-trial").stderr.startswith(
+        f"subt-check: packed.zip/{rover.name} is not checked: its settings cannot be used: "
+    )
+
+
+def test_wrong_settings_above_the_packages_end_the_run(run: Run, good: Path, rover: Path) -> None:
+    (good.parent / "subt-check.toml").write_text("profile = 'mars'")
+    done = run(good, rover, "--no-trial")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"subt-check: {good.parent}/subt-check.toml: profile is 'mars'")
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        *[["--files", each] for each in ("--fix", "--output=o", "--report=r", "--write-baseline")],
+        *[["--write-baseline", each] for each in ("--fix", "--diff", "--output=o", "--report=r")],
+        *[["--write-baseline", each] for each in ("--statistics", "--format=json")],
+    ],
+    ids=" ".join,
+)
+def test_options_that_do_not_go_together(run: Run, good: Path, options: list[str]) -> None:
+    before = sorted(good.parent.rglob("*"))
+    done = run(*options, "--", good)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("subt-check: --")
+    assert sorted(good.parent.rglob("*")) == before
+
+
+@pytest.mark.parametrize("name", ["--fix", "--output=made", "--report=made", "--", "-x"])
+def test_a_changed_file_that_is_named_like_an_option_is_a_file(
+    run: Run, good: Path, name: str, tmp_path: Path
+) -> None:
+    (good / name).write_text("")
+    (tmp_path / name).write_text("")
+    model = f"{good.name}/model.sdf"
+    done = run("check", "--no-trial", "--files", "--", name, model, f"{good.name}/{name}")
+    assert done.returncode in (0, 1), done.stderr
+    assert f"{good.name}: " in done.stdout
+    assert not (tmp_path / "made").exists()
+
+
+@pytest.mark.parametrize("given", [GOOD, ".", "link"])
+def test_a_folder_is_no_changed_file(run: Run, good: Path, given: str) -> None:
+    (good.parent / "link").symlink_to(good)
+    done = run("check", "--no-trial", "--files", "--", given)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"subt-check: {given} is a folder; leave out --files")
 
 
 def test_an_error_is_shown_in_full_when_asked_for(good: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+import re
 import sys
 from importlib.metadata import PackageNotFoundError
 from pathlib import Path
@@ -56,7 +57,33 @@ def test_a_missing_library_is_a_problem(run: Run, tmp_path: Path) -> None:
     (tmp_path / "lxml/__init__.py").write_text("raise ImportError('no lxml here')")
     done = run("doctor", PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
-    assert "problem self-test cannot begin: no lxml here; install subt-check again" in done.stdout
+    assert (
+        "problem lxml cannot be imported (ImportError: no lxml here); install subt-check again, "
+        "with its libraries\n"
+    ) in done.stdout
+    assert "note    self-test is left out" in done.stdout
+    assert "please report" not in done.stdout
+
+
+def test_a_library_that_ends_the_process_is_a_problem(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "yaml").mkdir()
+    (tmp_path / "yaml/__init__.py").write_text("import os; os.abort()")
+    done = run("doctor", PYTHONPATH=str(tmp_path))
+    assert done.returncode == 1
+    said = "problem libraries cannot be imported (the child that imports them ended in a crash"
+    assert said in done.stdout
+
+
+def test_a_part_of_a_library_that_is_missing_is_to_be_installed_again(
+    run: Run, tmp_path: Path
+) -> None:
+    """It can be imported, but what a rule asks of it cannot."""
+    (tmp_path / "jinja2").mkdir()
+    (tmp_path / "jinja2/__init__.py").write_text("")
+    done = run("doctor", PYTHONPATH=str(tmp_path))
+    assert done.returncode == 1
+    assert re.search(r"(?m)^problem self-test fails: .*; install subt-check again, ", done.stdout)
+    assert "please report" not in done.stdout
 
 
 def test_a_library_that_is_missing_or_too_old_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

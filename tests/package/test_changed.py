@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.errors import UnreadableInput
 from checker.package.changed import changed_packages
 
 Write = Callable[[Mapping[str, str]], Path]
@@ -44,9 +45,21 @@ def test_a_deleted_file_counts_for_its_package(here: Path, file: str) -> None:
     assert changed(here, file) == ["robots/a"]
 
 
-@pytest.mark.parametrize("file", ["README.md", "robots/notes.md", "gone/package.xml", "robots"])
+@pytest.mark.parametrize("file", ["README.md", "robots/notes.md", "gone/package.xml"])
 def test_files_outside_packages_are_passed_over(here: Path, file: str) -> None:
     assert changed(here, file) == []
+
+
+@pytest.mark.parametrize("folder", ["robots", "robots/a", "robots/a/meshes", ".", "link"])
+def test_a_folder_is_refused(here: Path, folder: str) -> None:
+    (here / "link").symlink_to(here / "robots/a")
+    with pytest.raises(UnreadableInput, match=r"is a folder.*leave out --files"):
+        changed(here, folder)
+
+
+def test_a_link_to_a_folder_within_a_package_is_a_file(here: Path) -> None:
+    (here / "robots/b/meshes").symlink_to("../a/meshes")
+    assert changed(here, "robots/b/meshes") == ["robots/b"]
 
 
 def test_a_nested_model_belongs_to_the_robot_around_it(here: Path) -> None:
@@ -72,4 +85,5 @@ def test_a_repository_that_is_one_package(write: Write) -> None:
 
 @given(st.lists(st.text(st.characters(exclude_characters="\0"), max_size=300), max_size=20))
 def test_any_name_is_answered(names: list[str]) -> None:
-    assert changed_packages(map(Path, names), Path("/nowhere")) == []
+    relative = [Path(name.lstrip("/")) for name in names]
+    assert changed_packages(relative, Path("/nowhere")) == []

@@ -84,3 +84,17 @@ def test_an_edit_of_text_that_is_not_there_is_not_made() -> None:
 def test_stretches_that_touch_do_not_collide() -> None:
     assert not Stretch(0, 2, "").collides(Stretch(2, 4, ""))
     assert Stretch(0, 3, "").collides(Stretch(2, 4, ""))
+
+
+@given(st.lists(st.tuples(st.integers(0, 30), st.integers(0, 4), st.sampled_from("ab"))))
+def test_what_is_accepted_collides_with_nothing(wanted: list[tuple[int, int, str]]) -> None:
+    text = EditedText(SourceText("a.sdf", "x" * 40))
+    taken: list[Stretch] = []
+    for start, length, replacement in wanted:
+        stretch = Stretch(start, start + length, replacement)
+        free = all(stretch == each or not stretch.collides(each) for each in taken)
+        assert text.accepts(stretch) == free
+        if free:
+            text.add(stretch)
+            taken += [] if stretch in taken else [stretch]
+    assert text.stretches == sorted(taken)

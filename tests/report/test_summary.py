@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
+import pytest
+
 from checker.finding import Place, Severity
+from checker.report.html.page import to_index
 from checker.report.palette import Palette
-from checker.report.report import PackageReport, Report
+from checker.report.report import PackageReport, Report, Suppressed, SuppressedBy
 from checker.report.summary import statistics_text, summary_markdown, summary_text
+from checker.report.verdict import sentence
 from tests.report.any_report import many
 
 (PACKAGE,) = many(3).packages
@@ -21,6 +26,44 @@ def test_a_line_for_each_package() -> None:
         "rover  not ready      3 error     0 warning     0 info",
         "2 packages, 1 ready",
     ]
+
+
+def test_what_is_suppressed_has_a_column_where_there_is_any() -> None:
+    aside = Suppressed(PACKAGE.findings[0], SuppressedBy.SETTINGS, "it is so")
+    some = replace(GOOD, suppressed=(aside, aside))
+    assert summary_text((some, PACKAGE), Palette(enabled=False)).splitlines() == [
+        "good   ready          0 error     0 warning     0 info     2 suppressed",
+        "rover  not ready      3 error     0 warning     0 info     0 suppressed",
+        "2 packages, 1 ready",
+    ]
+    table = summary_markdown((some, PACKAGE), 1000)[0].splitlines()
+    assert table[0] == "| package | verdict | errors | warnings | infos | suppressed |"
+    assert table[1] == "|---|---|---:|---:|---:|---:|"
+    assert [row.split("|")[-2].strip() for row in table[2:]] == ["2", "0"]
+    index = to_index(Report((some, PACKAGE), {}), ())
+    assert ">suppressed</th>" in index
+    assert re.findall(r'<td class="figure">(\d+)</td>', index) == list("00023000")
+    assert ">suppressed</th>" not in to_index(Report((GOOD, PACKAGE), {}), ())
+
+
+@pytest.mark.parametrize(
+    ("severities", "said"),
+    [
+        ("", "Ready: nothing to fix"),
+        ("wi", "Ready: nothing to fix (2 suppressed)"),
+        ("we", "Ready: nothing to fix (2 suppressed, 1 of them an error)"),
+        ("wewe", "Ready: nothing to fix (4 suppressed, 2 of them errors)"),
+    ],
+)
+def test_the_sentence_says_how_many_errors_are_suppressed(severities: str, said: str) -> None:
+    by_letter = {str(severity)[0]: severity for severity in Severity}
+    aside = tuple(
+        Suppressed(
+            replace(PACKAGE.findings[0], severity=by_letter[letter]), SuppressedBy.SETTINGS, "so"
+        )
+        for letter in severities
+    )
+    assert str(sentence(replace(GOOD, suppressed=aside))) == said
 
 
 def test_a_name_ends_no_cell() -> None:

@@ -76,7 +76,10 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def outputs(runner: dict[str, str]) -> dict[str, str]:
-    lines = Path(runner["GITHUB_OUTPUT"]).read_text("utf-8").splitlines()
+    """Return the outputs of the steps since they were last asked for."""
+    file = Path(runner["GITHUB_OUTPUT"])
+    lines = file.read_text("utf-8").splitlines() if file.exists() else []
+    file.write_text("")
     return dict(line.split("=", 1) for line in lines)
 
 
@@ -111,6 +114,7 @@ def test_a_good_package_passes(runner: dict[str, str], checkout: Path) -> None:
 
 
 def test_faults_are_annotations_and_sarif(runner: dict[str, str], checkout: Path) -> None:
+    outputs(runner)
     done = check(runner, checkout, path=f"{GOOD}\n\n{BROKEN}\n", trial="false")
     assert done.returncode == 1, done.stdout + done.stderr
     assert re.search(rf"^::error .*file={BROKEN}/model\.sdf,line=39\b", done.stdout, re.MULTILINE)
@@ -118,6 +122,22 @@ def test_faults_are_annotations_and_sarif(runner: dict[str, str], checkout: Path
     (run,) = json.loads(Path(written["sarif"]).read_text("utf-8"))["runs"]
     assert "REF001" in {result["ruleId"] for result in run["results"]}
     assert Path(written["sarif"]).parent == Path(written["report"])
+
+
+def test_each_step_has_a_folder_of_its_own(runner: dict[str, str], checkout: Path) -> None:
+    folders = []
+    for _ in range(2):
+        outputs(runner)
+        assert check(runner, checkout, path=GOOD, trial="false").returncode == 0
+        folders.append(outputs(runner)["report"])
+    assert folders[0] != folders[1]
+    assert all((Path(folder) / "report.html").is_file() for folder in folders)
+
+
+def test_what_was_not_written_is_no_output(runner: dict[str, str], checkout: Path) -> None:
+    outputs(runner)
+    assert check(runner, checkout, path=GOOD, fail_on="never").returncode == 2
+    assert outputs(runner) == {}
 
 
 def test_warnings_fail_where_the_workflow_says_so(runner: dict[str, str], checkout: Path) -> None:

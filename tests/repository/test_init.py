@@ -65,7 +65,7 @@ def test_the_hook_is_one_that_git_runs(robots: Path) -> None:
     ]
     published = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text("utf-8"))[0]
     (ours,) = hook()[0]["hooks"]
-    assert ours["entry"] == published["entry"]
+    assert (ours["entry"], ours["args"]) == (published["entry"], published["args"])
     assert ours["require_serial"] == published["require_serial"]
 
 
@@ -135,12 +135,25 @@ def test_links_are_not_written_through(robots: Path) -> None:
     assert outside.read_text("utf-8") == OTHERS
 
 
-def test_a_dangling_link_in_place_of_the_settings(
-    robots: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (robots / "subt-check.toml").symlink_to(robots.parent / "gone")
-    assert main(["init", str(robots)]) == 2
-    assert "subt-check.toml cannot be written: File exists" in capsys.readouterr().err
+@pytest.mark.parametrize("in_the_way", ["link", "folder"])
+def test_something_else_in_place_of_the_settings(robots: Path, in_the_way: str) -> None:
+    if in_the_way == "link":
+        (robots / "subt-check.toml").symlink_to(robots.parent / "gone")
+    else:
+        (robots / "subt-check.toml").mkdir()
+    left, hooked = init(robots).splitlines()
+    assert left == f"left {robots}/subt-check.toml as it is: it is no file that holds settings"
+    assert hooked.startswith(f"wrote {robots}/{HOOKS_FILE} with the hook subt-check")
+    assert not (robots.parent / "gone").exists()
+
+
+@pytest.mark.parametrize("in_the_way", ["link", "folder"])
+def test_something_else_in_place_of_the_hooks(robots: Path, in_the_way: str) -> None:
+    if in_the_way == "link":
+        (robots / HOOKS_FILE).symlink_to(robots.parent / "gone")
+    else:
+        (robots / HOOKS_FILE).mkdir()
+    assert f"added no hook: {robots}/{HOOKS_FILE} " in init(robots)
     assert not (robots.parent / "gone").exists()
 
 

@@ -44,10 +44,13 @@ def hooks() -> list[dict[str, Any]]:
 @pytest.mark.parametrize("hook", hooks(), ids=lambda hook: hook["id"])
 def test_the_command_of_a_hook_is_understood(hook: dict[str, Any]) -> None:
     name, *words = hook["entry"].split()
-    options = cli.build_parser().parse_args([*words, "--fail-on", "warning", "a.sdf", "b/c.dae"])
+    names = ["a.sdf", "b/c.dae", "--fix", "--output=/x"]
+    options = cli.build_parser().parse_args([*words, *hook["args"], *names])
     assert name == "subt-check"
     assert options.files
-    assert options.paths == ["a.sdf", "b/c.dae"]
+    assert options.paths == names
+    assert not options.fix
+    assert options.output is None
     assert options.no_trial == (hook.get("stages") != ["manual"])
 
 
@@ -59,6 +62,7 @@ def test_the_page_tells_of_all_hooks() -> None:
     (repository,) = yaml.safe_load(first)["repos"]
     assert [hook["id"] for hook in repository["hooks"]] == ids
     (hook,) = yaml.safe_load(second)
+    assert hook["args"][-1] == "--"
     cli.build_parser().parse_args(["check", *hook["args"], "a.sdf"])
 
 
@@ -115,6 +119,14 @@ def test_a_commit_is_checked_package_by_package(robots: Path, home: dict[str, st
     assert failed.returncode == 1
     assert "exit code: 1" in failed.stdout
     assert f"submitted_models/{BROKEN}/model.sdf:39:18 error REF001" in failed.stdout
+
+    for name in ("--fix", "--output=made"):
+        (robots / name).write_text("")
+        (good / name).write_text("")
+    git(robots, "add", "--all")
+    named = run(robots, home)
+    assert f"{GOOD}: Ready" in named.stdout, named.stdout + named.stderr
+    assert not (robots / "made").exists()
 
     driven = run(robots, home, "--all-files", "--hook-stage", "manual", "subt-check-trial")
     assert driven.returncode == 1

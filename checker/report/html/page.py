@@ -25,6 +25,7 @@ from checker.report.json_report import to_json
 from checker.report.manner import Manner
 from checker.report.report import PackageReport, Report, VerdictKind
 from checker.report.sarif import to_sarif
+from checker.report.summary import has_suppressed
 from checker.report.verdict import sentence
 from checker.report.wording import count, plain
 from checker.resources import templates
@@ -138,6 +139,7 @@ def to_index(report: Report, links: Sequence[str]) -> str:
             for each, link in zip(report.packages, chain(links, repeat("")), strict=False)
         ],
         levels=list(Severity),
+        with_suppressed=has_suppressed(report.packages),
         ready=sum(each.verdict is VerdictKind.READY for each in report.packages),
         style=text_of("report.css"),
     )  # fmt: skip

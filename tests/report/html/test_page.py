@@ -16,6 +16,7 @@ from checker.report.manner import Manner
 from checker.report.palette import Palette
 from checker.report.report import (
     Cause,
+    InheritedPart,
     NotChecked,
     NotOpened,
     PackageReport,
@@ -136,3 +137,46 @@ def test_the_index_lists_every_package(text: str) -> None:
     assert tree.xpath("//tbody//a/@href") == ["b/report.html"]
     assert tree.xpath("//tbody//th/bdi/text()")[0] == plain(text)
     assert "0 of 2 packages ready" in tree.findtext(".//title")
+
+
+def test_the_command_is_repeated_as_it_was() -> None:
+    said = rendered(package("rover"), "subt-check './a b' --select SEN")
+    assert html.fromstring(said).findtext(".//pre/code") == "subt-check './a b' --select SEN"
+    assert "To check again" not in rendered(package("rover"))
+
+
+def test_a_name_that_is_no_text_spoils_no_patch() -> None:
+    tree = page(replace(package("rover"), patch="--- a/\udcff\n"))
+    assert "fixes.patch" in tree.xpath("//a[@download]/@download")
+
+
+def test_it_says_why_nothing_was_driven() -> None:
+    unseen = NotChecked("TRI001", "the model has no links", Cause.NOT_APPLICABLE)
+    other = NotChecked("PKG001", "switched off", Cause.SWITCHED_OFF)
+    tree = page(replace(package("rover"), not_checked=(other, unseen)))
+    said = " ".join(tree.xpath("//section[@id='trial']//text()"))
+    assert "Not driven: the model has no links" in said
+    assert "switched off" not in said
+
+
+def test_lists_say_what_they_leave_out() -> None:
+    reasons = tuple(NotChecked(f"A{n:03}", f"reason {n}", Cause.NOT_AT_HAND) for n in range(400))
+    aside = package("rover").suppressed * 500
+    said = rendered(replace(package("rover"), not_checked=reasons, suppressed=aside))
+    assert "and 100 more reasons" in said
+    assert "and 200 more findings" in said
+
+
+def test_inherited_parts_are_named_without_a_robot() -> None:
+    parts = (InheritedPart("model.sdf", "rover_sensor_config_1", at_hand=False),)
+    tree = page(replace(package("rover"), facts={}, inherited=parts))
+    said = " ".join(" ".join(tree.xpath("//section[@id='facts']//text()")).split())
+    assert "inherited from rover_sensor_config_1 , which is not at hand" in said
+
+
+def test_what_was_not_opened_is_named() -> None:
+    report = Report(
+        (package("rover"),), VERSIONS, (NotOpened("nothere", "is missing", failed=True),)
+    )
+    said = to_html(report.packages[0], report, Manner(Palette(enabled=False), "/work"))
+    assert "nothere" in said
