@@ -63,8 +63,9 @@ def result(said: Said, index: int, marks: Marks, folder: str) -> Json:
         "properties": {"package": plain(package.name)},
     }
     if others:
-        related = others[:RELATED_LIMIT]
-        made["relatedLocations"] = [_related(each, package, folder) for each in related]
+        related = (_related(each, package, folder) for each in others[:RELATED_LIMIT])
+        # The standard wants them distinct, and words made plain may have become alike.
+        made["relatedLocations"] = list({str(each): each for each in related}.values())
         made["occurrenceCount"] = 1 + sum(not each.note for each in others)
     if fix := fixes(finding.fix, finding.how, package, folder):
         made["fixes"] = fix
