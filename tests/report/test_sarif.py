@@ -167,7 +167,8 @@ def test_further_places_are_related_locations() -> None:
     related = result["relatedLocations"]
     assert [each["message"]["text"] for each in related] == [note.note, "also here"]
     assert result["occurrenceCount"] == 2
-    assert len(result_of(places=(PLACE,) * 500)["relatedLocations"]) == 100
+    many = tuple(replace(PLACE, line=line, end_line=line) for line in range(1, 501))
+    assert len(result_of(places=many)["relatedLocations"]) == 100
 
 
 def test_a_message_holds_no_link() -> None:
