@@ -56,16 +56,22 @@ def framed(points: Array, azimuth: float, elevation: float, aspect: float) -> Ca
     right = np.array([math.sin(turn), -math.cos(turn), 0.0])
     up = np.cross(right, forward)
     half_high = math.tan(math.radians(FIELD_OF_VIEW) / 2.0) / _MARGIN
+    axes = np.array([forward, right, up]).T
+
+    def seen_from(middle: Array) -> tuple[Array, float]:
+        """Return how far ahead, right and up the points are, and the distance that sees all."""
+        depth, across, high = seen = ((points - middle) @ axes).T
+        needed = np.maximum(np.abs(across) / (half_high * aspect), np.abs(high) / half_high) - depth
+        return seen, float(needed.max())
+
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     # Twice: the middle of what is seen is not that of the box, as near things look larger.
     for _ in range(2):
-        away = points - middle
-        depth, across, high = away @ forward, away @ right, away @ up
-        needed = np.maximum(np.abs(across) / (half_high * aspect), np.abs(high) / half_high) - depth
-        distance = float(needed.max())
-        seen = np.maximum(depth + distance, 1e-9)
-        shifts = (_middle(across / seen) * right + _middle(high / seen) * up) * distance
-        middle = middle + shifts
+        (depth, across, high), distance = seen_from(middle)
+        away = np.maximum(depth + distance, 1e-9)
+        shift = _middle(across / away) * right + _middle(high / away) * up
+        middle = middle + shift * distance
+    _, distance = seen_from(middle)
     x, y, z = (float(each) for each in middle)
     return Camera((x, y, z), max(distance, 1e-3) * 1.02, azimuth, elevation)
 
