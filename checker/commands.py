@@ -43,8 +43,11 @@ from checker.suppression.writing import baseline_to_renew, write_baseline
 def check(options: argparse.Namespace) -> int:
     """Check packages and print the report."""
     _refuse_together(options)
+    folder = here()
     # What cannot be written is said before all is checked.
     renewed = _to_renew(options) if options.write_baseline else None
+    if options.report:
+        empty_of(Path(options.report))
     wishes = {
         "profile": options.profile,
         "select": options.select,
@@ -56,14 +59,11 @@ def check(options: argparse.Namespace) -> int:
         "baseline": Baseline() if renewed else _baseline(options),
         "display": True if options.report or options.format == "html" else None,
     }
-    here()
-    if options.report:
-        empty_of(Path(options.report))  # what cannot be written is said before all is checked
     paths = [Path(path) for path in options.paths]
     if options.files:
         from checker.package.changed import changed_packages
 
-        paths = changed_packages(paths, Path.cwd())
+        paths = changed_packages(paths, folder)
         if not paths:
             return EXIT_CLEAN
     if options.diff or options.fix:

@@ -91,8 +91,7 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
 
 def _report_or_crash(subject: Subject, shown: str, settings: Settings) -> PackageReport:
     try:
-        with collection_put_off():
-            return _report(subject, shown, settings)
+        return _report(subject, shown, settings)
     except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
         broken = (crashed("check", error),)
         return PackageReport(subject.package.name, shown, "unknown", (), broken)
@@ -112,6 +111,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
     facts, trouble = _facts(subject)
     driven = subject.provided(RobotTrial)
     display, undrawn = _display(subject) if settings.display else (None, ())
+    patch = _patch(subject, outcome.findings) if settings.display else ""
     return PackageReport(
         package.name,
         shown,
@@ -130,7 +130,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         suppressed=outcome.suppressed,
         looked=tuple(outcome.looked),
         display=display,
-        patch=_patch(subject, outcome.findings) if settings.display else "",
+        patch=patch,
     )
 
 

@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from checker.cache import NO_CACHE, Cache
-from checker.collection import collection_put_off
 from checker.confined import Child
 from checker.controlling.entries import LaunchEntries, launch_entries
 from checker.controlling.system import control_system
@@ -102,8 +101,8 @@ class Subject:
         """Begin with parts that take long, so that they come about while the rules run."""
         twice = RepeatedTrial in kinds
         driven = twice or RobotTrial in kinds
-        if (driven or MassProperties in kinds) and isinstance(self.robots, tuple):
-            _begin_meshes(self.robots[0])
+        if driven or MassProperties in kinds:
+            self._begin_meshes()
         if driven and not isinstance(self.driving, NotAtHand):
             self.driving.begin(twice=twice)
         if SensorViews in kinds and not isinstance(self.viewing, NotAtHand):
@@ -113,9 +112,13 @@ class Subject:
 
     def start_meshes(self) -> None:
         """Begin to read the robot's meshes; what goes wrong is met again by who asks for it."""
-        with suppress(Exception), collection_put_off():
-            if isinstance(self.robots, tuple):
-                _begin_meshes(self.robots[0])
+        with suppress(Exception):
+            self._begin_meshes()
+
+    def _begin_meshes(self) -> None:
+        meshes = self.robots[0].meshes if isinstance(self.robots, tuple) else None
+        if isinstance(meshes, TimedMeshes):
+            meshes.begin()
 
     def close(self) -> None:
         """End what was begun and nobody asked for."""
@@ -369,11 +372,6 @@ class Subject:
         found = [find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots]
         known = tuple(each for devices in found for each in devices.known)
         return SensorDevices(known, found[0].diversions)
-
-
-def _begin_meshes(robot: Robot) -> None:
-    if isinstance(robot.meshes, TimedMeshes):
-        robot.meshes.begin()
 
 
 _Provider = Callable[[Subject], object]

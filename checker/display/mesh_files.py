@@ -8,13 +8,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from checker.cache import Cache
-from checker.confined import Child, Died, Limits
+from checker.confined import Child, Limits
 from checker.display.files.request import Asked, asked_of
 from checker.display.files.thinning import shares
 from checker.display.files.wire import Looked, from_json, to_json
 from checker.display.files.worker import SECONDS_FOR_ALL
 from checker.mesh.limits import MEMORY
 from checker.mesh.package_meshes import PackageMeshes, mesh_uris
+from checker.mesh.reading_child import all_read
 from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh, MeshFault
 from checker.model.robot import Robot
@@ -129,12 +130,5 @@ def surfaces_of(meshes: PackageMeshes, robot: Robot, cache: Cache) -> MeshFiles:
 
 def _answered(child: Child, number: int) -> list[Looked]:
     """Wait for what a child has read, as many files as it was given."""
-    answer = child.answer()
-    try:
-        read = [] if isinstance(answer, Died) else [from_json(each) for each in json.loads(answer)]
-    except (TypeError, ValueError):
-        read = []
-    if len(read) == number:
-        return read
-    reason = answer.reason if isinstance(answer, Died) else "answered with nonsense"
-    return [f"was not read: its reader {reason}"] * number
+    read = all_read(child, number, from_json)
+    return [read] * number if isinstance(read, str) else read

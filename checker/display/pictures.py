@@ -62,19 +62,6 @@ class Drawing:
         )
 
 
-def pictures_of(scene: DisplayScene) -> tuple[Picture, ...]:
-    """Return pictures of a robot: its visuals, its collisions, moments of its trial.
-
-    There are none where nothing is to be seen, or where nothing can draw without a window.
-    """
-    drawing = Drawing()
-    try:
-        drawing.give(scene)
-        return drawing.pictures
-    finally:
-        drawing.stop()
-
-
 def _artist(platform: str, request: bytes | None) -> Child:
     return Child(f"checker.display.drawing.by_{platform}", request, _LIMITS)
 

@@ -7,6 +7,7 @@ import resource
 import signal
 from collections.abc import Callable
 from dataclasses import dataclass
+from time import monotonic
 
 from checker.confined import end_with_parent
 
@@ -38,6 +39,23 @@ def apart(work: Callable[[], bytes], seconds: int) -> bytes | Ended:
         result = pipe.read()
     code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
     return result if code == 0 else Ended(_cause(code, seconds))
+
+
+def apart_until(
+    work: Callable[[], bytes], seconds: int, until: float, for_all: float
+) -> bytes | Ended:
+    """Return what `work` returns in a fork, while there is time for one more of its kind.
+
+    Args:
+        work: See `apart`.
+        seconds: Of processor time, at most.
+        until: When the time for all ends, by `time.monotonic`.
+        for_all: Seconds that all together had, for the reason.
+    """
+    left = min(seconds, int(until - monotonic()))
+    if left < 1:
+        return Ended(f"was not read: the others took {for_all:g} s")
+    return apart(work, left)
 
 
 def _work(work: Callable[[], bytes], seconds: int, result_to: int) -> int:

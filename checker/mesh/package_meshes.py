@@ -10,11 +10,12 @@ from functools import cached_property
 from itertools import islice
 
 from checker.cache import NO_CACHE, Cache
-from checker.confined import Child, Died, Limits
+from checker.confined import Child, Limits
 from checker.mesh.key import KIND, mesh_key
 from checker.mesh.limits import MEMORY, SECONDS_FOR_ALL, SECONDS_FOR_ONE, SIZE_LIMIT
 from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
 from checker.mesh.materials import textures_in
+from checker.mesh.reading_child import all_read
 from checker.mesh.uris import MeshFile, file_behind
 from checker.mesh.wire import from_json, to_json
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
@@ -184,12 +185,5 @@ def _started(files: list[MeshFile], waiting: Child | None) -> Child:
 
 def _answered(child: Child, number: int) -> list[_Read]:
     """Wait for what a child has read, as many files as it was given."""
-    answer = child.answer()
-    try:
-        read = [] if isinstance(answer, Died) else [from_json(each) for each in json.loads(answer)]
-    except ValueError:
-        read = []
-    if len(read) == number:
-        return read
-    reason = answer.reason if isinstance(answer, Died) else "answered with nonsense"
-    return [MeshFault(MeshTrouble.NOT_LOOKED_AT, f"was not read: its reader {reason}")] * number
+    read = all_read(child, number, from_json)
+    return [MeshFault(MeshTrouble.NOT_LOOKED_AT, read)] * number if isinstance(read, str) else read

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
 from typing import Any
 
-from checker.mesh.apart import Ended, apart
+from checker.mesh.apart import Ended, apart_until
 from checker.mesh.limits import SECONDS_FOR_ALL, SIZE_LIMIT
 from checker.mesh.reader import load_libraries, read_mesh
 from checker.mesh.wire import to_json
@@ -40,14 +41,15 @@ def answer(request: bytes) -> bytes:
 
 def _read_apart(location: Path, name: str, seconds: int, until: float) -> Any:
     """Read one file in a process of its own: it takes no other file with it."""
-    seconds = min(seconds, int(until - monotonic()))
-    if seconds < 1:
-        reason = f"was not read: the others took {SECONDS_FOR_ALL:g} s"
-        return to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, reason))
-    read = apart(lambda: json.dumps(to_json(_read(location, name))).encode(), seconds)
+    work = partial(_as_bytes, location, name)
+    read = apart_until(work, seconds, until, SECONDS_FOR_ALL)
     if isinstance(read, Ended):
         return to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, read.reason))
     return json.loads(read)
+
+
+def _as_bytes(location: Path, name: str) -> bytes:
+    return json.dumps(to_json(_read(location, name))).encode()
 
 
 def _read(location: Path, name: str) -> Mesh | MeshFault:

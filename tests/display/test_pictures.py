@@ -15,7 +15,7 @@ from PIL import Image
 from checker.display.drawing.camera import FIELD_OF_VIEW, framed
 from checker.display.drawing.shots import MOMENTS, shots_of
 from checker.display.drawing.worker import LARGEST
-from checker.display.pictures import HEIGHT, WIDTH, Drawing, pictures_of
+from checker.display.pictures import HEIGHT, WIDTH, Drawing
 from checker.display.scene import DisplayScene, Item, Layer, LinkNode, Tracks
 from checker.display.surface import Surface
 from checker.model.transform import Transform
@@ -56,6 +56,15 @@ def red(picture: Picture) -> Any:
     """Return whether each pixel is one of the robot's."""
     seen = pixels(picture)
     return (seen[..., 0] > 90) & (seen[..., 1] < 80) & (seen[..., 2] < 80)
+
+
+def pictures_of(shown: DisplayScene) -> tuple[Picture, ...]:
+    drawing = Drawing()
+    try:
+        drawing.give(shown)
+        return drawing.pictures
+    finally:
+        drawing.stop()
 
 
 def drawn(shown: DisplayScene) -> tuple[Picture, ...]:

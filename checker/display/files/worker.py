@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
@@ -16,7 +17,7 @@ from checker.display.files.thinning import joined, shares, thinned
 from checker.display.files.wavefront import wavefront_pieces
 from checker.display.files.wire import Looked, to_json
 from checker.display.surface import Surface
-from checker.mesh.apart import Ended, apart
+from checker.mesh.apart import Ended, apart_until
 from checker.mesh.limits import SECONDS_FOR_ONE, SIZE_LIMIT
 from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
 from checker.mesh.reader import load_libraries, read_surface
@@ -55,12 +56,13 @@ def answer(request: bytes) -> bytes:
 
 def _read_apart(asked: Mapping[str, Any], until: float) -> bytes:
     """Read one file in a process of its own: it takes no other file with it."""
-    seconds = min(SECONDS_FOR_ONE, int(until - monotonic()))
-    if seconds < 1:
-        reason = f"was not read: the others took {SECONDS_FOR_ALL:g} s"
-        return json.dumps(to_json(reason)).encode()
-    read = apart(lambda: json.dumps(to_json(look(asked))).encode(), seconds)
+    work = partial(_as_bytes, asked)
+    read = apart_until(work, SECONDS_FOR_ONE, until, SECONDS_FOR_ALL)
     return json.dumps(to_json(read.reason)).encode() if isinstance(read, Ended) else read
+
+
+def _as_bytes(asked: Mapping[str, Any]) -> bytes:
+    return json.dumps(to_json(look(asked))).encode()
 
 
 def look(asked: Mapping[str, Any]) -> Looked:

@@ -51,15 +51,15 @@ def to_html(package: PackageReport, report: Report, manner: Manner) -> str:
         manner: Where the command was run, and which it was.
     """
     script = _script(with_viewer=package.display is not None)
-    trial = package.trial
+    trial, reasons = package.trial, reasons_of(package.not_checked)
     return environment().get_template("report.html.j2").render(
         package=package,
         sentence=sentence(package),
         groups=groups_of(package.findings),
         counts=[(level, package.count(level)) for level in Severity],
         facts=[(plain(fact.name), plain(fact.value)) for fact in facts_in_words(package.facts)],
-        reasons=reasons_of(package.not_checked)[:SHOWN],
-        more_reasons=max(0, len(reasons_of(package.not_checked)) - SHOWN),
+        reasons=reasons[:SHOWN],
+        more_reasons=max(0, len(reasons) - SHOWN),
         unchecked=len({each.rule for each in package.not_checked}),
         suppressed=suppressed_of(package.suppressed),
         more_suppressed=max(0, len(package.suppressed) - SHOWN),
