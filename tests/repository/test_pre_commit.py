@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -91,7 +92,7 @@ def home() -> Iterator[dict[str, str]]:
 
 
 def run(robots: Path, home: dict[str, str], *arguments: str) -> subprocess.CompletedProcess[str]:
-    command = ["pre-commit", "run", "--color", "never", *arguments]
+    command = [sys.executable, "-m", "pre_commit", "run", "--color", "never", *arguments]
     return subprocess.run(
         command, cwd=robots, env=home, capture_output=True, text=True, check=False
     )
