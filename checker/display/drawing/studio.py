@@ -32,7 +32,7 @@ _STUDIO = f"""
 <mujoco>
   <visual>
     <global fovy="{FIELD_OF_VIEW}"/>
-    <quality shadowsize="2048" offsamples="0"/>
+    <quality shadowsize="1024" offsamples="0"/>
     <headlight ambient="0.45 0.45 0.45" diffuse="0.33 0.33 0.33" specular="0.05 0.05 0.05"/>
     <rgba haze="0.97 0.98 0.99 1"/>
   </visual>
@@ -56,7 +56,7 @@ def drawn_size(asked: Mapping[str, Any]) -> tuple[int, int]:
 
     That is quicker than to have OpenGL take several samples for each pixel.
     """
-    return asked["width"] * 3 // 2, asked["height"] * 3 // 2
+    return asked["width"] * 5 // 4, asked["height"] * 5 // 4
 
 
 def model_of(asked: Mapping[str, Any]) -> Any:
