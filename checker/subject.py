@@ -247,7 +247,7 @@ class Subject:
         if isinstance(self.robots, NotAtHand):
             return self.robots
         with self.stages.stage("weigh"):
-            return tuple(weigh(robot) for robot in self.robots)
+            return tuple(weigh(robot, self.cache) for robot in self.robots)
 
     @cached_property
     def first_configuration(self) -> FirstConfiguration | NotAtHand:

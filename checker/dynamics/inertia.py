@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from checker.dynamics.mass_properties import LinkInertia
 from checker.model.components import Link
 from checker.model.robot import Robot
 from checker.model.transform import Transform, Vector
@@ -27,17 +26,23 @@ def inertial_pose(robot: Robot, link: Link) -> Transform | None:
     return robot.pose_of_part(link, link.inertial.pose)
 
 
-def moments_of(link: Link) -> Matrix:
-    """Return the 3×3 inertia about the centre of mass as written, kg·m².
+def rows_of(link: Link) -> tuple[Vector, Vector, Vector]:
+    """Return the rows of the 3×3 inertia about the centre of mass as written, kg·m².
 
     A link without inertial has what simulators take: in SDF 1 kg·m² about each axis, in URDF none.
     """
+    if link.inertial is None:
+        own = 1.0 if link.default_mass else 0.0
+        return (own, 0.0, 0.0), (0.0, own, 0.0), (0.0, 0.0, own)
+    xx, xy, xz, yy, yz, zz = (moment.value for moment in link.inertial.moments)
+    return (xx, xy, xz), (xy, yy, yz), (xz, yz, zz)
+
+
+def moments_of(link: Link) -> Matrix:
+    """Return `rows_of` a link as a matrix."""
     import numpy as np
 
-    if link.inertial is None:
-        return np.eye(3) * (1.0 if link.default_mass else 0.0)
-    xx, xy, xz, yy, yz, zz = (moment.value for moment in link.inertial.moments)
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return np.array(rows_of(link))
 
 
 def spatial_inertia(link: Link, pose: Transform) -> pin.Inertia:
@@ -47,7 +52,18 @@ def spatial_inertia(link: Link, pose: Transform) -> pin.Inertia:
         link: The link; moments that are not finite count as none.
         pose: Its centre of mass and axes.
     """
-    return se3(pose).act(_inertia(link.mass, moments_of(link)))
+    return placed_inertia(link.mass, moments_of(link), pose)
+
+
+def placed_inertia(mass: float, moments: Matrix, pose: Transform) -> pin.Inertia:
+    """Return an inertia in the frame of `pose`.
+
+    Args:
+        mass: Kilograms.
+        moments: About the centre of mass (3 × 3), kg·m²; none if one is not finite.
+        pose: The centre of mass and its axes.
+    """
+    return se3(pose).act(_inertia(mass, moments))
 
 
 def _inertia(mass: float, moments: Matrix) -> pin.Inertia:
@@ -69,23 +85,6 @@ def se3(pose: Transform) -> pin.SE3:
     import pinocchio as pin
 
     return pin.SE3(np.array(pose.rotation), np.array(pose.translation))
-
-
-def weigh_link(robot: Robot, link: Link) -> LinkInertia:
-    """Return the inertia of a link; figures out of numbers that are not finite are NaN."""
-    moments = moments_of(link)
-    principal = principal_moments(moments)
-    pose = inertial_pose(robot, link)
-    largest = principal[2]
-    sound = link.mass > 0.0 and largest >= 0.0 and math.isfinite(link.mass)
-    return LinkInertia(
-        link,
-        link.mass,
-        None if pose is None else pose.translation,
-        principal,
-        pseudo_eigenvalue(link.mass, moments),
-        math.sqrt(largest / link.mass) if sound else 0.0,
-    )
 
 
 def principal_moments(moments: Matrix) -> Vector:
