@@ -27,7 +27,7 @@ def to_dict(report: Report) -> dict[str, Any]:
         "schema_version": SCHEMA_VERSION,
         "tool": {"name": "subt-check", "versions": dict(report.versions)},
         "packages": [_package(package) for package in report.packages],
-        "not_opened": [{"path": each.path, "reason": each.reason} for each in report.not_opened],
+        "not_opened": [asdict(each) for each in report.not_opened],
     }
 
 
@@ -38,6 +38,7 @@ def _package(package: PackageReport) -> dict[str, Any]:
         "kind": package.kind,
         "profile": package.profile,
         "settings": package.settings,
+        "fail_on": str(package.fail_on),
         "verdict": str(package.verdict),
         "inherited": [asdict(part) for part in package.inherited],
         "findings": [_finding(each) for each in package.findings],
