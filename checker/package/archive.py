@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 import zipfile
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Protocol
@@ -35,6 +35,9 @@ class _Readable(Protocol):
     def read(self, size: int, /) -> bytes: ...
 
 
+_Contents = Callable[[Path, ArchiveIndex], Iterator[tuple[Member, _Readable]]]
+
+
 def unpack_archive(
     archive: Path, target: Path, name: str = "", limits: ArchiveLimits | None = None
 ) -> None:
@@ -51,20 +54,44 @@ def unpack_archive(
         RefusedArchive: An entry could do harm, or there is more than a package holds.
         UnreadableInput: The archive is truncated, damaged, empty, or cannot be written out.
     """
-    is_zip = (name or archive.name).lower().endswith(".zip")
-    read_index, contents = (
-        (read_zip_index, zip_contents) if is_zip else (read_tar_index, tar_contents)
-    )
-    with _damage_reported(archive, "zip" if is_zip else "tar.gz"):
-        index = ArchiveIndex(archive, archive.stat().st_size, limits or ArchiveLimits())
-        read_index(archive, index)
+    with _checked_index(archive, name, limits) as (index, contents):
         for member in index.members:
             if member.is_folder:
                 (target / member.path).mkdir(parents=True, exist_ok=True)
         for member, content in contents(archive, index):
             _write(target / member.path, member, content)
-    if all(member.is_folder for member in index.members):
-        raise UnreadableInput(archive, "holds no files", "pack the package folder itself")
+
+
+def check_archive(archive: Path, name: str = "", limits: ArchiveLimits | None = None) -> None:
+    """Read the index of an archive as `unpack_archive` does, and write nothing.
+
+    Args:
+        archive: The file.
+        name: As for `unpack_archive`.
+        limits: What the archive may hold.
+
+    Raises:
+        RefusedArchive: An entry could do harm, or there is more than a package holds.
+        UnreadableInput: The archive is truncated, damaged or empty, as far as its index tells.
+    """
+    with _checked_index(archive, name, limits):
+        pass
+
+
+@contextmanager
+def _checked_index(
+    archive: Path, name: str, limits: ArchiveLimits | None
+) -> Iterator[tuple[ArchiveIndex, _Contents]]:
+    """Read the index; damage that shows then, or while the contents are read, is reported."""
+    is_zip = (name or archive.name).lower().endswith(".zip")
+    read_index = read_zip_index if is_zip else read_tar_index
+    contents: _Contents = zip_contents if is_zip else tar_contents
+    with _damage_reported(archive, "zip" if is_zip else "tar.gz"):
+        index = ArchiveIndex(archive, archive.stat().st_size, limits or ArchiveLimits())
+        read_index(archive, index)
+        if all(member.is_folder for member in index.members):
+            raise UnreadableInput(archive, "holds no files", "pack the package folder itself")
+        yield index, contents
 
 
 def _write(path: Path, member: Member, content: _Readable) -> None:

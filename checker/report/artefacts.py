@@ -30,7 +30,7 @@ def _for_people(report: Report, manner: Manner) -> Iterator[Artefact]:
         return
     from checker.report.html.page import to_index
 
-    folders = _folders(report)
+    folders = package_folders(report)
     for package, folder in zip(report.packages, folders, strict=True):
         yield from _package(package, report, manner, f"{folder}/")
     yield INDEX, to_index(report, [f"{quote(folder)}/{PAGE}" for folder in folders])
@@ -46,12 +46,17 @@ def _package(
         yield prefix + MODEL, package.display.glb
 
 
-def _folders(report: Report) -> list[str]:
-    """Name a folder after each package; those of one name are numbered."""
+def package_folders(report: Report) -> list[str]:
+    """Name the folder of each package's files: "" for the only one, else after the package.
+
+    Those of one name are numbered.
+    """
+    if len(report.packages) == 1:
+        return [""]
     names: dict[str, int] = {}
     folders = []
     for package in report.packages:
-        name = "".join(c if c.isalnum() or c in "-_" else "_" for c in package.name)[:100] or "_"
+        name = "".join(c if c.isalnum() or c in "-_" else "_" for c in package.name)[:60] or "_"
         names[name] = names.get(name, 0) + 1
         folders.append(f"{name}~{names[name]}" if names[name] > 1 else name)
     return folders
