@@ -1,0 +1,1 @@
+"""Checks as jobs: taken once, never lost, watched while they run."""

@@ -1,0 +1,153 @@
+"""One stage of a check: an upload in the store becomes a result in the store, by a child process.
+
+Nothing of an upload is read in the worker: the child opens it, and what it brings back counts as
+a stranger's too.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import secrets
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from checker.cache import key_of
+from checker.jobs.isolation import StageLimits
+from checker.jobs.layout import ANSWER, GIVEN, MADE, OUT_OF_MEMORY, SAID, environment, lay_out
+from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
+from checker.jobs.port import Order, Stage
+from checker.jobs.summary import read_summary
+from checker.jobs.supervised import Ended, run_supervised
+from checker.recall import program_parts
+from checker.report.wording import plain
+from checker.store.store import SUMMARY, Store
+
+LIMITS: Mapping[Stage, StageLimits] = {
+    Stage.STATIC: StageLimits(seconds=300.0),
+    Stage.TRIAL: StageLimits(seconds=900.0),
+}
+_ANSWER_LIMIT = 5_000_000
+_SHOWN = 4_000
+"""Bytes of what a dead child has said, for the log."""
+_COULD_NOT = "the checker could not finish"
+_LOG = logging.getLogger(__name__)
+
+
+def check_upload(
+    store: Store,
+    order: Order,
+    stage: Stage,
+    cancelled: Callable[[], bool],
+    limits: StageLimits | None = None,
+) -> Outcome:
+    """Check an upload; a result that is in the store already is not made again.
+
+    The calling thread has to live until it returns: the child ends with it.
+
+    Args:
+        store: Holds the upload, takes the result.
+        order: What to check.
+        stage: `STATIC` for the rules alone and the JSON report, `TRIAL` for all.
+        cancelled: Whether to stop; asked a few times a second.
+        limits: Of the child; those of the stage when None.
+    """
+    try:
+        return _checked(store, order, stage, cancelled, limits or LIMITS[stage])
+    except OSError as error:
+        _LOG.exception("the disk or the system failed")
+        return Died(f"{_COULD_NOT}: {error.strerror or 'the system failed'}")
+
+
+def _checked(
+    store: Store, order: Order, stage: Stage, cancelled: Callable[[], bool], limits: StageLimits
+) -> Outcome:
+    key = result_key(order, stage)
+    if store.has(key):
+        return _known(store, key)
+    upload = store.upload(order.upload)
+    if upload is None:
+        return Refused("the upload is no longer there; upload it again")
+    with store.workplace() as place:
+        lay_out(place, upload, order, stage, limits)
+        ended = _run_child(store, place, limits, cancelled)
+        return Cancelled() if ended.cancelled else _outcome(store, key, place, ended, limits)
+
+
+def _run_child(
+    store: Store, place: Path, limits: StageLimits, cancelled: Callable[[], bool]
+) -> Ended:
+    return run_supervised(
+        (sys.executable, "-P", "-m", "checker.jobs.checking_child", str(place)),
+        place / GIVEN,
+        environment(place, store.cache),
+        place / SAID,
+        limits.seconds,
+        cancelled,
+    )
+
+
+def result_key(order: Order, stage: Stage) -> str:
+    """Return the key of an order's result at a stage: of all that the result depends on."""
+    return key_of(*program_parts(), order.upload, order.name, order.profile, stage)
+
+
+def _outcome(store: Store, key: str, place: Path, ended: Ended, limits: StageLimits) -> Outcome:
+    answer = _read(place / ANSWER) if ended.code == 0 and not ended.overdue else None
+    match answer:
+        case {"refused": str(reason)}:
+            return Refused(plain(reason))
+        case {"crashed": bool(crashed)}:
+            # What went wrong with us may go right the next time: nobody else gets this result.
+            checked = read_summary(secrets.token_hex(32) if crashed else key, answer)
+            if checked is not None:
+                return _kept(store, checked, place)
+    _LOG.error("the child ended with %s and said: %s", ended, _last_words(place / SAID))
+    return Died(_cause(ended, limits))
+
+
+def _kept(store: Store, checked: Checked, place: Path) -> Outcome:
+    """Put a result into the store."""
+    (place / ANSWER).rename(place / MADE / SUMMARY)
+    try:
+        store.keep(checked.key, place / MADE)
+    except ValueError as error:
+        _LOG.error("the child made what is no result: %s", plain(str(error)))
+        return Died(f"{_COULD_NOT}: its report is too large or damaged")
+    return checked
+
+
+def _known(store: Store, key: str) -> Outcome:
+    """Return the outcome of a result in the store."""
+    path = store.file(key, SUMMARY)
+    checked = read_summary(key, _read(path)) if path else None
+    return checked or Died(f"{_COULD_NOT}: the stored report is damaged")
+
+
+def _read(path: Path) -> Any:
+    """Return the JSON that the child has written; None if there is none."""
+    try:
+        with path.open("rb") as file:
+            return json.loads(file.read(_ANSWER_LIMIT))
+    except (OSError, ValueError, RecursionError):
+        return None
+
+
+def _cause(ended: Ended, limits: StageLimits) -> str:
+    if ended.overdue:
+        advice = "check fewer packages at a time"
+        return f"{_COULD_NOT}: it took longer than {limits.seconds:g} s and was stopped; {advice}"
+    if ended.code < 0:
+        return f"{_COULD_NOT}: it was killed; it may have needed too much time or memory"
+    if ended.code == OUT_OF_MEMORY:
+        return f"{_COULD_NOT}: it needed more than {limits.memory / 1e9:g} GB of memory"
+    return f"{_COULD_NOT}: it failed inside; its operator finds the cause in the log"
+
+
+def _last_words(said: Path) -> str:
+    """Return the end of what the child has said, on one line of a log."""
+    with said.open("rb") as file:
+        file.seek(max(0, said.stat().st_size - _SHOWN))
+        return repr(file.read(_SHOWN).decode(errors="replace"))

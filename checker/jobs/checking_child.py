@@ -1,0 +1,80 @@
+"""The process that reads an upload: `python -m checker.jobs.checking_child FOLDER`.
+
+The folder is laid out by `checker.jobs.layout`; `checker.jobs.checking` runs it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from checker.jobs.isolation import StageLimits, isolate
+from checker.jobs.layout import ANSWER, MADE, OUT_OF_MEMORY, REQUEST
+from checker.jobs.port import Stage
+from checker.report.report import Report
+
+
+def main(place: Path) -> None:
+    """Check what lies in the working folder; leave artefacts and an answer."""
+    request = json.loads((place / REQUEST).read_text(encoding="utf-8"))
+    isolate(StageLimits(**request["limits"]), request["parent"])
+    (place / ANSWER).write_text(json.dumps(_answer(request, place)), encoding="utf-8")
+
+
+def _answer(request: Mapping[str, Any], place: Path) -> dict[str, Any]:
+    """Return why the upload is refused, or the summary of the result that was written."""
+    from checker.check import check_paths
+    from checker.errors import InvalidSettings, UnreadableInput
+    from checker.jobs.neutral import without_folder
+    from checker.jobs.summary import summary
+    from checker.profiles import profile_names
+    from checker.report.wording import shortened
+
+    if request["profile"] not in ("", *profile_names()):
+        known = ", ".join(profile_names())
+        return {"refused": f"there is no profile {request['profile']!r}; choose one of {known}"}
+    stage, name = Stage(request["stage"]), str(request["name"])
+    wishes = {
+        "profile": request["profile"] or None,
+        "trial": False if stage is Stage.STATIC else None,
+        "display": stage is not Stage.STATIC,
+    }
+    try:
+        # Relative, so that no report shows where this machine keeps it.
+        report = without_folder(check_paths([Path(name)], wishes), place)
+    except (InvalidSettings, UnreadableInput) as error:
+        return {"refused": shortened(str(error), 1_000)}
+    if not report.packages:
+        reasons = (f"{each.path} {each.reason}" for each in report.not_opened)
+        return {"refused": shortened(". ".join(reasons), 1_000)}
+    _write(report, stage, request, place / MADE)
+    return summary(report)
+
+
+def _write(report: Report, stage: Stage, request: Mapping[str, Any], made: Path) -> None:
+    """Write the result: of the static stage the JSON alone, since the trial's follows soon."""
+    from checker.report.artefacts import artefacts
+    from checker.report.formats import FORMATS
+    from checker.report.manner import Manner
+    from checker.report.palette import Palette
+
+    profile = ("--profile", request["profile"]) if request["profile"] else ()
+    command = shlex.join(("subt-check", request["name"], *profile))
+    manner = Manner(Palette(enabled=False), "/", command)
+    early = [("report.json", FORMATS["json"](report, manner))]
+    for name, content in early if stage is Stage.STATIC else artefacts(report, manner):
+        path = made / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
+
+
+if __name__ == "__main__":
+    try:
+        main(Path(sys.argv[1]))
+    except MemoryError:
+        os._exit(OUT_OF_MEMORY)

@@ -1,0 +1,1 @@
+"""The engine: a queue and its recovery by DBOS Transact, and a ledger of what is known."""

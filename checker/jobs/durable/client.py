@@ -1,0 +1,122 @@
+"""The job engine as the web process has it: it takes orders and answers, and checks nothing."""
+
+from __future__ import annotations
+
+import json
+import secrets
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import sqlalchemy as sa
+
+from checker.jobs.checking import result_key
+from checker.jobs.durable.database import open_database, prepare, reachable
+from checker.jobs.durable.ledger import WAITS, Ledger, Step
+from checker.jobs.durable.queues import Queues, queues_of
+from checker.jobs.durable.readings import alive, events_of, state_of
+from checker.jobs.outcome import Checked
+from checker.jobs.port import Alive, Event, Order, Stage, State
+from checker.jobs.summary import read_summary
+from checker.store.store import SUMMARY, Store
+
+RETENTION_DAYS = 30.0
+_DAY = 86400.0
+
+
+@dataclass(frozen=True)
+class DurableJobs:
+    """`Jobs` on a database: SQLite or PostgreSQL.
+
+    Attributes:
+        engine: Of the database, prepared.
+        queues: Of the same database.
+        store: Uploads and results.
+        retention_days: After which all of a check is deleted.
+    """
+
+    engine: sa.Engine
+    queues: Queues
+    store: Store
+    retention_days: float = RETENTION_DAYS
+
+    @property
+    def ledger(self) -> Ledger:
+        """The book of checks."""
+        return Ledger(self.engine)
+
+    def submit(self, order: Order) -> str:
+        """Take an order and return the id of its check; once it returns, the order is not lost.
+
+        What was checked before, with the same content, name, profile and program, is not checked
+        again: the new check finishes at once and shares the report.
+        """
+        id = secrets.token_urlsafe(16)
+        known = _stored(self.store, order)
+        step = finished(known) if known else Step("queued", Stage.QUEUED, WAITS)
+
+        def then(connection: sa.Connection) -> None:
+            if known is None:
+                self.queues.put(connection, id, Stage.STATIC)
+
+        with reachable():
+            self.ledger.enter(id, order, self.retention_days * _DAY, step, then)
+        return id
+
+    def status(self, id: str) -> State | None:
+        """Return where a check stands; None for an id that was never given or is forgotten."""
+        with reachable(), self.engine.connect() as connection:
+            return state_of(connection, id)
+
+    def events(self, id: str, after: int = 0) -> Sequence[Event]:
+        """Return what has happened so far after event number `after`, in order."""
+        with reachable(), self.engine.connect() as connection:
+            return events_of(connection, id, after)
+
+    def cancel(self, id: str) -> bool:
+        """End a check; False if there was nothing to end."""
+        with reachable():
+            return self.ledger.cancel(id)
+
+    def result(self, id: str) -> str:
+        """Return the key of the final report in the store; empty while there is none."""
+        state = self.status(id)
+        return state.result if state is not None and state.stage is Stage.DONE else ""
+
+    def alive(self) -> Alive:
+        """Return what is known of the engine."""
+        with reachable(), self.engine.connect() as connection:
+            return alive(self.engine, connection)
+
+
+def durable_jobs(
+    database_url: str, store: Store, retention_days: float = RETENTION_DAYS
+) -> DurableJobs:
+    """Return the engine; its tables are made if they are missing.
+
+    Args:
+        database_url: `sqlite:///…` or `postgresql://…`.
+        store: Uploads and results.
+        retention_days: After which all of a new check is deleted.
+
+    Raises:
+        JobsUnreachable: The database does not answer.
+    """
+    engine = open_database(database_url)
+    prepare(engine)
+    queues = queues_of(engine)
+    with reachable():
+        queues.declare()
+    return DurableJobs(engine, queues, store, retention_days)
+
+
+def finished(checked: Checked) -> Step:
+    """Return the last step of a check with a report."""
+    data = {"result": checked.key}
+    return Step("end", Stage.DONE, checked.words, checked.key, checked.packages, data)
+
+
+def _stored(store: Store, order: Order) -> Checked | None:
+    """Return the final result of an order, if there is one already."""
+    key = result_key(order, Stage.TRIAL)
+    path = store.file(key, SUMMARY) if store.has(key) else None
+    return read_summary(key, json.loads(path.read_bytes())) if path else None

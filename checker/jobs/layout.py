@@ -1,0 +1,64 @@
+"""The folder that a worker and its checking child share, and what the child knows besides."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from dataclasses import asdict
+from pathlib import Path
+
+from checker.jobs.isolation import StageLimits
+from checker.jobs.port import Order, Stage
+
+MADE, REQUEST, ANSWER, SAID = "made", "request.json", "answer.json", "said"
+"""The result; what the worker asks for; what the child answers; what it writes to its streams."""
+GIVEN = "given/upload"
+"""The folder of the upload, in which the child runs; reports show neither."""
+TEMPORARY = "temporary"
+"""The folder of what the child unpacks and its children work with."""
+OUT_OF_MEMORY = 71
+"""Exit code of the child, EX_OSERR of sysexits.h."""
+
+
+def lay_out(place: Path, upload: Path, order: Order, stage: Stage, limits: StageLimits) -> None:
+    """Lay out what the child works with in an empty folder."""
+    given = place / GIVEN
+    for folder in (given, place / MADE, place / TEMPORARY):
+        folder.mkdir(parents=True)
+    # The search for settings ends at the root of a repository: none of this machine's shall judge.
+    (given.parent / ".git").touch()
+    try:
+        os.link(upload, given / order.name)
+    except OSError:  # a file system without links
+        shutil.copyfile(upload, given / order.name)
+    request = {
+        "name": order.name,
+        "profile": order.profile,
+        "stage": stage,
+        "parent": os.getpid(),
+        "limits": asdict(limits),
+    }
+    (place / REQUEST).write_text(json.dumps(request), encoding="utf-8")
+
+
+_PASSED_ON = {"HOME", "LANG", "LD_LIBRARY_PATH", "MUJOCO_GL", "PATH", "SUBT_CHECK_DEBUG", "TZ"}
+_FAMILIES = ("EGL_", "GALLIUM_", "LC_", "LIBGL_", "LP_", "MESA_", "PYTHON", "__EGL_")
+
+
+def environment(place: Path, cache: Path) -> dict[str, str]:
+    """Return what the child shall know of our environment: no token, no password, no address.
+
+    Args:
+        place: The shared folder.
+        cache: Where results of parts are kept, for all children.
+    """
+    known = {
+        name: value
+        for name, value in os.environ.items()
+        if name in _PASSED_ON or name.startswith(_FAMILIES)
+    }
+    here = str(Path(__file__).parent.parent.parent)
+    path = os.pathsep.join(filter(None, (here, known.get("PYTHONPATH"))))
+    own = {"SUBT_CHECK_CACHE": str(cache), "TMPDIR": str(place / TEMPORARY), "PYTHONPATH": path}
+    return {**known, **own}

@@ -1,0 +1,52 @@
+"""What can come of one stage of a check."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A report is in the store.
+
+    Attributes:
+        key: Of the result.
+        packages: As in `State.packages`.
+        words: What came out, one sentence.
+    """
+
+    key: str
+    packages: tuple[Mapping[str, Any], ...]
+    words: str
+
+
+@dataclass(frozen=True)
+class Refused:
+    """The upload cannot be checked, and its sender can mend that.
+
+    Attributes:
+        reason: Why, and what to do; one sentence.
+    """
+
+    reason: str
+
+
+@dataclass(frozen=True)
+class Died:
+    """The checker could not finish: it ran into a limit, or into a fault of its own.
+
+    Attributes:
+        reason: One sentence that begins with "the checker could not finish".
+    """
+
+    reason: str
+
+
+@dataclass(frozen=True)
+class Cancelled:
+    """Somebody wanted it to end."""
+
+
+Outcome = Checked | Refused | Died | Cancelled

@@ -1,0 +1,86 @@
+"""A child process with all that it starts: watched, and ended together."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic, sleep
+
+_GLANCE, _LOOK = 0.05, 0.2
+"""Seconds between looks at the child, and between questions whether it is still wanted."""
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How it ended.
+
+    Attributes:
+        code: Exit code; of a signal, its negative number.
+        overdue: It took too long and was stopped.
+        cancelled: It was no longer wanted and was stopped.
+    """
+
+    code: int
+    overdue: bool = False
+    cancelled: bool = False
+
+
+def run_supervised(
+    command: Sequence[str],
+    folder: Path,
+    environment: Mapping[str, str],
+    log: Path,
+    seconds: float,
+    cancelled: Callable[[], bool],
+) -> Ended:
+    """Run a command in a session of its own; at the end none of its processes is left.
+
+    The thread that calls this has to live as long: the child ends with it.
+
+    Args:
+        command: What to run.
+        folder: Where it runs.
+        environment: All that it knows of ours.
+        log: Takes what it says.
+        seconds: By the clock, before it is stopped.
+        cancelled: Whether it is no longer wanted; asked a few times a second.
+    """
+    with log.open("wb") as said:
+        process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=said,
+            stderr=said,
+            cwd=folder,
+            env=dict(environment),
+            start_new_session=True,
+        )
+    overdue = unwanted = False
+    try:
+        overdue, unwanted = _watch(process.pid, seconds, cancelled)
+    finally:
+        # Before it is waited for: until then nobody else can get the number of its group.
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
+        code = process.wait()
+    return Ended(code, overdue, unwanted)
+
+
+def _watch(pid: int, seconds: float, cancelled: Callable[[], bool]) -> tuple[bool, bool]:
+    """Wait for a process; return whether it is overdue and whether it is unwanted."""
+    deadline, look = monotonic() + seconds, 0.0
+    while os.waitid(os.P_PID, pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
+        now = monotonic()
+        if now > deadline:
+            return True, False
+        if now >= look:
+            look = now + _LOOK
+            if cancelled():
+                return False, True
+        sleep(_GLANCE)
+    return False, False

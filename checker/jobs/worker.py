@@ -1,0 +1,146 @@
+"""A worker: a process that takes checks from the queues until it is told to stop."""
+
+from __future__ import annotations
+
+import logging
+import os
+import secrets
+import signal
+import sys
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+from checker.jobs.durable.database import open_database, prepare, reachable
+from checker.jobs.durable.engine import land, launch
+from checker.jobs.durable.ledger import Ledger
+from checker.jobs.durable.queues import queues_of
+from checker.jobs.durable.roll import Roll
+from checker.jobs.durable.stages import Stages
+from checker.jobs.port import JobsUnreachable
+from checker.jobs.retention import Retention
+from checker.jobs.watchdog import Watchdog
+from checker.store.store import Store
+
+_LOG = logging.getLogger(__name__)
+_LANDING_SECONDS = 10.0
+"""For the children of what is handed back to end, and for the database to hear of it."""
+
+
+def _some_name() -> str:
+    return f"worker-{secrets.token_hex(4)}"
+
+
+@dataclass(frozen=True)
+class WorkerOptions:
+    """How a worker works.
+
+    Attributes:
+        database_url: As `checker.jobs.place.database_url` says it.
+        store: Uploads and results.
+        name: Of this worker, of letters, digits and `-`; no other one has it at the same time. One
+            that is started again under its old name takes up at once what it had in hand.
+        trials: At once in each worker of the database; None keeps what was said last, at first 1.
+        grace_seconds: To finish what is in hand after the signal to stop; then it is handed back.
+        beat_seconds: Between two signs of life.
+        silence_seconds: After which other workers take this one for dead.
+        cleaning_seconds: Between two rounds that delete what has had its time.
+        unused_seconds: That files stay which no check refers to.
+    """
+
+    database_url: str
+    store: Store
+    name: str = field(default_factory=_some_name)
+    trials: int | None = None
+    grace_seconds: float = 20.0
+    beat_seconds: float = 10.0
+    silence_seconds: float = 60.0
+    cleaning_seconds: float = 3600.0
+    unused_seconds: float = 3600.0
+
+
+def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
+    """Take checks from the queues until `stop` is set, then finish or hand back what is in hand.
+
+    One worker runs in a process. Threads of DBOS that wait for what was handed back outlive it:
+    end the process by `os._exit`, as `work` does.
+
+    Raises:
+        JobsUnreachable: The database does not answer at the start.
+    """
+    engine = open_database(options.database_url)
+    prepare(engine)
+    queues, roll = queues_of(engine), Roll(engine)
+    stages = Stages(Ledger(engine), queues, options.store, options.name)
+    watchdog = Watchdog(roll, options.name, options.silence_seconds)
+    retention = Retention(engine, queues, options.store, options.unused_seconds)
+    with reachable():
+        queues.declare(options.trials)
+        roll.beat(options.name)
+        launch(engine, options.name, stages.run)
+    landed = threading.Event()
+    _in_background(watchdog.look, options.beat_seconds, landed)
+    _in_background(retention.delete, options.cleaning_seconds, stop)
+    _LOG.info("%s waits for checks", options.name)
+    stop.wait()
+    _LOG.info("%s stops; it has %g s for what is in hand", options.name, options.grace_seconds)
+    _land(stages, options.grace_seconds)
+    landed.set()
+    with suppress(JobsUnreachable), reachable():
+        roll.strike(options.name)
+
+
+def work(options: WorkerOptions) -> None:
+    """Be a worker until SIGTERM or SIGINT; the process ends with it. A second signal ends at once.
+
+    Raises:
+        JobsUnreachable: The database does not answer at the start.
+    """
+    logging.basicConfig(
+        level=logging.INFO,
+        stream=sys.stderr,
+        format="%(asctime)s %(levelname)s %(name)s: %(message)s",
+    )
+    logging.getLogger("dbos").setLevel(logging.WARNING)
+    stop = threading.Event()
+
+    def on_signal(_number: int, _frame: object) -> None:
+        if stop.is_set():
+            os._exit(1)
+        stop.set()
+
+    for number in (signal.SIGTERM, signal.SIGINT):
+        # Whoever started it may have it ignore the terminal's Ctrl-C, and stop it in time.
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, on_signal)
+    run_worker(stop, options)
+    logging.shutdown()
+    os._exit(0)
+
+
+def _land(stages: Stages, grace_seconds: float) -> None:
+    """Finish what is in hand; hand it back when the time is over."""
+    timer = threading.Timer(grace_seconds, stages.hand_back.set)
+    timer.daemon = True
+    timer.start()
+    land(grace_seconds + _LANDING_SECONDS)
+    timer.cancel()
+
+
+def _in_background(do: Callable[[], None], every_seconds: float, stop: threading.Event) -> None:
+    """Do something at once and again and again, come what may, until told to stop."""
+
+    def repeat() -> None:
+        while True:
+            try:
+                with reachable():
+                    do()
+            except JobsUnreachable as error:
+                _LOG.warning("%s", error)
+            except Exception:  # noqa: BLE001 - a worker without its watchdog is taken for dead
+                _LOG.exception("%s fails", do.__qualname__)
+            if stop.wait(every_seconds):
+                return
+
+    threading.Thread(target=repeat, daemon=True, name=do.__qualname__).start()

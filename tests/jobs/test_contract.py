@@ -1,0 +1,266 @@
+"""What an engine promises, with real workers that die, on each database that it can use."""
+
+from __future__ import annotations
+
+import signal
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from time import sleep
+
+import pytest
+import sqlalchemy as sa
+
+from checker.jobs.checking import result_key
+from checker.jobs.durable.tables import CHECKS
+from checker.jobs.port import Stage, State
+from tests.jobs.quick_worker import DEATH, PACKAGE, REFUSAL, WORDS
+from tests.jobs.site import Site, site_in
+from tests.postgres import fresh_database
+
+WHOLE = [(1, "queued"), (2, "static"), (3, "trial"), (4, "trial"), (5, "done")]
+"""Events of a check with no mishap."""
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def site(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Site]:
+    if request.param == "sqlite":
+        url = f"sqlite:///{tmp_path}/new/jobs.sqlite"
+    else:
+        url = fresh_database(request.getfixturevalue("postgres_url"))
+    site = site_in(tmp_path, url)
+    yield site
+    site.close()
+
+
+class TestACheck:
+    def test_comes_to_static_findings_and_then_to_its_report(self, site: Site) -> None:
+        order = site.order("trial:0.5")
+        id = site.jobs.submit(order)
+        queued = site.state(id)
+        assert (queued.stage, queued.order, queued.result) == (Stage.QUEUED, order, "")
+        assert queued.expires - queued.created == pytest.approx(30 * 86400)
+        assert site.jobs.result(id) == ""
+        site.worker()
+        read = site.until(id, lambda state: state.stage is Stage.TRIAL)
+        assert (read.result, read.packages) == (result_key(order, Stage.STATIC), (PACKAGE,))
+        assert site.jobs.result(id) == ""
+        done = site.end(id)
+        assert (done.stage, done.words, done.packages) == (Stage.DONE, WORDS, (PACKAGE,))
+        assert site.jobs.result(id) == done.result == result_key(order, Stage.TRIAL)
+        assert site.stages(id) == WHOLE
+        events = site.jobs.events(id)
+        assert [event.time for event in events] == sorted(event.time for event in events)
+        assert site.jobs.events(id, after=3) == events[3:]
+        assert site.jobs.cancel(id) is False
+
+    def test_that_is_refused_or_dies_says_whose_fault_it_is(self, site: Site) -> None:
+        site.worker()
+        refused, died, raised = (site.submit(what) for what in ("refused", "died", "raises"))
+        assert site.end(refused).stage is Stage.FAILED
+        assert site.state(refused).words == REFUSAL
+        assert site.end(died).words == DEATH
+        assert site.end(raised).words.startswith("the checker could not finish: it failed inside")
+        assert site.begun()[f"trial {site.state(died).order.name}"] == 0
+        assert site.stages(died) == [(1, "queued"), (2, "static"), (3, "failed")]
+
+    def test_of_the_same_upload_is_a_new_one_with_the_same_report(self, site: Site) -> None:
+        order = site.order()
+        site.worker()
+        first = site.end(site.jobs.submit(order))
+        again = site.jobs.submit(order)
+        state = site.state(again)
+        assert again != first.id
+        assert (state.stage, state.result) == (Stage.DONE, first.result)
+        assert (state.words, state.packages) == (first.words, first.packages)
+        assert site.stages(again) == [(1, "done")]
+        other = site.end(site.jobs.submit(replace(order, name="other.zip")))
+        assert other.result != first.result
+
+    def test_that_nobody_knows_is_none(self, site: Site) -> None:
+        for id in ("", "x" * 22, "' or 1=1 --", "\N{ROBOT FACE}", "x.trial"):
+            assert site.jobs.status(id) is None
+            assert site.jobs.events(id) == []
+            assert site.jobs.cancel(id) is False
+            assert site.jobs.result(id) == ""
+
+
+class TestManyChecks:
+    def test_are_done_once_each_by_two_workers(self, site: Site) -> None:
+        ids = [site.submit("trial:0.2") for _ in range(12)]
+        assert [site.state(id).ahead for id in ids] == list(range(12))
+        assert site.jobs.alive().waiting == {"static": 12, "trial": 0}
+        site.worker("left")
+        site.worker("right")
+        assert {site.end(id).stage for id in ids} == {Stage.DONE}
+        assert [site.stages(id) for id in ids] == [WHOLE] * 12
+        begun = site.begun()
+        assert len(begun) == 24
+        assert set(begun.values()) == {1}
+        alive = site.jobs.alive()
+        assert alive.workers.keys() == {"left", "right"}
+        assert max(alive.workers.values()) < 30
+        assert (alive.waiting, alive.running) == ({"static": 0, "trial": 0}, 0)
+
+    def test_show_static_findings_before_trials_of_older_ones(self, site: Site) -> None:
+        site.worker()
+        old = [site.submit("trial:3") for _ in range(3)]
+        site.in_hand(old[0], Stage.TRIAL)
+        new = site.submit()
+        assert site.until(new, lambda state: state.result != "").stage is Stage.TRIAL
+        assert site.state(old[2]).stage is Stage.TRIAL
+        assert site.state(new).ahead >= 1
+        assert site.jobs.alive().running == 1
+
+    def test_are_tried_as_many_at_once_as_the_worker_is_told(self, site: Site) -> None:
+        site.worker(trials=2)
+        ids = [site.submit("trial:5") for _ in range(3)]
+        busy = Counter(trial=1)
+
+        def both(_: State) -> bool:
+            alive = site.jobs.alive()
+            return Counter(alive.waiting) == busy and alive.running == 2
+
+        site.until(ids[0], both)
+        assert {site.end(id).stage for id in ids} == {Stage.DONE}
+
+
+class TestAKilledWorker:
+    @pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
+    def test_takes_up_what_it_had_in_hand_when_it_is_back(self, site: Site, stage: Stage) -> None:
+        worker = site.worker("slot-1")
+        id = site.submit(f"{stage}:1.5")
+        site.in_hand(id, stage)
+        worker.kill()
+        worker.wait()
+        assert not site.state(id).stage.is_final
+        site.worker("slot-1")
+        assert site.end(id).stage is Stage.DONE
+        name = site.state(id).order.name
+        assert site.begun()[f"{stage} {name}"] == 2
+        other = Stage.TRIAL if stage is Stage.STATIC else Stage.STATIC
+        assert site.begun()[f"{other} {name}"] == 1
+        again = [event.words for event in site.jobs.events(id) if "begins again" in event.words]
+        assert len(again) == 1
+        told = [event for event in site.jobs.events(id) if event.words not in again]
+        assert [event.stage.value for event in told] == [stage for _, stage in WHOLE]
+        assert [event.number for event in site.jobs.events(id)] == [1, 2, 3, 4, 5, 6]
+
+    def test_leaves_what_waits_in_the_queue(self, site: Site) -> None:
+        worker = site.worker("slot-1")
+        first, second = site.submit("static:30"), site.submit()
+        site.in_hand(first, Stage.STATIC)
+        worker.kill()
+        assert site.jobs.cancel(first)
+        site.worker("slot-2")
+        assert site.end(second).stage is Stage.DONE
+        assert site.stages(second) == WHOLE
+
+    def test_that_never_comes_back_is_replaced(self, site: Site) -> None:
+        worker = site.worker("lost", silence_seconds=3)
+        id = site.submit("trial:1")
+        site.in_hand(id, Stage.TRIAL)
+        worker.kill()
+        site.worker("found", silence_seconds=3)
+        site.worker("also-found", silence_seconds=3)
+        assert site.end(id).stage is Stage.DONE
+        assert site.begun()[f"trial {site.state(id).order.name}"] == 2
+
+    def test_is_not_replaced_for_ever(self, site: Site) -> None:
+        id = site.submit("kill:trial")
+        for _ in range(3):
+            site.worker("slot-1").wait()
+            assert not site.state(id).stage.is_final
+        site.worker("slot-1")
+        state = site.end(id)
+        assert state.stage is Stage.FAILED
+        assert state.words == "the checker could not finish: its worker died three times"
+        assert state.result == result_key(state.order, Stage.STATIC)
+        assert site.jobs.result(id) == ""
+        losses = site.jobs.events(id)[-1].data["losses"]
+        assert [(loss["worker"], loss["stage"]) for loss in losses] == [("slot-1", "trial")] * 3
+        assert site.begun()[f"trial {state.order.name}"] == 3
+
+
+class TestCancelling:
+    def test_in_the_queue(self, site: Site) -> None:
+        id = site.submit()
+        assert site.jobs.cancel(id)
+        assert site.jobs.cancel(id) is False
+        site.worker()
+        assert site.end(site.submit()).stage is Stage.DONE
+        assert site.state(id).stage is Stage.CANCELLED
+        assert site.stages(id) == [(1, "queued"), (2, "cancelled")]
+        assert site.begun()[f"static {site.state(id).order.name}"] == 0
+
+    @pytest.mark.parametrize("stage", [Stage.STATIC, Stage.TRIAL])
+    def test_while_it_is_worked_on(self, site: Site, stage: Stage) -> None:
+        site.worker()
+        id = site.submit(f"{stage}:300")
+        site.in_hand(id, stage)
+        assert site.jobs.cancel(id)
+        stopped = f"stopped-{stage} {site.state(id).order.name}"
+        site.until(id, lambda _: site.begun()[stopped] == 1)
+        assert site.end(site.submit()).stage is Stage.DONE
+        assert site.state(id).stage is Stage.CANCELLED
+        assert site.stages(id)[-1][1] == "cancelled"
+        assert site.jobs.result(id) == ""
+
+
+class TestAGracefulStop:
+    def test_finishes_what_is_in_hand(self, site: Site) -> None:
+        worker = site.worker()
+        id = site.submit("trial:1")
+        site.in_hand(id, Stage.TRIAL)
+        worker.send_signal(signal.SIGTERM)
+        assert worker.wait(30) == 0
+        assert site.state(id).stage is Stage.DONE
+        assert site.jobs.alive().workers == {}
+
+    def test_hands_back_what_takes_too_long(self, site: Site) -> None:
+        id = site.submit("static:1.5")
+        worker = site.worker(grace_seconds=0.2)
+        site.in_hand(id, Stage.STATIC)
+        worker.send_signal(signal.SIGTERM)
+        assert worker.wait(30) == 0
+        assert (site.state(id).stage, site.state(id).words) == (Stage.STATIC, "waits for its turn")
+        assert site.jobs.alive().waiting == {"static": 1, "trial": 0}
+        site.worker()
+        assert site.end(id).stage is Stage.DONE
+        assert site.stages(id) == WHOLE
+
+    def test_is_no_death(self, site: Site) -> None:
+        id = site.submit("trial:1.5")
+        for _ in range(3):
+            worker = site.worker(grace_seconds=0.1)
+            site.until(id, lambda state: state.words == "the robot is tried on the course")
+            worker.send_signal(signal.SIGINT)
+            assert worker.wait(30) == 0
+            assert site.state(id).stage is Stage.TRIAL
+        site.worker()
+        assert site.end(id).stage is Stage.DONE
+        assert site.stages(id) == WHOLE
+
+
+class TestRetention:
+    def test_deletes_all_of_a_check(self, site: Site) -> None:
+        keeps, goes = site.submit(), site.submit()
+        site.worker(cleaning_seconds=0.3, unused_seconds=3.0)
+        kept, gone = site.end(keeps), site.end(goes)
+        over = sa.update(CHECKS).where(CHECKS.c.id == goes).values(expires=gone.created)
+        with site.jobs.engine.begin() as connection:
+            connection.execute(over)
+        for _ in range(600):
+            if not (site.store.upload(gone.order.upload) or site.store.names(gone.result)):
+                break
+            sleep(0.1)
+        assert site.store.upload(gone.order.upload) is None
+        assert site.store.names(gone.result) == ()
+        assert site.jobs.status(goes) is None
+        assert site.jobs.events(goes) == []
+        workflows = site.jobs.queues.client.list_workflows(workflow_ids=[goes, f"{goes}.trial"])
+        assert workflows == []
+        assert site.state(keeps) == kept
+        assert site.store.names(kept.result)
+        assert site.store.upload(kept.order.upload)

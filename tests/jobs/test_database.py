@@ -1,0 +1,137 @@
+"""Addresses, first starts at the same moment, and databases that do not answer."""
+
+from __future__ import annotations
+
+import socket
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from time import time
+
+import pytest
+import sqlalchemy as sa
+
+from checker.jobs.durable.client import durable_jobs
+from checker.jobs.durable.database import now, open_database, prepare
+from checker.jobs.durable.roll import Roll
+from checker.jobs.place import database_url
+from checker.jobs.port import JobsUnreachable, Order, Stage
+from checker.store.store import Store
+from tests.jobs.site import Site, site_in
+from tests.postgres import fresh_database
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
+    if request.param == "sqlite":
+        return f"sqlite:///{tmp_path}/jobs.sqlite"
+    return fresh_database(request.getfixturevalue("postgres_url"))
+
+
+def test_many_may_prepare_a_new_database_at_once(url: str) -> None:
+    engines = [open_database(url) for _ in range(4)]
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(prepare, engines))
+    with engines[0].connect() as connection:
+        names = sa.inspect(connection).get_table_names()
+    assert {"subt_checks", "subt_events", "subt_workers"} <= set(names)
+    for engine in engines:
+        engine.dispose()
+
+
+def test_its_clock_is_about_right(url: str) -> None:
+    engine = open_database(url)
+    with engine.connect() as connection:
+        said = connection.execute(sa.select(now(engine))).scalar_one()
+    assert said == pytest.approx(time(), abs=60)
+    engine.dispose()
+
+
+def test_the_roll_knows_who_lives(url: str) -> None:
+    engine = open_database(url)
+    prepare(engine)
+    roll = Roll(engine)
+    for name in ("one", "two", "one"):
+        roll.beat(name)
+    assert roll.living(60.0) == {"one", "two"}
+    assert roll.living(-1.0) == set()
+    roll.strike("one")
+    assert roll.living(60.0) == {"two"}
+    roll.strike_silent(60.0)
+    assert roll.living(60.0) == {"two"}
+    roll.strike_silent(-1.0)
+    assert roll.living(60.0) == set()
+    engine.dispose()
+
+
+@pytest.mark.parametrize("address", ["", "nonsense", "mysql://u:secret@host/db", "http://[::1"])
+def test_an_address_that_is_none_is_not_repeated(address: str) -> None:
+    with pytest.raises(JobsUnreachable) as caught:
+        open_database(address)
+    assert "secret" not in str(caught.value)
+    assert "expected sqlite:///" in str(caught.value)
+
+
+def test_a_server_that_is_not_there_is_unreachable(tmp_path: Path) -> None:
+    with socket.socket() as nobody:
+        nobody.bind(("127.0.0.1", 0))
+        url = f"postgresql://me:secret@127.0.0.1:{nobody.getsockname()[1]}/jobs"
+        with pytest.raises(JobsUnreachable) as caught:
+            durable_jobs(url, Store(tmp_path))
+    assert "secret" not in str(caught.value)
+
+
+def test_a_database_that_goes_away_is_unreachable_in_every_call(tmp_path: Path) -> None:
+    place = tmp_path / "data"
+    jobs = durable_jobs(f"sqlite:///{place}/jobs.sqlite", Store(tmp_path))
+    id = jobs.submit(Order("0" * 64, "robot.zip"))
+    jobs.engine.dispose()
+    place.rename(tmp_path / "gone")
+    for call in (
+        lambda: jobs.submit(Order("0" * 64, "robot.zip")),
+        lambda: jobs.status(id),
+        lambda: jobs.events(id),
+        lambda: jobs.cancel(id),
+        lambda: jobs.result(id),
+        jobs.alive,
+    ):
+        with pytest.raises(JobsUnreachable):
+            call()
+    (tmp_path / "gone").rename(place)
+    state = jobs.status(id)
+    assert state is not None
+    assert state.stage is Stage.QUEUED
+    jobs.engine.dispose()
+
+
+@pytest.fixture
+def site(tmp_path: Path, postgres_url: str) -> Site:
+    return site_in(tmp_path, fresh_database(postgres_url))
+
+
+def test_connections_that_break_do_not_break_a_check(site: Site) -> None:
+    site.worker()
+    id = site.submit("trial:2")
+    name = site.in_hand(id, Stage.TRIAL).order.name
+    cut = sa.text(
+        "SELECT count(pg_terminate_backend(pid)) FROM pg_stat_activity "
+        "WHERE datname = current_database() AND pid <> pg_backend_pid()"
+    )
+    with site.jobs.engine.connect() as connection:
+        assert connection.execute(cut).scalar_one() > 0
+    assert site.end(id).stage is Stage.DONE
+    assert site.begun()[f"trial {name}"] == 1
+    site.close()
+
+
+def test_the_address_is_of_a_file_with_the_data_unless_told_otherwise(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    data = tmp_path / "a?b c%20"
+    monkeypatch.setenv("SUBT_CHECK_DATA", str(data))
+    monkeypatch.delenv("SUBT_CHECK_DATABASE_URL", raising=False)
+    engine = open_database(database_url())
+    with engine.connect():
+        assert (data / "jobs.sqlite").is_file()
+    engine.dispose()
+    monkeypatch.setenv("SUBT_CHECK_DATABASE_URL", "postgresql://elsewhere/jobs")
+    assert database_url() == "postgresql://elsewhere/jobs"
