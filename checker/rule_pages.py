@@ -42,18 +42,18 @@ def _index(groups: Sequence[tuple[str, Sequence[Rule]]]) -> str:
     count = sum(len(members) for _, members in groups)
     lines = ["# The rule book", "", f"{count} rules in {len(groups)} groups. {_GENERATED}", ""]
     for group, members in groups:
-        lines += [f"## [{group}]({group}.md): {_about(members)}", ""]
+        lines += [f"## [{group}]({group}.md): {about(members)}", ""]
         lines += [f"- [{r.id}]({group}.md#{anchor(r)}) {_title(r)}" for r in members]
         lines.append("")
     return "\n".join(lines)
 
 
 def _group_page(group: str, members: Sequence[Rule]) -> str:
-    top = [f"# {group}: {_about(members)}", f"{_GENERATED} [All rules](README.md)"]
+    top = [f"# {group}: {about(members)}", f"{_GENERATED} [All rules](README.md)"]
     return "\n\n".join([*top, *(block for rule in members for block in _rule(rule))]) + "\n"
 
 
-def _about(members: Sequence[Rule]) -> str:
+def about(members: Sequence[Rule]) -> str:
     """Return what a group is about: the docstring of its folder, without its letters."""
     folder = sys.modules[members[0].check.__module__.rpartition(".")[0]]
     said = inspect.getdoc(folder) or ""
@@ -65,8 +65,13 @@ def _title(rule: Rule) -> str:
 
 
 def _rule(rule: Rule) -> Iterator[str]:
-    page = parse_page(rule.page)
     yield f"## {rule.id} {rule.name}"
+    yield from told(rule)
+
+
+def told(rule: Rule) -> Iterator[str]:
+    """Yield what is told of a rule below its heading, block by block."""
+    page = parse_page(rule.page)
     yield f"{escaped(page.title)}."
     yield f"Usually **{rule.severity}**; in the profiles {', '.join(_profiles(rule))}."
     yield escaped(page.why)

@@ -12,6 +12,7 @@ import os
 import shutil
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
+from urllib.parse import urldefrag, urlsplit
 
 import pytest
 
@@ -64,6 +65,12 @@ def without_webgl(chromium: Browser) -> Iterator[Browser]:
         blind.close()
 
 
+def _itself(url: str) -> str:
+    """Return how all addresses begin that a page may ask for: a file its own, a site its site's."""
+    parts = urlsplit(url)
+    return f"{parts.scheme}://{parts.netloc}/" if parts.netloc else urldefrag(url).url
+
+
 @contextlib.contextmanager
 def watched_page(
     chromium: Browser,
@@ -75,7 +82,7 @@ def watched_page(
     touch: bool = False,
     javascript: bool = True,
 ) -> Iterator[Page]:
-    """A page that must not ask for anything but itself, nor complain on its console."""
+    """A page that must not ask for anything but itself or its site, nor complain on its console."""
     context = chromium.new_context(
         viewport={"width": width, "height": height},
         color_scheme="dark" if dark else "light",
@@ -95,7 +102,7 @@ def watched_page(
     )
     try:
         yield page
-        itself = page.url.split("#")[0]
+        itself = _itself(page.url)
         beyond = [url for url in requests if not url.startswith(("data:", "blob:", itself))]
         assert not beyond, f"the page asks for {beyond}"
         assert not complaints, complaints

@@ -1,0 +1,1 @@
+"""The site: pages, the API, and the upload of packages."""

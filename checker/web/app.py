@@ -1,0 +1,66 @@
+"""The web application: routes, and what stands around all of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from checker.jobs.port import Jobs
+from checker.store.store import Store
+from checker.versions import version_of
+from checker.web import api, health, pages
+from checker.web.answers import say_no_by
+from checker.web.config import Config
+from checker.web.courtesy import Courtesy
+from checker.web.gate import Gate
+from checker.web.headers import SecurityHeaders
+from checker.web.metrics import Metrics
+from checker.web.observing import Observing
+from checker.web.origin import OwnOrigin
+from checker.web.services import Services
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+    from fastapi.telemetry import TelemetryConfig
+
+_NO_TELEMETRY: TelemetryConfig = {
+    "tracing": False,
+    "metrics": False,
+    "logs": False,
+    "operation_spans": False,
+    "auto_configure": False,
+}
+"""The framework's own would send addresses, which hold ids, to whom the environment names."""
+
+
+def create_app(jobs: Jobs, store: Store, config: Config) -> FastAPI:
+    """Return the application.
+
+    Args:
+        jobs: The engine that checks.
+        store: Uploads and results.
+        config: What is allowed.
+    """
+    from fastapi import FastAPI
+
+    services, metrics = Services(jobs, store, config), Metrics()
+    app = FastAPI(
+        title="subt-check",
+        version=version_of("subt-check"),
+        description="Checks robot model packages: upload one, follow the check, fetch the report.",
+        openapi_url="/api/openapi.json",
+        docs_url=None,  # its page would load scripts from elsewhere
+        redoc_url=None,
+        redirect_slashes=False,
+        telemetry=_NO_TELEMETRY,
+    )
+    app.state.gate, app.state.metrics = Gate(config), metrics
+    say_no_by(app)
+    app.include_router(api.router(services))
+    app.include_router(health.router(services, metrics))
+    app.include_router(pages.router(services))
+    # The last added stands outermost.
+    app.add_middleware(OwnOrigin, config=config)
+    app.add_middleware(Courtesy)
+    app.add_middleware(Observing, metrics=metrics)
+    app.add_middleware(SecurityHeaders)
+    return app

@@ -1,0 +1,31 @@
+"""What the web server loads: `uvicorn --factory checker.web.main:app_from_environment`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from checker.jobs.durable.client import durable_jobs
+from checker.jobs.place import database_url
+from checker.store.place import data_folder
+from checker.store.store import Store
+from checker.web.app import create_app
+from checker.web.config import config_from
+from checker.web.logs import log_to_stderr
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+
+def app_from_environment() -> FastAPI:
+    """Return the application as the environment wants it.
+
+    Raises:
+        CheckerError: A variable has a value that makes no sense, or there is no place for data.
+    """
+    config = config_from()
+    log_to_stderr()
+    store = Store(data_folder())
+    store.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    store.sweep()
+    jobs = durable_jobs(database_url(), store, config.retention_days)
+    return create_app(jobs, store, config)

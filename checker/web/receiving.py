@@ -1,0 +1,182 @@
+"""An upload on its way from a request into the store; whatever ends it leaves nothing behind."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from dataclasses import dataclass
+from time import monotonic
+
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+
+from checker.errors import UnreadableInput
+from checker.jobs.port import Order
+from checker.package.archive import ARCHIVE_SUFFIXES, check_archive
+from checker.profiles import profile_names
+from checker.store.incoming import TooLarge
+from checker.store.store import Store
+from checker.web.config import Config
+from checker.web.form import ROOM, UploadForm
+from checker.web.gate import Gate
+from checker.web.refusal import Refused
+from checker.web.services import Services
+
+
+async def new_check(request: Request, services: Services) -> str:
+    """Take the upload form of a request and order a check of its file.
+
+    Args:
+        request: Its body is a multipart form: `token` where one is needed and no header brings
+            it, `profile` if wanted, then `file`.
+        services: Take the file and the order.
+
+    Returns:
+        The id of the check.
+
+    Raises:
+        Refused: The upload is not taken; nothing of it is left.
+        JobsUnreachable: The order cannot be taken now.
+    """
+    gate: Gate = request.app.state.gate
+    with gate.upload(request):
+        order = await receive(request, services, gate)
+        id = await run_in_threadpool(services.jobs.submit, order)
+    request.app.state.metrics.uploads += 1
+    return id
+
+
+async def receive(request: Request, services: Services, gate: Gate) -> Order:
+    """Take the upload form of a request into the store.
+
+    Raises:
+        Refused: The upload is not taken; nothing of it is left.
+    """
+    config, store = services.config, services.store
+    _refuse_announced(request, config)
+    try:
+        with store.incoming(config.upload_limit) as incoming:
+            admit = gate.needs_token(request)
+            form = UploadForm(request.headers.get("content-type", ""), incoming, admit)
+            async for piece in _pieces(request, config):
+                await run_in_threadpool(form.feed, piece)
+            form.end()
+            profile = _profile(form.fields.get("profile", ""))
+            hash = await run_in_threadpool(incoming.finish)
+    except TooLarge:
+        raise too_large(config.upload_limit) from None
+    except OSError as error:
+        raise _no_room(error) from None
+    order = Order(hash, form.name, profile)
+    await run_in_threadpool(_check_index, store, order)
+    return order
+
+
+def too_large(limit: int) -> Refused:
+    """Return the refusal of a file that is larger than the limit."""
+    return Refused(
+        413,
+        f"The file is larger than the {limit / 1e6:g} MB allowed.",
+        "Leave out what the package does not need, or reduce its meshes and textures.",
+        "size",
+    )
+
+
+def _refuse_announced(request: Request, config: Config) -> None:
+    """Refuse what says of itself that it is too large, before any of it is read."""
+    length = request.headers.get("content-length", "")
+    if length.isdecimal() and len(length) < 20 and int(length) > config.upload_limit + ROOM:
+        raise too_large(config.upload_limit)
+
+
+@dataclass
+class _Patience:
+    """How long an upload is waited for: each byte of it buys time.
+
+    Attributes:
+        started: By the monotonic clock.
+        received: Bytes so far.
+    """
+
+    config: Config
+    started: float
+    received: int = 0
+
+    @property
+    def left(self) -> float:
+        """Seconds from now."""
+        config, passed = self.config, monotonic() - self.started
+        bought = config.idle_seconds + self.received / config.slowest
+        return min(bought, config.upload_seconds) - passed
+
+
+async def _pieces(request: Request, config: Config) -> AsyncIterator[bytes]:
+    """Yield the body of a request piece by piece.
+
+    Raises:
+        Refused: It comes too slowly, is longer than any form, or ends early.
+    """
+    patience = _Patience(config, monotonic())
+    more = True
+    while more:
+        try:
+            async with asyncio.timeout(min(config.idle_seconds, max(patience.left, 0.0))):
+                message = await request.receive()
+        except TimeoutError:
+            raise _too_slow(config) from None
+        if message["type"] == "http.disconnect":
+            raise Refused(400, "The upload was cut off.", "Send it again.", "cut")
+        piece: bytes = message.get("body", b"")
+        more = message.get("more_body", False)
+        patience.received += len(piece)
+        if patience.received > config.upload_limit + ROOM:
+            raise too_large(config.upload_limit)
+        if piece:
+            yield piece
+
+
+def _too_slow(config: Config) -> Refused:
+    least = config.slowest / 1e3
+    return Refused(
+        408,
+        f"The upload is too slow, expected {least:g} kB/s or more without long breaks.",
+        "Send it again by a better connection, or reduce it.",
+        "slow",
+    )
+
+
+def _profile(name: str) -> str:
+    known = profile_names()
+    if name and name not in known:
+        shown = ", ".join(known)
+        raise Refused(422, "There is no such profile.", f"Choose one of {shown}.", "profile")
+    return name
+
+
+def _no_room(error: OSError) -> Refused:
+    reason = error.strerror or "the disk does not answer"
+    return Refused(
+        503,
+        f"The service cannot keep the upload: {reason}.",
+        "Try again later.",
+        "disk",
+        {"Retry-After": "60"},
+    )
+
+
+def _check_index(store: Store, order: Order) -> None:
+    """Refuse an archive by what its index says.
+
+    Raises:
+        Refused: It could do harm, or is damaged; it is removed from the store, as no check can
+            be of use with it.
+    """
+    place = store.upload(order.upload)
+    if place is None or not order.name.lower().endswith(ARCHIVE_SUFFIXES):
+        return
+    try:
+        check_archive(place, order.name)
+    except UnreadableInput as error:
+        store.forget_upload(order.upload)
+        advice = f"{error.advice[:1].upper()}{error.advice[1:]}."
+        raise Refused(422, f"{order.name} {error.reason}.", advice, "archive") from None

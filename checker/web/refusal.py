@@ -1,0 +1,35 @@
+"""Requests that are refused: why, and what to do instead."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(eq=False)
+class Refused(Exception):
+    """A request that is answered by no.
+
+    Attributes:
+        status: Of HTTP.
+        error: What is wrong, a sentence.
+        advice: What to do about it, a sentence.
+        cause: For the metrics, one of few words.
+        headers: Of the answer.
+    """
+
+    status: int
+    error: str
+    advice: str
+    cause: str = "request"
+    headers: Mapping[str, str] = field(default_factory=dict)
+
+
+def not_found() -> Refused:
+    """Return the one answer to every address that leads nowhere; it says nothing of why."""
+    return Refused(
+        404,
+        "There is nothing at this address.",
+        "Check the link; checks are deleted after the days that their page names.",
+        "not found",
+    )

@@ -1,0 +1,98 @@
+// What the user gives: one archive or model file as it is, or folders that are to be packed.
+
+const SKIPPED = new Set([".git", ".hg", ".svn", "__pycache__"]); // as `submit` leaves them out
+
+// What cannot be sent, in words for the user.
+export class Refusal extends Error {}
+
+// Returns the files of a drop with their paths, or a promise of them. The browser forgets the entries after the event,
+// so they are taken before anything is waited for.
+export function dropped(transfer, most) {
+  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
+  const files = [...transfer.files].map((file) => ({ path: file.name, file }));
+  return entries.length > 0 ? entriesOf(entries, most) : files;
+}
+
+async function entriesOf(entries, most) {
+  const found = [];
+  const waiting = [...entries];
+  while (waiting.length > 0) {
+    const entry = waiting.pop();
+    if (SKIPPED.has(entry.name)) continue;
+    if (entry.isDirectory) {
+      waiting.push(...(await children(entry)));
+    } else {
+      const file = await new Promise((resolve, reject) => entry.file(resolve, reject));
+      found.push({ path: entry.fullPath.replace(/^\//, ""), file });
+    }
+    refuseMany(found.length, most);
+  }
+  return found;
+}
+
+// A reader gives some entries at a time, and none when it is through.
+async function children(folder) {
+  const reader = folder.createReader();
+  const all = [];
+  for (;;) {
+    const some = await new Promise((resolve, reject) => reader.readEntries(resolve, reject));
+    if (some.length === 0) return all;
+    all.push(...some);
+  }
+}
+
+// Returns the files of an input for folders with their paths.
+export function ofFolder(list, most) {
+  const found = [...list]
+    .map((file) => ({ path: file.webkitRelativePath, file }))
+    .filter(({ path }) => !path.split("/").some((part) => SKIPPED.has(part)));
+  refuseMany(found.length, most);
+  return found;
+}
+
+function refuseMany(number, most) {
+  if (number > most) {
+    throw new Refusal(`There are more than ${most} files. Choose the package's own folder.`);
+  }
+}
+
+// Returns what is to be sent: {name, bytes, files, file}; `file` is null for what is to be packed.
+export function chosen(files, limits) {
+  const loose = files.filter(({ path }) => !path.includes("/"));
+  if (files.length === 0) {
+    throw new Refusal("There are no files in it. Choose a package folder with a model in it.");
+  }
+  const bytes = files.reduce((sum, { file }) => sum + file.size, 0);
+  if (loose.length === 1 && files.length === 1) {
+    refuseFile(loose[0].file, limits);
+    return { name: loose[0].file.name, bytes, files, file: loose[0].file };
+  }
+  if (loose.length > 0) {
+    throw new Refusal(`${loose.length} loose files were dropped. Drop their folder, or one archive.`);
+  }
+  refuseBytes(bytes, Math.min(limits.bytes, limits.unpacked));
+  return { name: `${nameOf(files)}.zip`, bytes, files, file: null };
+}
+
+function nameOf(files) {
+  const tops = new Set(files.map(({ path }) => path.split("/")[0]));
+  return tops.size === 1 ? [...tops][0] : "packages";
+}
+
+function refuseFile(file, limits) {
+  const name = file.name.toLowerCase();
+  if (!limits.endings.some((ending) => name.endsWith(ending))) {
+    throw new Refusal(`“${file.name}” is none of ${limits.endings.join(", ")}. Choose an archive or a model file.`);
+  }
+  refuseBytes(file.size, limits.bytes);
+}
+
+function refuseBytes(bytes, most) {
+  if (bytes > most) {
+    throw new Refusal(`It has ${megabytes(bytes)}, and up to ${megabytes(most)} can be sent. Leave out what is not part of the package.`);
+  }
+}
+
+export function megabytes(bytes) {
+  return `${(bytes / 1e6).toLocaleString("en", { maximumFractionDigits: bytes < 1e7 ? 1 : 0 })} MB`;
+}

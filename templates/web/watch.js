@@ -1,0 +1,77 @@
+// Keeps the page of a check fresh: each event fetches the page, and what differs is put in its place.
+
+document.documentElement.classList.add("scripted");
+const EVERY = 3000; // ms between looks without an event: the queue moves without telling
+const part = (id, page = document) => page.getElementById(id);
+const check = part("check");
+let events = null;
+let timer = 0;
+let looking = false;
+let again = false;
+
+function say(words) {
+  if (part("news").textContent !== words) part("news").textContent = words;
+}
+
+// Puts one part of a fresh page in the place of ours; who stood on a button in it is not lost.
+function renew(ours, fresh) {
+  if (ours.outerHTML === fresh.outerHTML) return;
+  const held = ours.contains(document.activeElement);
+  ours.replaceWith(document.adoptNode(fresh));
+  if (!held) return;
+  const next = fresh.querySelector("a, button") ?? part("headline");
+  if (next.id === "headline") next.tabIndex = -1;
+  next.focus();
+}
+
+async function look() {
+  const answer = await fetch(location.pathname, { cache: "no-store", credentials: "same-origin" });
+  if (answer.status >= 500) throw new Error(`status ${answer.status}`);
+  const page = new DOMParser().parseFromString(await answer.text(), "text/html");
+  const fresh = part("check", page);
+  if (!fresh) return location.reload(); // it is gone, and the page says so
+  for (const ours of [...check.children]) renew(ours, part(ours.id, page));
+  document.title = page.title;
+  say(part("headline").querySelector(".sentence").textContent.trim());
+  if ("final" in fresh.dataset) finish();
+}
+
+// One look at a time; an event that comes meanwhile is worth one more.
+async function refresh() {
+  again = looking;
+  if (looking) return;
+  looking = true;
+  try {
+    await look();
+  } catch {
+    say("The service does not answer; trying again.");
+  } finally {
+    looking = false;
+  }
+  if (again && events) refresh();
+}
+
+function finish() {
+  events?.close();
+  events = null;
+  clearInterval(timer);
+}
+
+function watch() {
+  events = new EventSource(check.dataset.events);
+  events.addEventListener("message", refresh);
+  timer = setInterval(refresh, EVERY);
+}
+
+if (!("final" in check.dataset)) watch();
+
+const link = part("link");
+link.addEventListener("focus", () => link.select());
+if (navigator.clipboard) {
+  part("copy").hidden = false;
+  part("copy").addEventListener("click", async () => {
+    await navigator.clipboard.writeText(link.value);
+    say("The link is copied.");
+    part("copy").textContent = "Copied";
+  });
+}

@@ -1,0 +1,82 @@
+"""Checks that stand where a test puts them, as on a board, and results that it makes up."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import httpx
+
+from checker.jobs.port import Alive, Event, Order, Stage, State
+from checker.store.store import Store
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+KEY = "a" * 64
+ID = "0123456789abcdefghijkl"
+COUNTS = {"errors": 5, "warnings": 1, "infos": 0}
+ROVER = {"name": "rover", "verdict": "not_ready", "folder": "", **COUNTS}
+QUEUED = State(ID, Order("b" * 64, "rover.zip"), Stage.QUEUED, expires=2e9)
+WORDS = "Not ready: 5 errors to fix"
+DONE = replace(QUEUED, stage=Stage.DONE, result=KEY, packages=(ROVER,), words=WORDS)
+
+
+@dataclass
+class BoardJobs:
+    """Checks that stand where a test puts them."""
+
+    states: dict[str, State] = field(default_factory=dict)
+    cancelled: list[str] = field(default_factory=list)
+
+    def submit(self, order: Order) -> str:
+        self.states[ID] = replace(QUEUED, order=order)
+        return ID
+
+    def status(self, id: str) -> State | None:
+        return self.states.get(id)
+
+    def events(self, id: str, after: int = 0) -> Sequence[Event]:
+        stages = (Stage.QUEUED, Stage.STATIC) if id in self.states else ()
+        return [Event(n, stage, "", 0.0) for n, stage in enumerate(stages, 1)][after:]
+
+    def cancel(self, id: str) -> bool:
+        self.cancelled.append(id)
+        return True
+
+    def result(self, id: str) -> str:
+        return self.states[id].result
+
+    def alive(self) -> Alive:
+        return Alive({"one": 0.0}, {}, 0)
+
+
+def keep_result(store: Store, report: str, *names: str, key: str = KEY) -> None:
+    with store.workplace() as place:
+        for name in ("report.json", *names):
+            (place / "made" / name).parent.mkdir(parents=True, exist_ok=True)
+            (place / "made" / name).write_text(report, "utf-8")
+        store.keep(key, place / "made")
+
+
+@dataclass
+class Client:
+    """Asks an application, one request after the other, and follows no redirects."""
+
+    app: FastAPI
+
+    def get(self, address: str) -> httpx.Response:
+        return self.request("GET", address)
+
+    def post(self, address: str, **given: Any) -> httpx.Response:
+        return self.request("POST", address, **given)
+
+    def request(self, method: str, address: str, **given: Any) -> httpx.Response:
+        async def ask() -> httpx.Response:
+            transport = httpx.ASGITransport(self.app)
+            async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as http:
+                return await http.request(method, address, **given)
+
+        return asyncio.run(ask())

@@ -1,0 +1,57 @@
+"""The whole service on this machine, as `subt-check serve` starts it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+STOP_SECONDS = 60
+
+
+@contextmanager
+def service(
+    data: Path, more: Mapping[str, str] | None = None, workers: int = 1
+) -> Iterator[str]:
+    """Start a service, yield its address, and stop it.
+
+    Args:
+        data: Its folder.
+        more: Variables of its environment.
+        workers: How many.
+    """
+    command = [sys.executable, "-m", "checker.cli", "serve", "--port", "0"]
+    command += ["--workers", str(workers)]
+    environment = {**os.environ, **(more or {})}
+    with (data.parent / f"{data.name}.log").open("w") as log:
+        started = subprocess.Popen(
+            [*command, "--data", str(data)],
+            stdout=subprocess.PIPE,
+            stderr=log,
+            text=True,
+            env=environment,
+        )
+        try:
+            assert started.stdout is not None
+            line = started.stdout.readline()
+            assert line.startswith("subt-check serves at http"), Path(log.name).read_text("utf-8")
+            yield line.split()[-1]
+        finally:
+            started.terminate()
+            started.wait(STOP_SECONDS)
+
+
+def zip_of(folders: list[Path], archive: Path, also: Mapping[str, bytes] | None = None) -> Path:
+    """Pack folders below their own names, with further files, and return the archive."""
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as made:
+        for folder in folders:
+            for path in sorted(folder.rglob("*")):
+                if path.is_file():
+                    made.write(path, path.relative_to(folder.parent))
+        for name, content in (also or {}).items():
+            made.writestr(name, content, zipfile.ZIP_STORED)
+    return archive

@@ -1,0 +1,263 @@
+"""The API: what it tells of a check, its files and events, and how it says no."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import httpx
+import pytest
+from fastapi.testclient import TestClient
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from checker.jobs.port import Alive, Event, JobsUnreachable, Stage, State
+from checker.store.store import SUMMARY, Store
+from checker.web.app import create_app
+from checker.web.config import Config
+from tests.web.board import DONE, ID, QUEUED, ROVER, BoardJobs, keep_result
+from tests.web.server import eventually, served
+
+PAGE = "<meta content=\"script-src 'sha256-" + "A" * 43 + "='\">"
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Store:
+    return Store(tmp_path / "data")
+
+
+@pytest.fixture
+def jobs() -> BoardJobs:
+    return BoardJobs({ID: QUEUED})
+
+
+@pytest.fixture
+def client(jobs: BoardJobs, store: Store) -> TestClient:
+    app = create_app(jobs, store, Config())
+    return TestClient(app, base_url="http://localhost", follow_redirects=False)
+
+
+def test_a_check_tells_where_it_stands(client: TestClient, jobs: BoardJobs, store: Store) -> None:
+    jobs.states[ID] = DONE
+    keep_result(store, PAGE, "report.html", "report.sarif", SUMMARY)
+    said = client.get(f"/api/checks/{ID}").json()
+    assert said["id"] == ID
+    assert said["url"] == f"http://localhost/checks/{ID}"
+    assert (said["stage"], said["final"]) == ("done", True)
+    assert said["packages"] == [ROVER]
+    assert said["expires"] == DONE.expires
+    for address in said["files"]:
+        assert client.get(address).status_code == 200
+    names = {address.rpartition("/")[2] for address in said["files"]}
+    assert names == {"report.json", "report.html", "report.sarif"}
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("report.json", "application/json"),
+        ("report.sarif", "application/sarif+json"),
+        ("report.html", "text/html; charset=utf-8"),
+        ("robot.glb", "model/gltf-binary"),
+    ],
+)
+def test_a_file_comes_as_what_it_is(
+    client: TestClient, jobs: BoardJobs, store: Store, name: str, kind: str
+) -> None:
+    jobs.states[ID] = DONE
+    keep_result(store, PAGE, *({name} - {"report.json"}))
+    answer = client.get(f"/api/checks/{ID}/{name}")
+    assert answer.status_code == 200
+    assert answer.headers["content-type"] == kind
+    assert answer.text == PAGE
+
+
+def test_files_of_several_packages_lie_beside_the_list_of_them(
+    client: TestClient, jobs: BoardJobs, store: Store
+) -> None:
+    jobs.states[ID] = DONE
+    keep_result(store, PAGE, "index.html", "röver/report.html", "röver/robot.glb")
+    answer = client.get(f"/api/checks/{ID}/index.html")
+    assert answer.status_code == 307
+    index = httpx.URL(f"http://localhost/api/checks/{ID}/index.html").join(
+        answer.headers["location"]
+    )
+    assert client.get(str(index)).status_code == 200
+    for link in ("r%C3%B6ver/report.html", "r%C3%B6ver/robot.glb"):
+        assert client.get(str(index.join(link))).text == PAGE
+
+
+def test_a_file_that_is_not_there_yet_is_said(client: TestClient) -> None:
+    answer = client.get(f"/api/checks/{ID}/report.html")
+    assert answer.status_code == 404
+    assert "not yet" in answer.json()["error"]
+
+
+NOT_FILES = (SUMMARY, "packages/%2e%2e/report.json", "packages/../../report.json", "x/report.html")
+
+
+@pytest.mark.parametrize("name", NOT_FILES)
+def test_nothing_else_of_the_store_is_served(
+    client: TestClient, jobs: BoardJobs, store: Store, name: str
+) -> None:
+    jobs.states[ID] = DONE
+    keep_result(store, PAGE, SUMMARY)
+    assert client.get(f"/api/checks/{ID}/{name}").status_code == 404
+
+
+ADDRESSES = (
+    "",
+    *("/events", "/report.json", "/report.sarif", "/report.html", "/robot.glb", "/index.html"),
+    *("/packages/index.html", "/packages/a/report.html", "/packages/a/robot.glb"),
+)
+
+
+@pytest.mark.parametrize("address", ADDRESSES)
+@pytest.mark.parametrize("id", [ID[:-1] + "m", "x", "%00", "%F0%9F%A4%96", "a" * 5_000])
+def test_every_unknown_check_is_answered_alike(client: TestClient, address: str, id: str) -> None:
+    answer = client.get(f"/api/checks/{id}{address}")
+    assert answer.status_code == 404
+    assert answer.json() == client.get("/api/nothing").json()
+    assert client.delete(f"/api/checks/{id}").json() == answer.json()
+
+
+def test_a_check_can_be_ended(client: TestClient, jobs: BoardJobs) -> None:
+    assert client.delete(f"/api/checks/{ID}").json()["id"] == ID
+    assert jobs.cancelled == [ID]
+
+
+TOLD = BoardJobs()
+LISTENER = TestClient(create_app(TOLD, Store(Path("nowhere")), Config()), "http://localhost")
+
+
+@settings(max_examples=30)
+@given(st.text(max_size=300), st.text(max_size=300))
+def test_words_of_any_kind_are_told(name: str, words: str) -> None:
+    TOLD.states[ID] = replace(QUEUED, words=words, packages=({**ROVER, "name": name},))
+    answer = LISTENER.get(f"/api/checks/{ID}")
+    assert answer.status_code == 200
+    told = answer.json()
+    assert len(told["words"]) == len(words)
+    for text in (told["words"], told["packages"][0]["name"]):
+        assert not set(text) & set("\x00\x1b\u202e\ud800")
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "status"),
+    [
+        ("GET", "/api/nothing", 404),
+        ("PUT", f"/api/checks/{ID}", 405),
+        ("GET", "/api/checks", 405),
+        ("GET", f"/api/checks/{ID}/events?after=-1", 422),
+        ("GET", f"/api/checks/{ID}/events?after={10**30}", 422),
+        ("GET", f"/api/checks/{ID}/events?after=x", 422),
+        ("POST", "/api/checks", 415),
+    ],
+)
+def test_no_is_said_in_one_shape(client: TestClient, method: str, path: str, status: int) -> None:
+    answer = client.request(method, path)
+    assert answer.status_code == status
+    said = answer.json()
+    assert sorted(said) == ["advice", "error"]
+    assert all(text.endswith(".") for text in said.values())
+
+
+def test_the_description_names_every_route_and_its_refusals(client: TestClient) -> None:
+    paths = client.get("/api/openapi.json").json()["paths"]
+    assert {f"/api/checks/{{id}}{each}" for each in ("", "/events", "/report.json")} <= set(paths)
+    for path, operations in paths.items():
+        for operation in operations.values():
+            for status, answer in operation["responses"].items():
+                if path.startswith("/api/") and int(status) >= 400:
+                    schema = answer["content"]["application/json"]["schema"]
+                    assert schema == {"$ref": "#/components/schemas/Problem"}
+
+
+@dataclass
+class Unreachable(BoardJobs):
+    """An engine whose database is away."""
+
+    def status(self, id: str) -> State | None:
+        raise JobsUnreachable(id)
+
+    def alive(self) -> Alive:
+        raise JobsUnreachable
+
+
+@pytest.mark.parametrize("path", [f"/api/checks/{ID}", f"/api/checks/{ID}/events", f"/checks/{ID}"])
+def test_an_engine_that_is_away_is_said(store: Store, path: str) -> None:
+    client = TestClient(create_app(Unreachable(), store, Config()), base_url="http://localhost")
+    answer = client.get(path)
+    assert answer.status_code == 503
+    assert int(answer.headers["retry-after"]) > 0
+
+
+@dataclass
+class Playing(BoardJobs):
+    """A check to which one more thing happens each time somebody asks."""
+
+    script: Sequence[Stage] = (Stage.QUEUED, Stage.STATIC, Stage.TRIAL, Stage.DONE)
+    asked: list[int] = field(default_factory=list)
+
+    def events(self, id: str, after: int = 0) -> Sequence[Event]:
+        self.asked.append(after)
+        shown = self.script[: len(self.asked)]
+        if shown[-1].is_final:
+            self.states[id] = replace(QUEUED, stage=shown[-1])
+        return [Event(n, stage, "ünïcode\n\nid: 9", 1.0) for n, stage in enumerate(shown, 1)][
+            after:
+        ]
+
+
+def numbers(text: str) -> list[int]:
+    return [int(line[4:]) for line in text.splitlines() if line.startswith("id: ")]
+
+
+def test_events_come_as_they_happen_until_the_check_ends(store: Store) -> None:
+    jobs = Playing({ID: QUEUED})
+    app = create_app(jobs, store, Config())
+    answer = TestClient(app, base_url="http://localhost").get(f"/api/checks/{ID}/events")
+    assert answer.headers["content-type"].startswith("text/event-stream")
+    assert numbers(answer.text) == [1, 2, 3, 4]
+    told = [json.loads(line[6:]) for line in answer.text.splitlines() if line.startswith("data: ")]
+    assert [each["stage"] for each in told] == list(jobs.script)
+
+
+@pytest.mark.parametrize(
+    ("query", "header", "expected"),
+    [("?after=2", "", [3, 4]), ("", "3", [4]), ("?after=1", "3", [4]), ("", "x", [1, 2, 3, 4])],
+)
+def test_who_comes_back_gets_what_was_missed(
+    store: Store, query: str, header: str, expected: list[int]
+) -> None:
+    jobs = Playing({ID: replace(QUEUED, stage=Stage.DONE)}, asked=[0] * 4)
+    client = TestClient(create_app(jobs, store, Config()), base_url="http://localhost")
+    headers = {"Last-Event-ID": header} if header else {}
+    answer = client.get(f"/api/checks/{ID}/events{query}", headers=headers)
+    assert numbers(answer.text) == expected
+
+
+def test_who_comes_back_after_the_end_is_told_to_stop(store: Store) -> None:
+    jobs = Playing({ID: replace(QUEUED, stage=Stage.DONE)}, asked=[0] * 4)
+    client = TestClient(create_app(jobs, store, Config()), base_url="http://localhost")
+    assert client.get(f"/api/checks/{ID}/events?after=4").status_code == 204
+
+
+def test_streams_are_bounded_and_end_with_their_readers(store: Store) -> None:
+    jobs = BoardJobs({ID: QUEUED})
+    app = create_app(jobs, store, Config(streams=4))
+    with served(app) as port, httpx.Client(base_url=f"http://localhost:{port}") as client:
+        address = f"/api/checks/{ID}/events"
+        with client.stream("GET", address) as one, client.stream("GET", address) as two:
+            assert (one.status_code, two.status_code) == (200, 200)
+            refused = client.get(address)
+            assert refused.status_code == 503
+            assert refused.json()["error"] == "Too many checks are watched."
+
+        def is_free() -> bool:
+            with client.stream("GET", address) as again:
+                return again.status_code == 200
+
+        assert eventually(is_free)

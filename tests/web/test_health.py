@@ -1,0 +1,180 @@
+"""Health, metrics and logs."""
+
+from __future__ import annotations
+
+import json
+import logging
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+from fastapi.testclient import TestClient
+from hypothesis import given
+from hypothesis import strategies as st
+
+from checker.jobs.port import Alive, JobsUnreachable, State
+from checker.store.store import Store
+from checker.web.app import create_app
+from checker.web.config import Config
+from checker.web.logs import FIELDS, JsonLines, short
+from checker.web.metrics import BOUNDS, Metrics
+from tests.web.board import DONE, ID, BoardJobs
+
+
+@dataclass
+class Engine(BoardJobs):
+    """An engine that says of itself what a test wants."""
+
+    told: Alive | None = field(default_factory=lambda: Alive({"one": 3.0, "two": 600.0}, {}, 0))
+
+    def alive(self) -> Alive:
+        if self.told is None:
+            raise JobsUnreachable
+        return self.told
+
+
+def client_for(tmp_path: Path, jobs: BoardJobs, **more: object) -> TestClient:
+    (tmp_path / "data").mkdir(exist_ok=True)
+    config = Config(**{"upload_limit": 1_000, **more})  # type: ignore[arg-type]
+    app = create_app(jobs, Store(tmp_path / "data"), config)
+    return TestClient(app, base_url="http://localhost", client=("127.0.0.1", 5_000))
+
+
+def test_the_web_process_lives_whatever_the_engine_does(tmp_path: Path) -> None:
+    assert client_for(tmp_path, Engine(told=None)).get("/healthz").json() == {"status": "ok"}
+
+
+@pytest.mark.parametrize(
+    ("told", "said"),
+    [
+        (None, "database does not answer"),
+        (Alive({}, {}, 0), "No worker"),
+        (Alive({"one": 61.0}, {}, 0), "No worker"),
+    ],
+)
+def test_it_is_ready_only_if_a_check_would_be_done(
+    tmp_path: Path, told: Alive | None, said: str
+) -> None:
+    answer = client_for(tmp_path, Engine(told=told)).get("/readyz")
+    assert answer.status_code == 503
+    assert said in answer.json()["error"]
+    assert client_for(tmp_path, Engine()).get("/readyz").status_code == 200
+
+
+def test_it_is_not_ready_without_room_for_uploads(tmp_path: Path) -> None:
+    answer = client_for(tmp_path, Engine(), upload_limit=10**18).get("/readyz")
+    assert answer.status_code == 503
+    assert "MB free" in answer.json()["error"]
+
+
+def test_metrics_count_requests_by_route(tmp_path: Path) -> None:
+    waiting = Alive({'"\\\n': 1.0}, {"static": 2, "trial": 3}, 1)
+    client = client_for(tmp_path, Engine({ID: DONE}, told=waiting))
+    for path in (f"/api/checks/{ID}", "/api/checks/x", "/", f"/checks/{ID}", "/nothing"):
+        client.get(path)
+    client.post("/api/checks", files={"file": ("a.sdf", b"<sdf/>")})
+    client.post("/api/checks", files={"file": ("a.exe", b"<sdf/>")})
+    text = client.get("/metrics").text
+    for line in (
+        'subt_check_requests_total{method="GET",route="/api/checks/{id}",status="200"} 1',
+        'subt_check_requests_total{method="GET",route="/api/checks/{id}",status="404"} 1',
+        'subt_check_requests_total{method="GET",route="/",status="200"} 1',
+        'subt_check_requests_total{method="GET",route="/checks/{id}",status="200"} 1',
+        'subt_check_requests_total{method="GET",route="none",status="404"} 1',
+        'subt_check_request_seconds_count{route="/api/checks/{id}"} 2',
+        "subt_check_uploads_total 1",
+        'subt_check_refused_total{cause="kind"} 1',
+        'subt_check_waiting{queue="trial"} 3',
+        "subt_check_running 1",
+        "subt_check_engine_up 1",
+    ):
+        assert line in text.splitlines()
+    assert ID not in text
+
+
+def test_metrics_are_in_the_format_of_prometheus() -> None:
+    metrics = Metrics()
+    metrics.count("GET", "/{id}", 200, 0.01)
+    text = metrics.text(Alive({'a"\\\nb': 1.0}, {"static": 1}, 0))
+    for line in text.splitlines():
+        assert line.startswith(("# HELP ", "# TYPE ", "subt_check_"))
+        assert "\n" not in line
+    assert r'worker="a\"\\\nb"' in text
+
+
+@given(st.lists(st.floats(0, 100), min_size=1, max_size=50))
+def test_the_histogram_adds_up(seconds: list[float]) -> None:
+    metrics = Metrics()
+    for each in seconds:
+        metrics.count("GET", "/", 200, each)
+    lines = dict(line.rsplit(" ", 1) for line in metrics.text(None).splitlines() if "/" in line)
+    for bound in BOUNDS:
+        name = f'subt_check_request_seconds_bucket{{route="/",le="{bound}"}}'
+        assert int(lines[name]) == sum(each <= bound for each in seconds)
+    total = 'subt_check_request_seconds_bucket{route="/",le="+Inf"}'
+    assert int(lines[total]) == len(seconds)
+
+
+@pytest.mark.parametrize(
+    ("address", "headers", "status"),
+    [
+        ("127.0.0.1", {}, 200),
+        ("127.0.0.1", {"X-Forwarded-For": "192.0.2.1"}, 404),
+        ("192.0.2.1", {}, 404),
+        ("192.0.2.1", {"Authorization": "Bearer wrong"}, 404),
+        ("192.0.2.1", {"Authorization": "Bearer s3cret"}, 200),
+    ],
+)
+def test_metrics_are_for_this_machine_and_for_tokens(
+    tmp_path: Path, address: str, headers: dict[str, str], status: int
+) -> None:
+    app = create_app(Engine(), Store(tmp_path), Config(tokens=("s3cret",)))
+    client = TestClient(app, base_url="http://localhost", client=(address, 5_000))
+    assert client.get("/metrics", headers=headers).status_code == status
+
+
+class Broken(BoardJobs):
+    """An engine with a bug."""
+
+    def status(self, id: str) -> State | None:
+        raise ZeroDivisionError(id)
+
+
+@pytest.mark.parametrize("path", [f"/api/checks/{ID}", f"/checks/{ID}"])
+def test_a_fault_of_ours_is_logged_and_not_shown(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, path: str
+) -> None:
+    with caplog.at_level(logging.INFO, "subt-check"):
+        answer = client_for(tmp_path, Broken()).get(path)
+    assert answer.status_code == 500
+    assert answer.json()["error"] == "The service has a fault."
+    assert answer.headers["x-content-type-options"] == "nosniff"
+    assert "ZeroDivisionError" in caplog.text
+
+
+def test_logs_hold_no_token_no_id_and_no_name(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    client = client_for(tmp_path, Engine({ID: DONE}), tokens=("s3cret",))
+    headers = {"Authorization": "Bearer s3cret"}
+    with caplog.at_level(logging.INFO, "subt-check"):
+        client.get(f"/api/checks/{ID}?name=%1b%5b31m", headers=headers)
+        client.post("/api/checks", files={"file": ("evil\x1b.sdf", b"<sdf/>")}, headers=headers)
+    lines = [JsonLines().format(record) for record in caplog.records if record.name[:4] == "subt"]
+    assert len(lines) == 2
+    for line in lines:
+        for hidden in (ID, "s3cret", "evil", "name="):
+            assert hidden not in line
+    first = json.loads(lines[0])
+    assert (first["route"], first["status"]) == ("/api/checks/{id}", 200)
+    assert first["check"] == short(ID)
+
+
+@given(st.text(), st.text())
+def test_no_text_begins_a_line_of_the_log_of_its_own(message: str, field: str) -> None:
+    record = logging.LogRecord("subt-check.web", logging.INFO, "", 0, message, None, None)
+    setattr(record, FIELDS, {"field": field})
+    line = JsonLines().format(record)
+    assert line.isascii()
+    assert line.isprintable()
+    assert json.loads(line)["message"] == message

@@ -1,0 +1,364 @@
+"""The pages in a real browser, with checks that stand where the test puts them."""
+
+from __future__ import annotations
+
+import shutil
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from checker.jobs.port import Event, Stage
+from checker.package.archive_index import ArchiveLimits
+from checker.report.json_report import to_json
+from checker.report.report import Report
+from checker.store.store import Store
+from checker.web.app import create_app
+from checker.web.config import Config
+from tests.browser import watched_page
+from tests.conftest import SAMPLES
+from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, BoardJobs, keep_result
+from tests.web.server import served
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+BUGGY = SAMPLES / "subtcheck_buggy_sensor_config_1"
+TOKEN = "s3cret"  # noqa: S105
+NAMED = {**ROVER, "name": "</script><b>\u202erover\N{ROBOT FACE}"}
+
+
+@dataclass
+class TellingJobs(BoardJobs):
+    """A board whose changes are told."""
+
+    told: list[Event] = field(default_factory=list)
+
+    def events(self, id: str, after: int = 0) -> list[Event]:
+        return [each for each in self.told if id in self.states and each.number > after]
+
+    def tell(self, stage: Stage) -> None:
+        self.told.append(Event(len(self.told) + 1, stage, "", 0.0))
+
+
+@dataclass
+class Board:
+    """A site and what stands behind it."""
+
+    address: str
+    jobs: TellingJobs
+    store: Store
+
+
+def served_board(folder: Path, config: Config) -> Iterator[Board]:
+    jobs, store = TellingJobs(), Store(folder / "data")
+    with served(create_app(jobs, store, config)) as port:
+        yield Board(f"http://localhost:{port}", jobs, store)
+
+
+@pytest.fixture
+def board(tmp_path: Path) -> Iterator[Board]:
+    yield from served_board(tmp_path, Config(upload_limit=2_000_000))
+
+
+@pytest.fixture
+def guarded_board(tmp_path: Path) -> Iterator[Board]:
+    yield from served_board(tmp_path, Config(tokens=(TOKEN,)))
+
+
+def stand(board: Board, stage: Stage) -> None:
+    """Put the check into a stage, with findings as soon as there are some."""
+    if stage in (Stage.TRIAL, Stage.DONE):
+        if not board.store.has(KEY):
+            report = Report((), {})
+            keep_result(board.store, to_json(report), "report.html", "report.sarif", "robot.glb")
+        known = replace(DONE, stage=stage, packages=(NAMED,))
+        board.jobs.states[ID] = known if stage is Stage.DONE else replace(known, words="")
+    else:
+        board.jobs.states[ID] = replace(QUEUED, stage=stage, ahead=2, words="the reason")
+    board.jobs.tell(stage)
+
+
+def axe_violations(page: Page) -> list[object]:
+    from axe_playwright_python.sync_playwright import Axe
+
+    response = Axe().run(page).response
+    assert len(response["passes"]) > 10
+    return [
+        (each["id"], [node["html"][:200] for node in each["nodes"][:3]])
+        for each in response["violations"]
+    ]
+
+
+def upload_of(board: Board) -> Path:
+    """Return what was uploaded last."""
+    found = board.store.upload(board.jobs.states[ID].order.upload)
+    assert found is not None
+    return found
+
+
+SHOWN = (Stage.QUEUED, Stage.TRIAL, Stage.DONE, Stage.FAILED)
+ADDRESSES = ["/", "/rules/SEN005", "/rules", *(f"/checks/{ID}?{stage}" for stage in SHOWN)]
+
+
+@pytest.mark.parametrize("address", ADDRESSES)
+@pytest.mark.parametrize(("width", "dark"), [(1280, False), (390, True)])
+def test_every_page_is_for_everybody(
+    chromium: Browser, board: Board, address: str, width: int, dark: bool
+) -> None:
+    if "?" in address:
+        stand(board, Stage(address.partition("?")[2]))
+    with watched_page(chromium, width=width, dark=dark) as page:
+        page.goto(board.address + address)
+        page.wait_for_load_state()
+        assert axe_violations(page) == []
+        overflow = page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth")
+        assert overflow <= 0, "the page is wider than the window"
+        assert "</script><b>" not in page.content()
+
+
+def test_a_page_that_is_not_there_is_for_everybody(chromium: Browser, board: Board) -> None:
+    page = chromium.new_page()
+    try:
+        answer = page.goto(f"{board.address}/checks/guessed")
+        assert answer is not None
+        assert answer.status == 404
+        assert page.locator("h1").inner_text() == "There is nothing at this address."
+        assert axe_violations(page) == []
+    finally:
+        page.close()
+
+
+def test_the_page_follows_the_check_by_itself(chromium: Browser, board: Board) -> None:
+    stand(board, Stage.QUEUED)
+    with watched_page(chromium) as page:
+        page.goto(f"{board.address}/checks/{ID}")
+        sentence, now = page.locator(".sentence"), page.locator("[aria-current=step]")
+        assert sentence.inner_text() == "Waiting: 2 checks ahead"
+        page.evaluate("window.same = true")
+        for stage, step, said in (
+            (Stage.STATIC, "Rules", "Checking: the reason"),
+            (Stage.TRIAL, "Trial", "Checking: 5 errors and 1 warning so far"),
+        ):
+            stand(board, stage)
+            page.get_by_text(said).first.wait_for()
+            assert step in now.inner_text()
+            assert page.locator("[role=status]").inner_text() == said
+        page.get_by_role("button", name="Cancel").focus()
+        stand(board, Stage.DONE)
+        page.get_by_role("link", name="Open the report").wait_for()
+        assert page.evaluate("window.same"), "the page was loaded anew"
+        focused = page.evaluate("document.activeElement.textContent")
+        assert focused == "Open the report", "who stood on a button that went is lost"
+        assert page.title().startswith("Not ready: rover.zip")
+        assert page.locator("[aria-current=step]").count() == 0
+
+
+def test_a_service_that_is_away_for_a_moment_is_asked_again(
+    chromium: Browser, board: Board
+) -> None:
+    stand(board, Stage.STATIC)
+    page = chromium.new_page()
+    try:
+        page.goto(f"{board.address}/checks/{ID}")
+        page.context.set_offline(True)
+        page.get_by_text("trying again").wait_for(state="attached", timeout=20_000)
+        page.context.set_offline(False)
+        stand(board, Stage.DONE)
+        page.get_by_role("link", name="Open the report").wait_for(timeout=20_000)
+    finally:
+        page.close()
+
+
+@pytest.mark.parametrize("javascript", [True, False])
+def test_cancelling(chromium: Browser, board: Board, javascript: bool) -> None:
+    stand(board, Stage.STATIC)
+    with watched_page(chromium, javascript=javascript) as page:
+        page.goto(f"{board.address}/checks/{ID}")
+        page.get_by_role("button", name="Cancel").click()
+        page.wait_for_load_state()
+        assert board.jobs.cancelled == [ID]
+        assert page.url == f"{board.address}/checks/{ID}"
+
+
+def test_without_javascript_the_page_comes_anew(chromium: Browser, board: Board) -> None:
+    stand(board, Stage.QUEUED)
+    with watched_page(chromium, javascript=False) as page:
+        page.goto(f"{board.address}/checks/{ID}")
+        stand(board, Stage.DONE)
+        page.get_by_role("link", name="Open the report").wait_for()
+        assert not page.locator("#copy").is_visible()
+
+
+def test_the_link_is_copied(chromium: Browser, board: Board) -> None:
+    stand(board, Stage.DONE)
+    with watched_page(chromium) as page:
+        page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+        page.goto(f"{board.address}/checks/{ID}")
+        page.get_by_role("button", name="Copy").click()
+        page.get_by_role("button", name="Copied").wait_for()
+        assert page.evaluate("navigator.clipboard.readText()") == page.url
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A package with what a repository would have beside it, and names in other scripts."""
+    folder = shutil.copytree(BUGGY, tmp_path / "Wägelchen 包")
+    (folder / "leer.txt").touch()
+    for hidden in (".git/config", "scripts/__pycache__/x.pyc"):
+        (folder / hidden).parent.mkdir(parents=True, exist_ok=True)
+        (folder / hidden).write_text("not sent", "utf-8")
+    return folder
+
+
+def files_of(folder: Path) -> dict[str, bytes]:
+    files = (path for path in folder.rglob("*") if path.is_file())
+    sent = [each for each in files if not {".git", "__pycache__"} & {*each.parts}]
+    return {each.relative_to(folder.parent).as_posix(): each.read_bytes() for each in sent}
+
+
+def assert_packed(archive: Path, folder: Path) -> None:
+    with zipfile.ZipFile(archive) as made:
+        assert made.testzip() is None
+        assert {name: made.read(name) for name in made.namelist()} == files_of(folder)
+
+
+def test_a_folder_is_packed_by_the_page(chromium: Browser, board: Board, package: Path) -> None:
+    with watched_page(chromium) as page:
+        page.goto(board.address)
+        page.get_by_label("or package folder").set_input_files(package)
+        number = len(files_of(package))
+        page.get_by_text(f"{number} files").wait_for()
+        page.get_by_role("button", name="Check").click()
+        page.wait_for_url(f"**/checks/{ID}")
+        assert_packed(upload_of(board), package)
+        first = board.jobs.states[ID].order
+        page.goto(board.address)
+        page.get_by_label("or package folder").set_input_files(package)
+        page.get_by_text(f"{number} files").wait_for()
+        page.get_by_label("Judge as").select_option("sdf")
+        page.get_by_role("button", name="Check").click()
+        page.wait_for_url(f"**/checks/{ID}")
+        assert board.jobs.states[ID].order == replace(first, profile="sdf")
+
+
+def drop(page: Page, *paths: Path) -> None:
+    """Drag files or folders from the desktop onto the drop zone."""
+    box = page.locator("#drop").bounding_box()
+    assert box is not None
+    session = page.context.new_cdp_session(page)
+    dragged = {"items": [], "files": [str(each) for each in paths], "dragOperationsMask": 1}
+    for kind in ("dragEnter", "dragOver", "drop"):
+        where = {"x": box["x"] + 20, "y": box["y"] + 20}
+        session.send("Input.dispatchDragEvent", {"type": kind, **where, "data": dragged})
+
+
+def test_a_folder_is_dropped(chromium: Browser, board: Board, package: Path) -> None:
+    with watched_page(chromium) as page:
+        page.goto(board.address)
+        drop(page, package)
+        page.get_by_text("Wägelchen 包.zip").wait_for()
+        page.get_by_role("button", name="Check").click()
+        page.wait_for_url(f"**/checks/{ID}")
+        assert_packed(upload_of(board), package)
+
+
+def test_loose_files_are_refused_and_one_is_taken(
+    chromium: Browser, board: Board, package: Path
+) -> None:
+    with watched_page(chromium) as page:
+        page.goto(board.address)
+        drop(page, package / "model.sdf", package / "package.xml")
+        page.get_by_role("alert").get_by_text("2 loose files").wait_for()
+        drop(page, package / "model.sdf")
+        page.locator("#chosen").get_by_text("model.sdf").wait_for()
+        assert page.get_by_role("alert").inner_text() == ""
+        page.get_by_role("button", name="Check").click()
+        page.wait_for_url(f"**/checks/{ID}")
+        assert board.jobs.states[ID].order.name == "model.sdf"
+
+
+def test_what_is_beyond_the_limits_is_not_sent(
+    chromium: Browser, board: Board, tmp_path: Path
+) -> None:
+    large, many, empty = (tmp_path / name for name in ("large", "many", "empty"))
+    for folder in (large, many, empty / ".git"):
+        folder.mkdir(parents=True)
+    (large / "mesh.dae").write_bytes(bytes(2_000_001))
+    for number in range(ArchiveLimits().entries + 1):
+        (many / str(number)).touch()
+    (empty / ".git" / "config").touch()
+    wrong = tmp_path / "notes.txt"
+    wrong.write_text("hello", "utf-8")
+    with watched_page(chromium) as page:
+        page.goto(board.address)
+        said = page.get_by_role("alert")
+        page.get_by_label("or package folder").set_input_files(large)
+        said.get_by_text("up to 2 MB can be sent").wait_for()
+        page.get_by_label("or package folder").set_input_files(many)
+        said.get_by_text("more than 5000 files").wait_for()
+        page.get_by_label("or package folder").set_input_files(empty)
+        said.get_by_text("no files in it").wait_for()
+        page.get_by_label("Archive or model file").set_input_files(wrong)
+        said.get_by_text("“notes.txt” is none of .zip").wait_for()
+        page.get_by_role("button", name="Check").press("Enter")
+        said.get_by_text("Nothing is chosen").wait_for()
+        assert axe_violations(page) == []
+    assert board.jobs.states == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [("notes.zip", b"hello" * 9, "does not begin like one"), ("empty.zip", b"", "is empty")],
+)
+def test_a_refusal_of_the_service_is_shown_in_place(
+    chromium: Browser, board: Board, tmp_path: Path, name: str, content: bytes, said: str
+) -> None:
+    (tmp_path / name).write_bytes(content)
+    page = chromium.new_page()  # the browser itself notes the refusal on its console
+    try:
+        page.goto(board.address)
+        page.get_by_label("Archive or model file").set_input_files(tmp_path / name)
+        page.get_by_role("button", name="Check").click()
+        page.get_by_role("alert").get_by_text(said).wait_for()
+        assert page.get_by_role("button", name="Check").is_enabled()
+        assert not page.locator("progress").is_visible()
+    finally:
+        page.close()
+
+
+@pytest.mark.parametrize("javascript", [True, False])
+def test_a_token_opens_the_service(
+    chromium: Browser, guarded_board: Board, javascript: bool
+) -> None:
+    context = chromium.new_context(java_script_enabled=javascript)
+    page = context.new_page()
+    try:
+        for token in ("guess", TOKEN):
+            page.goto(guarded_board.address)
+            page.get_by_label("Token").fill(token)
+            page.get_by_label("Archive or model file").set_input_files(BUGGY / "model.sdf")
+            page.get_by_role("button", name="Check").click()
+            if token != TOKEN:
+                page.get_by_text("This token is not known.").wait_for()
+                assert guarded_board.jobs.states == {}
+        page.wait_for_url(f"**/checks/{ID}")
+    finally:
+        context.close()
+
+
+WHERE = "document.activeElement.id || document.activeElement.textContent"
+
+
+def test_everything_is_reached_by_the_keyboard(chromium: Browser, board: Board) -> None:
+    with watched_page(chromium) as page:
+        page.goto(board.address)
+        reached = []
+        for _ in range(9):
+            page.keyboard.press("Tab")
+            reached.append(page.evaluate(WHERE))
+        links = ["Skip to the content", "subt-check", "Check", "Rules"]
+        assert reached[:8] == [*links, "file", "folder", "profile", "check"]
