@@ -11,7 +11,10 @@ from io import TextIOWrapper
 
 from checker.output import EXIT_CLEAN, EXIT_CRASH, EXIT_USAGE
 
-COMMANDS = ("check", "rule", "rules", "export", "migrate", "init", "doctor")
+COMMANDS = (
+    *("check", "rule", "rules", "export", "migrate", "init", "doctor"),
+    *("serve", "worker", "submit"),
+)
 PROFILES = ("subt", "sdf", "urdf", "gazebo-harmonic")
 FORMATS = ("text", "json", "sarif", "github", "junit", "markdown", "html")
 
@@ -37,6 +40,9 @@ def build_parser() -> argparse.ArgumentParser:
     _add_check(commands)
     _add_export(commands)
     _add_migrate(commands)
+    _add_submit(commands)
+    _add_serve(commands)
+    _add_worker(commands)
     start = commands.add_parser("init", help="write a settings file, and a hook for pre-commit")
     folder = "of the packages (default: this one)"
     start.add_argument("path", metavar="FOLDER", nargs="?", default=".", help=folder)
@@ -155,6 +161,87 @@ def _add_migrate(commands: argparse._SubParsersAction[argparse.ArgumentParser]) 
     migrate.add_argument("--no-cache", action="store_true", help="keep no results, take none")
 
 
+def _add_submit(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    submit = commands.add_parser(
+        "submit",
+        help="have a service check a package",
+        epilog=_EXITS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    submit.add_argument(
+        "package", metavar="PACKAGE", help="a package folder, an archive or a model file"
+    )
+    submit.add_argument(
+        "--server", metavar="URL", required=True, help="of the service: https://check.example"
+    )
+    submit.add_argument(
+        "--token", default="", help="that it wants (better: SUBT_CHECK_TOKEN, which none sees)"
+    )
+    submit.add_argument("--profile", choices=PROFILES, help="default: subt, or urdf for URDF")
+    submit.add_argument("--format", choices=FORMATS, default="text")
+    submit.add_argument("--output", metavar="FILE", help="write the result there, not to stdout")
+    submit.add_argument(
+        "--report",
+        metavar="DIR",
+        help="also write report.html, report.json, report.sarif and robot.glb into this folder",
+    )
+    submit.add_argument("--fail-on", choices=("error", "warning"), help="(default: error)")
+    submit.add_argument("--color", choices=("auto", "always", "never"), default="auto")
+
+
+def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    serve = commands.add_parser(
+        "serve",
+        help="start the web service with its workers",
+        description="Start the web service with its workers. On another address than this "
+        "machine's own it wants SUBT_CHECK_TOKENS, separated by commas, or --public.",
+    )
+    serve.add_argument("--host", default="127.0.0.1", help="address (default: 127.0.0.1)")
+    serve.add_argument(
+        "--port", type=_port, default=8000, help="(default: 8000; 0 for any that is free)"
+    )
+    serve.add_argument(
+        "--workers", type=_count, metavar="N", help="processes; 0: elsewhere (default: 2 or fewer)"
+    )
+    serve.add_argument("--public", action="store_true", help="let everybody upload")
+    _add_data(serve)
+    serve.add_argument(
+        "--base-url", metavar="URL", default="", help="where people reach it, if not at its address"
+    )
+    serve.add_argument(
+        "--behind-proxy",
+        metavar="ADDRESSES",
+        nargs="?",
+        const="127.0.0.1,::1",
+        default="",
+        help="believe what the proxy at these addresses or networks, with commas between, says of "
+        "its clients (default: one on this machine)",
+    )
+
+
+def _add_worker(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    worker = commands.add_parser("worker", help="start a further worker of a service")
+    worker.add_argument(
+        "--jobs", type=_positive, metavar="N", help="trials at once in each worker (at first: 1)"
+    )
+    worker.add_argument(
+        "--name",
+        default="",
+        help="under which no other worker runs; started again under it, this one takes up at once "
+        "what it had in hand (default: at random)",
+    )
+    _add_data(worker)
+
+
+def _add_data(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--data",
+        metavar="DIR",
+        default="",
+        help="for uploads and reports (default: SUBT_CHECK_DATA, else the user's data folder)",
+    )
+
+
 def _argument(text: str) -> tuple[str, str]:
     name, assigned, value = text.partition(":=")
     if not name or not assigned:
@@ -179,6 +266,16 @@ def _ids(text: str) -> tuple[str, ...]:
 def _positive(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"{text!r} is no number of processes, expected 1 or more")
+    return int(text)
+
+
+def _count(text: str) -> int:
+    return 0 if text == "0" else _positive(text)
+
+
+def _port(text: str) -> int:
+    if not (text.isascii() and text.isdecimal()) or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"{text!r} is no port, expected a number up to 65535")
     return int(text)
 
 
@@ -248,12 +345,18 @@ def _run(options: argparse.Namespace) -> int:
         from checker.doctor.command import doctor
 
         return doctor()
+    if options.command in ("serve", "worker"):
+        # They wait; the checker's own readers would only take memory from those who work.
+        from checker.serving.command import serve, worker
+
+        return serve(options) if options.command == "serve" else worker(options)
     from checker import commands
 
     actions: dict[str, Callable[[], int]] = {
         "check": lambda: commands.check(options),
         "export": lambda: commands.export(options),
         "migrate": lambda: commands.migrate(options),
+        "submit": lambda: commands.submit(options),
         "init": lambda: commands.init(options),
         "rule": lambda: commands.explain_rule(options.id),
         "rules": lambda: commands.list_rules(options.format),

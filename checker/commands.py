@@ -214,6 +214,14 @@ def migrate(options: argparse.Namespace) -> int:
     return exit_code(report)
 
 
+def submit(options: argparse.Namespace) -> int:
+    """Have a service check a package, and print the report."""
+    from checker.submitting.command import submit
+
+    report = submit(options)
+    return EXIT_CRASH if report is None else exit_code(report)
+
+
 def init(options: argparse.Namespace) -> int:
     """Write what a repository needs to be checked."""
     from checker.starting.command import init

@@ -1,0 +1,1 @@
+"""The service on one machine: the web process and its workers."""

@@ -1,0 +1,94 @@
+"""A process of the service: the web server or a worker. It ends with the one that started it.
+
+`python -P -m checker.serving.child PARENT web DESCRIPTOR PROXIES` or `… PARENT worker NAME`.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import sys
+from collections.abc import Sequence
+
+from checker.confined import end_with_parent
+from checker.errors import CheckerError
+from checker.jobs.port import JobsUnreachable
+from checker.output import EXIT_CRASH, EXIT_USAGE, say_progress
+
+_CONNECTIONS = 1_000
+"""At once; further ones are told that the service is busy."""
+_OPEN_FILES = 4 * _CONNECTIONS
+_CLOSING_SECONDS = 5
+"""For answers that are under way when the server stops; streams of events are cut off then."""
+
+
+def web(descriptor: int, proxies: str) -> None:
+    """Serve pages and API until SIGTERM.
+
+    Args:
+        descriptor: Of the socket to listen at.
+        proxies: Addresses and networks whose word on their clients counts; empty for none.
+    """
+    import uvicorn
+
+    _allow_open_files()
+    config = uvicorn.Config(
+        "checker.web.main:app_from_environment",
+        factory=True,
+        http="h11",
+        ws="none",
+        log_config=None,
+        access_log=False,
+        server_header=False,
+        proxy_headers=bool(proxies),
+        forwarded_allow_ips=proxies,
+        limit_concurrency=_CONNECTIONS,
+        timeout_graceful_shutdown=_CLOSING_SECONDS,
+    )
+    uvicorn.Server(config).run([socket.socket(fileno=descriptor)])
+
+
+def _allow_open_files() -> None:
+    """Have room for all connections and for what they send: 1024 is what many systems begin with."""
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    allowed = _OPEN_FILES if hard == resource.RLIM_INFINITY else min(_OPEN_FILES, hard)
+    if soft != resource.RLIM_INFINITY and soft < allowed:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (allowed, hard))
+
+
+def worker(name: str) -> None:
+    """Take checks from the queues until SIGTERM; see `checker.jobs.worker`."""
+    from checker.jobs.place import database_url
+    from checker.jobs.worker import WorkerOptions, work
+    from checker.store.place import data_folder
+    from checker.store.store import Store
+
+    work(WorkerOptions(database_url(), Store(data_folder()), name))
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Be the process that the arguments ask for."""
+    parent, kind, *rest = arguments
+    end_with_parent()
+    if os.getppid() != int(parent):  # it ended before this one could ask to end with it
+        return EXIT_CRASH
+    try:
+        if kind == "web":
+            web(int(rest[0]), rest[1])
+        else:
+            worker(rest[0])
+    except CheckerError as error:
+        say_progress(f"subt-check: {error}")
+        return EXIT_USAGE
+    except JobsUnreachable as error:
+        say_progress(f"subt-check: the database of the service does not answer: {error}")
+        return EXIT_CRASH
+    return 0
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,165 @@
+"""What `serve` and `worker` do."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import secrets
+import signal
+import socket
+import sys
+import threading
+from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+
+from checker.errors import CheckerError
+from checker.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
+from checker.serving.exposure import address_of, listening, warning_of
+from checker.serving.supervisor import Pace, Process, keep_running, stop_all
+from checker.store.place import data_folder
+
+_NEEDED = ("dbos", "fastapi", "uvicorn")
+_CHILD = (sys.executable, "-P", "-m", "checker.serving.child")
+_MOST_WORKERS = 2
+"""Unless more are asked for: a trial keeps a core busy."""
+
+
+def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
+    """Run the web server and its workers until SIGTERM or SIGINT; a second one ends all at once.
+
+    Raises:
+        CheckerError: The service is not installed, or what is asked for makes no sense.
+    """
+    _refuse_without_extra()
+    _data_made(options)
+    environment = _environment(options)
+    with listening(options.host, options.port) as bound:
+        warning = warning_of(bound, environment)
+        if warning:
+            _say(warning)
+        stop, at_once = _signals()
+        processes = _processes(options, bound, environment)
+        for each in processes:
+            each.start()
+        try:
+            return _served(bound, processes, stop, at_once, pace or Pace())
+        finally:
+            bound.close()
+            stop_all(processes, at_once, Pace(grace=0.0))
+
+
+def worker(options: argparse.Namespace) -> int:
+    """Be a worker of a service until SIGTERM or SIGINT; see `checker.jobs.worker.work`.
+
+    Raises:
+        CheckerError: The service is not installed, or its database does not answer.
+    """
+    _refuse_without_extra()
+    from checker.jobs.place import database_url
+    from checker.jobs.port import JobsUnreachable
+    from checker.jobs.worker import WorkerOptions, work
+    from checker.store.store import Store
+
+    store = Store(_data_made(options))
+    own = {"name": options.name} if options.name else {}
+    try:
+        work(WorkerOptions(database_url(), store, trials=options.jobs, **own))
+    except JobsUnreachable as error:
+        raise CheckerError(f"the database of the service does not answer: {error}") from None
+    return EXIT_CLEAN
+
+
+def _refuse_without_extra() -> None:
+    if missing := [name for name in _NEEDED if find_spec(name) is None]:
+        raise CheckerError(
+            f"{missing[0]} is not installed, which the service needs; "
+            "run: pip install 'subt-check[service]'"
+        )
+
+
+def _environment(options: argparse.Namespace) -> Mapping[str, str]:
+    """Return the variables of the processes: those of here, and what the options say."""
+    here = str(Path(__file__).parents[2])
+    path = os.pathsep.join(filter(None, (here, os.environ.get("PYTHONPATH"))))
+    said = {"SUBT_CHECK_BASE_URL": options.base_url} if options.base_url else {}
+    said |= {"SUBT_CHECK_PUBLIC": "1"} if options.public else {}
+    return {**os.environ, "PYTHONPATH": path, **said}
+
+
+def _data_made(options: argparse.Namespace) -> Path:
+    """Return the folder for data, made if need be; children look for it in the environment.
+
+    Raises:
+        CheckerError: It cannot be made or written.
+    """
+    if options.data:
+        os.environ["SUBT_CHECK_DATA"] = str(Path(options.data).absolute())
+    folder = data_folder()
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        problem = "" if os.access(folder, os.W_OK | os.X_OK) else "permission denied"
+    except OSError as error:
+        problem = error.strerror or "it cannot be made"
+    if problem:
+        raise CheckerError(
+            f"{folder} cannot hold the data of the service ({problem}); choose another by --data"
+        )
+    return folder
+
+
+def _processes(
+    options: argparse.Namespace, bound: socket.socket, environment: Mapping[str, str]
+) -> Sequence[Process]:
+    number = options.workers
+    if number is None:
+        number = min(_MOST_WORKERS, os.cpu_count() or 1)
+    child = (*_CHILD, str(os.getpid()))
+    descriptor, group = bound.fileno(), secrets.token_hex(4)
+    web = (*child, "web", str(descriptor), options.behind_proxy)
+    workers = [
+        Process(f"worker {n}", (*child, "worker", f"worker-{group}-{n}"), environment)
+        for n in range(1, number + 1)
+    ]
+    return [Process("the web server", web, environment, (descriptor,)), *workers]
+
+
+def _signals() -> tuple[threading.Event, threading.Event]:
+    """Return the events that the first and the second request to end set."""
+    stop, at_once = threading.Event(), threading.Event()
+
+    def on_signal(_number: int, _frame: object) -> None:
+        (at_once if stop.is_set() else stop).set()
+
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, on_signal)
+    return stop, at_once
+
+
+def _served(
+    bound: socket.socket,
+    processes: Sequence[Process],
+    stop: threading.Event,
+    at_once: threading.Event,
+    pace: Pace,
+) -> int:
+    web = processes[0]
+    while not (_answers(bound) or stop.is_set()):
+        if not web.is_running:
+            return web.exit_code or EXIT_CRASH  # it has said why
+        stop.wait(0.05)
+    if not stop.is_set():
+        show(f"subt-check serves at {address_of(bound)}\n")
+        keep_running(processes, stop, pace, _say)
+    bound.close()
+    _say("stops; a second signal ends it at once")
+    return EXIT_CLEAN if stop_all(processes, at_once, pace) else EXIT_CRASH
+
+
+def _answers(bound: socket.socket) -> bool:
+    """Say whether somebody listens at the socket."""
+    return bool(bound.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN))
+
+
+def _say(words: str) -> None:
+    say_progress(f"subt-check: {words}")

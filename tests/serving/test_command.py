@@ -1,0 +1,47 @@
+"""The commands of the service say what is missing, and what they take."""
+
+from __future__ import annotations
+
+import pytest
+
+from checker import cli
+from checker.serving import command
+
+
+@pytest.mark.parametrize("words", [["serve"], ["serve", "--workers", "0"], ["worker"]])
+def test_without_the_extra_one_sentence_says_how_to_get_it(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(command, "_NEEDED", ("json", "a_library_that_nobody_has"))
+    assert cli.main(words) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err == (
+        "subt-check: a_library_that_nobody_has is not installed, which the service needs; "
+        "run: pip install 'subt-check[service]'\n"
+    )
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(["serve", "--port", "65536"], ["serve", "--port", "-1"], ["serve", "--port", "²"]),
+        *(["serve", "--workers", "-1"], ["serve", "--workers", "many"], ["serve", "here"]),
+        *(["worker", "--jobs", "0"], ["submit", "a.zip"], ["submit", "--server", "http://a"]),
+    ],
+)
+def test_what_the_command_line_does_not_take(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        cli.main(words)
+    assert ended.value.code == 2
+    assert "usage: subt-check" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["serve", "worker", "submit"])
+def test_each_has_a_help(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        cli.main([name, "--help"])
+    assert not ended.value.code
+    assert f"usage: subt-check {name}" in capsys.readouterr().out
