@@ -56,11 +56,13 @@ golden: .venv/tested $(VIEWER)
 	$(PYTHON) -m venv .venv
 
 .venv/installed: .venv/bin/python pyproject.toml constraints.txt
+	scripts/require libgomp.so.1=libgomp1
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[service]'
 	@touch $@
 
 .venv/tested: .venv/installed
-	scripts/require ruby=ruby git=git chromium=chromium "libEGL.so.1=libegl1 libgl1-mesa-dri"
+	scripts/require ruby=ruby git=git chromium=chromium \
+	  "libEGL.so.1=libegl1 libgl1-mesa-dri" libOpenGL.so.0=libopengl0
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-dev.txt
 	scripts/schemas $(BIN)/python
 	@touch $@

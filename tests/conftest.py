@@ -10,6 +10,7 @@ import pytest
 from hypothesis import settings
 
 from tests.browser import chromium  # noqa: F401 (a fixture)
+from tests.postgres import postgres_url  # noqa: F401 (a fixture)
 
 # Machines differ and are shared: no example of a property is held against the clock.
 settings.register_profile("shared machines", deadline=None)

@@ -39,6 +39,8 @@ DOCUMENTS = [
     ROOT / "docs/README.md",
     ROOT / "docs/github-actions.md",
     ROOT / "docs/pre-commit.md",
+    ROOT / "docs/security.md",
+    ROOT / "docs/service.md",
 ]
 OUR_RULES = [rule for rule in all_rules() if rule.check.__module__.startswith("rules.")]
 SHOWN = ["samples/broken_rover_sensor_config_1", "--select", "GEO001,INE008,KIN001,SPW005"]

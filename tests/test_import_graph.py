@@ -19,7 +19,7 @@ LAYERS = (
     {"model", "package", "rule", "spawner"},
     {"checklist", "discovery", "dynamics", "flattening"}
     | {"mesh", "paperwork", "profiles", "spawning", "suppression"},
-    {"rule_pages", "stages", "trial", "xacro"},
+    {"rule_pages", "stages", "store", "trial", "xacro"},
     {"view"},
     {"display"},
     {"driving", "including", "launching", "settings"},
@@ -30,7 +30,9 @@ LAYERS = (
     {"judging"},
     {"check", "convert"},
     {"fixing"},
-    {"doctor", "migrate", "starting"},
+    {"doctor", "jobs", "migrate", "starting", "submitting"},
+    {"web"},
+    {"serving"},
     {"commands"},
     {"cli"},
 )

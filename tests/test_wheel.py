@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import sysconfig
 import zipfile
 from pathlib import Path
 
 import pytest
 
 from tests.conftest import SAMPLES
+from tests.installing import borrow_running_packages, packages
 
 ROOT = SAMPLES.parent
 SAMPLE = "husky_migration_sensor_config_1"
@@ -42,16 +42,7 @@ def environment(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         "--quiet",
     ]
     subprocess.run([*pip, "--no-deps", "--no-index", str(wheel)], check=True)
-    # The .pth files of a folder that a .pth file adds are not read: an editable installation of
-    # the project stays out of sight, and what lies deeper (as Pinocchio's does) is named here.
-    installed = sysconfig.get_path("purelib")
-    deeper = [place for place in sys.path if place.startswith(installed + os.sep)]
-    (packages(folder) / "running.pth").write_text("\n".join([installed, *deeper, ""]))
-    return folder
-
-
-def packages(environment: Path) -> Path:
-    (folder,) = environment.glob("lib/python*/site-packages")
+    borrow_running_packages(folder)
     return folder
 
 

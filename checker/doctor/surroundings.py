@@ -52,7 +52,8 @@ def _drawing() -> Result:
     if not isinstance(said, Died) and said != b"none":
         return Result(State.OK, f"pictures: MuJoCo draws by {said.decode()}")
     reason = f"the child that draws {said.reason}" if isinstance(said, Died) else "no OpenGL"
-    advice = "install EGL or OSMesa (Debian: libegl1 or libosmesa6) for reports with pictures"
+    packages = "libegl1, libopengl0 and libgl1-mesa-dri, or libosmesa6"
+    advice = f"install EGL or OSMesa (Debian: {packages}) for reports with pictures"
     return Result(State.NOTE, f"pictures: {reason}", advice)
 
 

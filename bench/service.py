@@ -1,0 +1,208 @@
+"""What the benches of the service share: packages to upload, a client, and a look at memory."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import os
+import random
+import re
+import sys
+import threading
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import closing, contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter, sleep
+from typing import Any
+from urllib.parse import urlsplit
+
+_BORDER = "subt-check-bench"
+_PATIENCE = 120.0
+"""Seconds that an answer may take before the bench gives up."""
+_POLL_SECONDS = 1.0
+
+
+@dataclass(frozen=True)
+class Upload:
+    """How an upload went.
+
+    Attributes:
+        status: Of the answer.
+        id: Of the check; empty if it was refused.
+        seconds: From the first byte sent, the connection with it, to the last one of the answer.
+    """
+
+    status: int
+    id: str
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Client:
+    """Speaks with a service as any program does: a connection for each request.
+
+    Attributes:
+        address: Such as `http://127.0.0.1:8000`.
+    """
+
+    address: str
+
+    def upload(self, name: str, content: bytes) -> Upload:
+        """Send a package."""
+        head = (
+            f'--{_BORDER}\r\nContent-Disposition: form-data; name="file"; filename="{name}"\r\n'
+            "Content-Type: application/octet-stream\r\n\r\n"
+        )
+        body = head.encode() + content + f"\r\n--{_BORDER}--\r\n".encode()
+        begun = perf_counter()
+        status, said = self._ask("POST", "/api/checks", body)
+        return Upload(status, json.loads(said).get("id", ""), perf_counter() - begun)
+
+    def state(self, id: str) -> Mapping[str, Any]:
+        """Return where a check stands."""
+        return self._json(f"/api/checks/{id}")
+
+    def report(self, id: str) -> Mapping[str, Any]:
+        """Return the JSON report of a check."""
+        return self._json(f"/api/checks/{id}/report.json")
+
+    def events(self, id: str) -> Iterator[Mapping[str, Any]]:
+        """Yield what happens to a check as it is told, until its end."""
+        with closing(self._connection()) as connection:
+            connection.request("GET", f"/api/checks/{id}/events")
+            for line in connection.getresponse():
+                if line.startswith(b"data: "):
+                    yield json.loads(line.removeprefix(b"data: "))
+
+    def ends(self, ids: Collection[str]) -> dict[str, Mapping[str, Any]]:
+        """Wait until all checks are over, and return how they stand."""
+        over: dict[str, Mapping[str, Any]] = {}
+        while len(over) < len(ids):
+            # In the order of the queue: what is behind the first one that goes on goes on as well.
+            for id in (id for id in ids if id not in over):
+                state = self.state(id)
+                if not state["final"]:
+                    break
+                over[id] = state
+            else:
+                continue
+            sleep(_POLL_SECONDS)
+        return over
+
+    def _json(self, path: str) -> Mapping[str, Any]:
+        status, said = self._ask("GET", path)
+        if status != http.client.OK:
+            raise SystemExit(f"{path} answers {status}: {said[:300]!r}")
+        told: Mapping[str, Any] = json.loads(said)
+        return told
+
+    def _ask(self, method: str, path: str, body: bytes | None = None) -> tuple[int, bytes]:
+        headers = {"Content-Type": f"multipart/form-data; boundary={_BORDER}"} if body else {}
+        with closing(self._connection()) as connection:
+            connection.request(method, path, body, headers)
+            answer = connection.getresponse()
+            return answer.status, answer.read()
+
+    def _connection(self) -> http.client.HTTPConnection:
+        return http.client.HTTPConnection(urlsplit(self.address).netloc, timeout=_PATIENCE)
+
+
+def noise(number: int, megabytes: float) -> bytes:
+    """Return a picture (PNG) that cannot be compressed, another one for each number."""
+    import io
+
+    from PIL import Image
+
+    side = int((megabytes * 1e6 / 3) ** 0.5)
+    picture = Image.frombytes("RGB", (side, side), random.Random(number).randbytes(3 * side**2))
+    made = io.BytesIO()
+    picture.save(made, "PNG", compress_level=1)
+    return made.getvalue()
+
+
+def other_robot(model: str, number: int) -> str:
+    """Return a model file whose robot weighs a trifle more, so that nobody drove it before."""
+
+    def heavier(found: re.Match[str]) -> str:
+        return f"{found[1]}{float(found[2]) * (1 + number * 1e-7)!r}"
+
+    said = re.sub(r"(<mass>\s*)(\d+\.?\d*)", heavier, model, count=1)
+    return said.replace("</sdf>", f"<!-- {number} --></sdf>")
+
+
+@dataclass
+class Memory:
+    """Memory of processes, MB.
+
+    Attributes:
+        all: The most that all processes below this one had at once; pages that they share count
+            for each of them.
+        web: The most that the web process ever had.
+    """
+
+    all: float = 0.0
+    web: float = 0.0
+    _over: threading.Event = field(default_factory=threading.Event)
+
+    def look(self) -> None:
+        """Look at all processes again and again."""
+        while not self._over.wait(0.5):
+            pids = below(os.getpid())
+            self.all = max(self.all, sum(_status(pid, "VmRSS") for pid in pids))
+            webs = [pid for pid in pids if b"\0web\0" in _read(pid, "cmdline")]
+            self.web = max([self.web, *(_status(pid, "VmHWM") for pid in webs)])
+
+    def stop(self) -> None:
+        """Look no more."""
+        self._over.set()
+
+
+@contextmanager
+def watched() -> Iterator[Memory]:
+    """Watch the memory of all processes below this one."""
+    memory = Memory()
+    looking = threading.Thread(target=memory.look)
+    looking.start()
+    try:
+        yield memory
+    finally:
+        memory.stop()
+        looking.join()
+
+
+def below(pid: int) -> list[int]:
+    """Return the ids of all processes that a process started, and of those that these started."""
+    parents = {each: _parent(each) for each in map(int, filter(str.isdigit, os.listdir("/proc")))}
+    found = [pid]
+    for one in found:
+        found += [each for each, parent in parents.items() if parent == one]
+    return found[1:]
+
+
+def _parent(pid: int) -> int:
+    said = _read(pid, "stat").rpartition(b") ")[2].split()
+    return int(said[1]) if said else 0
+
+
+def _status(pid: int, name: str) -> float:
+    said = re.search(rf"{name}:\s+(\d+)".encode(), _read(pid, "status"))
+    return int(said[1]) / 1024 if said else 0.0
+
+
+def _read(pid: int, name: str) -> bytes:
+    try:
+        return Path(f"/proc/{pid}/{name}").read_bytes()
+    except OSError:  # it has ended
+        return b""
+
+
+def say(words: str) -> None:
+    """Tell how far the bench is."""
+    print(words, file=sys.stderr, flush=True)
+
+
+def show(name: str, value: float, unit: str, limit: float | None = None) -> None:
+    """Print a figure, beside what it is meant to stay below."""
+    judged = "yes" if limit is None or value <= limit else "NO"
+    print(f"{name:<44} {value:8.2f} {unit}" + (f"  (≤ {limit:g}: {judged})" if limit else ""))

@@ -1,0 +1,101 @@
+"""docs/service.md and docs/security.md say what is so."""
+
+from __future__ import annotations
+
+import ast
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from checker.jobs.checking import LIMITS
+from checker.jobs.port import Stage
+from checker.package.archive_index import ArchiveLimits
+from checker.web.config import Config
+from tests.deployment.image import ROOT
+
+SERVICE = (ROOT / "docs/service.md").read_text("utf-8")
+SECURITY = (ROOT / "docs/security.md").read_text("utf-8")
+NAMED_TESTS = re.findall(r"`(tests/[\w/.]+)::(\w+)`", SECURITY)
+
+
+@cache
+def functions_of(file: Path) -> set[str]:
+    nodes = ast.walk(ast.parse(file.read_text("utf-8")))
+    functions = (ast.FunctionDef, ast.AsyncFunctionDef)
+    return {node.name for node in nodes if isinstance(node, functions)}
+
+
+def rows(document: str) -> list[list[str]]:
+    """Return the cells of all tables, without heads."""
+    lines = [line for line in document.splitlines() if line.startswith("| ")]
+    cells = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines]
+    return [row for row in cells if row[0] not in {"threat", "variable", "what", "address"}]
+
+
+@pytest.mark.parametrize("file", sorted({file for file, _ in NAMED_TESTS}))
+def test_every_test_that_is_named_exists(file: str) -> None:
+    named = {test for at, test in NAMED_TESTS if at == file}
+    assert named <= functions_of(ROOT / file)
+
+
+def test_every_threat_has_what_holds_it_and_a_test() -> None:
+    threats = rows(SECURITY)
+    assert len(threats) > 20
+    assert all(len(row) == 3 and row[1] and "::test_" in row[2] for row in threats)
+
+
+def test_every_variable_is_explained() -> None:
+    used = {
+        name
+        for file in (ROOT / "checker").rglob("*.py")
+        for name in re.findall(r"SUBT_CHECK_[A-Z_]*[A-Z]", file.read_text("utf-8"))
+    }
+    listed = [row[0].strip("`") for row in rows(SERVICE) if row[0].startswith("`SUBT_CHECK")]
+    assert set(listed) == used
+    assert len(listed) == len(used)
+
+
+def test_what_compose_asks_for_stands_in_the_example() -> None:
+    asked = set(re.findall(r"\$\{(\w+):\?", (ROOT / "compose.yaml").read_text("utf-8")))
+    assert asked == set(re.findall(r"^(\w+)=", SERVICE, re.MULTILINE))
+
+
+def test_limits_are_those_of_the_code() -> None:
+    config, index = Config(), ArchiveLimits()
+    static, trial = LIMITS[Stage.STATIC], LIMITS[Stage.TRIAL]
+    told = dict(row for row in rows(SERVICE) if len(row) == 2)
+    assert told["upload"] == (
+        f"{config.upload_limit / 1e6:g} MB, {config.upload_seconds:g} s, "
+        f"{config.slowest / 1e3:g} kB/s on average, {config.idle_seconds:g} s without a byte"
+    )
+    assert told["uploads"] == (
+        f"{config.uploads_per_minute} a minute from one address; "
+        f"{config.uploads_at_once} at once, half of them from one address"
+    )
+    assert told["archive"] == (
+        f"{index.entries} entries, {index.unpacked_bytes / 1e6:g} MB unpacked, "
+        f"{index.ratio} times its packed size"
+    )
+    assert told["static check"] == (
+        f"{static.seconds:g} s, {static.memory / 1e9:g} GB of address space in each process, "
+        f"{static.open_files} open files"
+    )
+    assert told["check with trial"].startswith(f"{trial.seconds:g} s")
+    assert told["streams of events"].startswith(f"{config.streams} at once")
+
+
+def test_defaults_are_those_of_the_code() -> None:
+    told = {row[0].strip("`"): row[2] for row in rows(SERVICE) if len(row) == 3}
+    plain = Config()
+    assert told["SUBT_CHECK_RETENTION_DAYS"] == str(plain.retention_days)
+    assert told["SUBT_CHECK_UPLOAD_LIMIT"] == str(plain.upload_limit)
+    assert told["SUBT_CHECK_UPLOADS_PER_MINUTE"] == str(plain.uploads_per_minute)
+
+
+def test_the_figures_that_are_named_are_counted() -> None:
+    metrics = (ROOT / "checker/web/metrics.py").read_text("utf-8")
+    named = re.findall(r"`subt_check_(\w+)`", SERVICE)
+    assert named
+    assert not [name for name in named if f'"{name}"' not in metrics]
