@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from checker.cache import Cache
@@ -30,7 +30,6 @@ class Displaying:
     robots: tuple[Robot, ...]
     cache: Cache
     stages: Stages
-    _drawing: Drawing = field(default_factory=Drawing)
 
     def begin(self) -> None:
         """Begin to read the meshes and to load what draws, while the caller does something else."""
@@ -61,6 +60,10 @@ class Displaying:
         return replace(
             display, notes=(f"of {count} robots only the first is shown", *display.notes)
         )
+
+    @cached_property
+    def _drawing(self) -> Drawing:
+        return Drawing(self.cache)
 
     @cached_property
     def _surfaces(self) -> MeshFiles | NoSurfaces:

@@ -4,27 +4,39 @@ from __future__ import annotations
 
 import base64
 import json
+from contextlib import suppress
 from dataclasses import dataclass
+from typing import Any
 
+from checker.cache import NO_CACHE, Cache, code_hash, key_of
 from checker.confined import Child, Died, Limits
 from checker.display.drawing.request import Shot, request_of
 from checker.display.drawing.shots import ground_of, shots_of
 from checker.display.scene import DisplayScene
 from checker.report.report import Picture
+from checker.versions import version_of
 
 WIDTH, HEIGHT = 640, 480
 """Pixels."""
 _LIMITS = Limits(20.0, 4_000_000_000)
 """OpenGL takes 0.9 GB of address space for an empty scene, drivers of graphics cards more."""
 _PLATFORMS = ("egl", "osmesa")
+_KIND = "pictures"
 
 
 @dataclass(eq=False)
 class Drawing:
-    """Pictures in the making, by a child process that may be there before its scene is."""
+    """Pictures in the making, by a child process that may be there before its scene is.
 
+    Attributes:
+        cache: Where pictures are kept.
+    """
+
+    cache: Cache = NO_CACHE
     _child: Child | None = None
     _request: bytes = b""
+    _key: str = ""
+    _known: list[bytes] | None = None
     _shots: tuple[Shot, ...] = ()
 
     def begin(self) -> None:
@@ -42,35 +54,51 @@ class Drawing:
         self._shots = tuple(shots_of(scene, WIDTH / HEIGHT))
         if self._shots:
             self._request = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
-            self.begin()
-            if self._child is not None:
-                self._child.give(self._request)
+            self._key = key_of(self._request, code_hash("display/drawing"), version_of("mujoco"))
+            self._known = _files(self.cache.get(_KIND, self._key), len(self._shots))
+            if self._known is None:
+                self.begin()
+                if self._child is not None:
+                    self._child.give(self._request)
 
     @property
     def pictures(self) -> tuple[Picture, ...]:
         """The pictures; none where nothing can draw without a window."""
-        drawn = None
-        if self._child is not None and self._shots:
-            drawn = _drawn(self._child.answer(), len(self._shots))
-            for platform in _PLATFORMS[1:]:
-                if drawn is None:
-                    answer = _artist(platform, self._request).answer()
-                    drawn = _drawn(answer, len(self._shots))
+        drawn = self._known or self._drawn()
         return tuple(
             Picture(shot.caption, jpeg, WIDTH, HEIGHT)
             for shot, jpeg in zip(self._shots, drawn or (), strict=drawn is not None)
         )
+
+    def _drawn(self) -> list[bytes] | None:
+        """Return what the child draws, and keep it; None where nothing can draw."""
+        if self._child is None or not self._shots:
+            return None
+        for platform in _PLATFORMS:
+            is_first = platform == _PLATFORMS[0]
+            child = self._child if is_first else _artist(platform, self._request)
+            said = _read(child.answer())
+            drawn = _files(said, len(self._shots))
+            if drawn is not None:
+                self.cache.put(_KIND, self._key, said)
+                return drawn
+        return None
 
 
 def _artist(platform: str, request: bytes | None) -> Child:
     return Child(f"checker.display.drawing.by_{platform}", request, _LIMITS)
 
 
-def _drawn(answer: bytes | Died, number: int) -> list[bytes] | None:
-    if isinstance(answer, Died):
-        return None
+def _read(answer: bytes | Died) -> Any:
+    with suppress(ValueError):
+        return None if isinstance(answer, Died) else json.loads(answer)
+    return None
+
+
+def _files(said: Any, number: int) -> list[bytes] | None:
+    """Return the files that stand in an answer, if they are as many as expected."""
     try:
-        files = [base64.b64decode(each) for each in json.loads(answer)]
+        files = [base64.b64decode(each) for each in said]
     except (TypeError, ValueError):
         return None
     return files if len(files) == number else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
+from checker.cache import Cache
 from checker.display.drawing.camera import FIELD_OF_VIEW, framed
 from checker.display.drawing.shots import MOMENTS, shots_of
 from checker.display.drawing.worker import LARGEST
@@ -161,6 +163,28 @@ def test_a_drawing_may_begin_before_it_is_known_what_to_draw() -> None:
     finally:
         drawing.stop()
     assert [each.jpeg for each in early] == [each.jpeg for each in pictures_of(scene(surface()))]
+
+
+def test_what_was_drawn_once_is_not_drawn_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def pictures(shown: DisplayScene) -> tuple[Picture, ...]:
+        drawing = Drawing(Cache(tmp_path))
+        try:
+            drawing.give(shown)
+            return drawing.pictures
+        finally:
+            drawing.stop()
+
+    found = pictures(scene(surface()))
+    if not found:
+        pytest.skip("nothing here draws without a window: no EGL, no OSMesa")
+    monkeypatch.setattr("checker.display.pictures._PLATFORMS", ("nothing",))
+    assert pictures(scene(surface())) == found
+    assert pictures(scene(surface((0.1, 0.9, 0.1, 1.0)))) == ()
+    for entry in tmp_path.rglob("*.json"):
+        entry.write_text('["no JPEG"]')
+    assert pictures(scene(surface())) == ()
 
 
 POINT = st.tuples(*(st.floats(-1e3, 1e3, width=32) for _ in range(3)))
