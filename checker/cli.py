@@ -211,6 +211,7 @@ def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     serve.add_argument(
         "--behind-proxy",
         metavar="ADDRESSES",
+        type=_networks,
         nargs="?",
         const="127.0.0.1,::1",
         default="",
@@ -270,7 +271,23 @@ def _positive(text: str) -> int:
 
 
 def _count(text: str) -> int:
-    return 0 if text == "0" else _positive(text)
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of processes, expected 0 or more")
+    return int(text)
+
+
+def _networks(text: str) -> str:
+    """Return addresses and networks as they are: one that is misspelt would never be met."""
+    import ipaddress
+
+    for each in text.split(",") if text else ():
+        try:
+            ipaddress.ip_network(each.strip())
+        except ValueError:
+            raise argparse.ArgumentTypeError(
+                f"{each!r} is no address or network, expected such as 127.0.0.1 or 172.30.77.0/24"
+            ) from None
+    return text
 
 
 def _port(text: str) -> int:

@@ -121,12 +121,16 @@ class Child:
 _COMMAND = (sys.executable, "-P", "-m", "checker.confined")
 
 
-def _environment() -> dict[str, str]:
+def module_path() -> str:
+    """Return the `PYTHONPATH` by which a child finds the same modules, wherever it runs."""
     here = str(Path(__file__).parent.parent)
-    path = os.pathsep.join(filter(None, (here, os.environ.get("PYTHONPATH"))))
+    return os.pathsep.join(filter(None, (here, os.environ.get("PYTHONPATH"))))
+
+
+def _environment() -> dict[str, str]:
     # Nothing is drawn here, and MuJoCo refuses to load where its renderer does not.
     own = {name: value for name, value in os.environ.items() if name != "MUJOCO_GL"}
-    return {**own, **dict.fromkeys(_OWN_THREADS, "1"), "PYTHONPATH": path}
+    return {**own, **dict.fromkeys(_OWN_THREADS, "1"), "PYTHONPATH": module_path()}
 
 
 def ask(module: str, request: bytes, limits: Limits) -> bytes | Died:

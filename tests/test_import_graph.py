@@ -13,8 +13,8 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 LAYERS = (
-    {"cache", "collection", "confined", "errors", "finding", "fingerprint", "page", "parts"},
-    {"resources", "saying", "versions"},
+    {"cache", "collection", "confined", "errors", "finding", "fingerprint", "loopback"},
+    {"page", "parts", "resources", "saying", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
     {"checklist", "discovery", "dynamics", "flattening"}

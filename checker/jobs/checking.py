@@ -17,7 +17,15 @@ from typing import Any
 from checker.cache import key_of
 from checker.jobs.isolation import StageLimits
 from checker.jobs.layout import ANSWER, GIVEN, MADE, OUT_OF_MEMORY, SAID, environment, lay_out
-from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
+from checker.jobs.outcome import (
+    FAILED_INSIDE,
+    UNFINISHED,
+    Cancelled,
+    Checked,
+    Died,
+    Outcome,
+    Refused,
+)
 from checker.jobs.port import Order, Stage
 from checker.jobs.summary import read_summary
 from checker.jobs.supervised import Ended, run_supervised
@@ -32,7 +40,6 @@ LIMITS: Mapping[Stage, StageLimits] = {
 _ANSWER_LIMIT = 5_000_000
 _SHOWN = 4_000
 """Bytes of what a dead child has said, for the log."""
-_COULD_NOT = "the checker could not finish"
 _LOG = logging.getLogger(__name__)
 
 
@@ -58,22 +65,24 @@ def check_upload(
         return _checked(store, order, stage, cancelled, limits or LIMITS[stage])
     except OSError as error:
         _LOG.exception("the disk or the system failed")
-        return Died(f"{_COULD_NOT}: {error.strerror or 'the system failed'}")
+        return Died(f"{UNFINISHED}: {error.strerror or 'the system failed'}")
 
 
 def _checked(
     store: Store, order: Order, stage: Stage, cancelled: Callable[[], bool], limits: StageLimits
 ) -> Outcome:
-    key = result_key(order, stage)
-    if store.has(key):
-        return _known(store, key)
+    known = stored_result(store, order, stage)
+    if known is not None:
+        return known
     upload = store.upload(order.upload)
     if upload is None:
         return Refused("the upload is no longer there; upload it again")
     with store.workplace() as place:
         lay_out(place, upload, order, stage, limits)
         ended = _run_child(store, place, limits, cancelled)
-        return Cancelled() if ended.cancelled else _outcome(store, key, place, ended, limits)
+        if ended.cancelled:
+            return Cancelled()
+        return _outcome(store, result_key(order, stage), place, ended, limits)
 
 
 def _run_child(
@@ -92,6 +101,13 @@ def _run_child(
 def result_key(order: Order, stage: Stage) -> str:
     """Return the key of an order's result at a stage: of all that the result depends on."""
     return key_of(*program_parts(), order.upload, order.name, order.profile, stage)
+
+
+def stored_result(store: Store, order: Order, stage: Stage) -> Checked | None:
+    """Return the result of an order at a stage, if it is in the store and whole."""
+    key = result_key(order, stage)
+    path = store.file(key, SUMMARY) if store.has(key) else None
+    return read_summary(key, _read(path)) if path else None
 
 
 def _outcome(store: Store, key: str, place: Path, ended: Ended, limits: StageLimits) -> Outcome:
@@ -115,15 +131,8 @@ def _kept(store: Store, checked: Checked, place: Path) -> Outcome:
         store.keep(checked.key, place / MADE)
     except ValueError as error:
         _LOG.error("the child made what is no result: %s", plain(str(error)))
-        return Died(f"{_COULD_NOT}: its report is too large or damaged")
+        return Died(f"{UNFINISHED}: its report is too large or damaged")
     return checked
-
-
-def _known(store: Store, key: str) -> Outcome:
-    """Return the outcome of a result in the store."""
-    path = store.file(key, SUMMARY)
-    checked = read_summary(key, _read(path)) if path else None
-    return checked or Died(f"{_COULD_NOT}: the stored report is damaged")
 
 
 def _read(path: Path) -> Any:
@@ -138,12 +147,12 @@ def _read(path: Path) -> Any:
 def _cause(ended: Ended, limits: StageLimits) -> str:
     if ended.overdue:
         advice = "check fewer packages at a time"
-        return f"{_COULD_NOT}: it took longer than {limits.seconds:g} s and was stopped; {advice}"
+        return f"{UNFINISHED}: it took longer than {limits.seconds:g} s and was stopped; {advice}"
     if ended.code < 0:
-        return f"{_COULD_NOT}: it was killed; it may have needed too much time or memory"
+        return f"{UNFINISHED}: it was killed; it may have needed too much time or memory"
     if ended.code == OUT_OF_MEMORY:
-        return f"{_COULD_NOT}: it needed more than {limits.memory / 1e9:g} GB of memory"
-    return f"{_COULD_NOT}: it failed inside; its operator finds the cause in the log"
+        return f"{UNFINISHED}: it needed more than {limits.memory / 1e9:g} GB of memory"
+    return FAILED_INSIDE
 
 
 def _last_words(said: Path) -> str:

@@ -8,6 +8,7 @@ import shutil
 from dataclasses import asdict
 from pathlib import Path
 
+from checker.confined import module_path
 from checker.jobs.isolation import StageLimits
 from checker.jobs.port import Order, Stage
 
@@ -58,7 +59,5 @@ def environment(place: Path, cache: Path) -> dict[str, str]:
         for name, value in os.environ.items()
         if name in _PASSED_ON or name.startswith(_FAMILIES)
     }
-    here = str(Path(__file__).parent.parent.parent)
-    path = os.pathsep.join(filter(None, (here, known.get("PYTHONPATH"))))
-    own = {"SUBT_CHECK_CACHE": str(cache), "TMPDIR": str(place / TEMPORARY), "PYTHONPATH": path}
-    return {**known, **own}
+    own = {"SUBT_CHECK_CACHE": str(cache), "TMPDIR": str(place / TEMPORARY)}
+    return {**known, **own, "PYTHONPATH": module_path()}

@@ -38,7 +38,7 @@ class Died:
     """The checker could not finish: it ran into a limit, or into a fault of its own.
 
     Attributes:
-        reason: One sentence that begins with "the checker could not finish".
+        reason: One sentence that begins with `UNFINISHED`.
     """
 
     reason: str
@@ -49,4 +49,7 @@ class Cancelled:
     """Somebody wanted it to end."""
 
 
+UNFINISHED = "the checker could not finish"
+"""How people are told that they are not at fault."""
+FAILED_INSIDE = f"{UNFINISHED}: it failed inside; its operator finds the cause in the log"
 Outcome = Checked | Refused | Died | Cancelled

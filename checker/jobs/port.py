@@ -9,19 +9,24 @@ from typing import Any, Protocol
 
 
 class Stage(enum.StrEnum):
-    """How far a check has come."""
+    """How far a check has come.
+
+    It is `REFUSED` when the upload is at fault and its sender can mend that, and `FAILED` when the
+    checker could not finish.
+    """
 
     QUEUED = "queued"
     STATIC = "static"
     TRIAL = "trial"
     DONE = "done"
+    REFUSED = "refused"
     FAILED = "failed"
     CANCELLED = "cancelled"
 
     @property
     def is_final(self) -> bool:
         """Whether nothing will change any more."""
-        return self in (Stage.DONE, Stage.FAILED, Stage.CANCELLED)
+        return self in (Stage.DONE, Stage.REFUSED, Stage.FAILED, Stage.CANCELLED)
 
 
 @dataclass(frozen=True)
@@ -76,6 +81,12 @@ class Event:
     words: str
     time: float
     data: Mapping[str, Any] = field(default_factory=dict)
+
+
+RETENTION_DAYS = 30
+"""After which all of a check is deleted, unless somebody says otherwise."""
+SILENCE_SECONDS = 60.0
+"""After which a worker that shows no sign of life counts as dead."""
 
 
 class JobsUnreachable(Exception):

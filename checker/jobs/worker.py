@@ -18,7 +18,7 @@ from checker.jobs.durable.ledger import Ledger
 from checker.jobs.durable.queues import queues_of
 from checker.jobs.durable.roll import Roll
 from checker.jobs.durable.stages import Stages
-from checker.jobs.port import JobsUnreachable
+from checker.jobs.port import SILENCE_SECONDS, JobsUnreachable
 from checker.jobs.retention import Retention
 from checker.jobs.watchdog import Watchdog
 from checker.store.store import Store
@@ -55,7 +55,7 @@ class WorkerOptions:
     trials: int | None = None
     grace_seconds: float = 20.0
     beat_seconds: float = 10.0
-    silence_seconds: float = 60.0
+    silence_seconds: float = SILENCE_SECONDS
     cleaning_seconds: float = 3600.0
     unused_seconds: float = 3600.0
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from itertools import chain
 from urllib.parse import quote
@@ -14,6 +15,10 @@ Artefact = tuple[str, str | bytes]
 """Path of a file, relative to the folder, and what it holds."""
 
 PAGE, INDEX, MODEL = "report.html", "index.html", "robot.glb"
+ARTEFACT_NAME = re.compile(
+    r"(?:[\w~-]{1,110}/)?(?:report\.(?:html|json|sarif)|robot\.glb)|index\.html"
+)
+"""For those that others made, a service or a child: nothing else of theirs is written or served."""
 STALE = (PAGE, INDEX, MODEL)
 """Files of an earlier run that this one may not write anew: they would tell of something else."""
 

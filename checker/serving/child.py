@@ -32,11 +32,13 @@ def web(descriptor: int, proxies: str) -> None:
     """
     import uvicorn
 
+    from checker.serving.connection import Connection, ProxyConnection
+    from checker.web.main import app_from_environment
+
     _allow_open_files()
     config = uvicorn.Config(
-        "checker.web.main:app_from_environment",
-        factory=True,
-        http="h11",
+        app_from_environment(),  # it asks the database, which an event loop must not wait for
+        http=ProxyConnection if proxies else Connection,
         ws="none",
         log_config=None,
         access_log=False,
@@ -50,7 +52,7 @@ def web(descriptor: int, proxies: str) -> None:
 
 
 def _allow_open_files() -> None:
-    """Have room for all connections and for what they send: 1024 is what many systems begin with."""
+    """Have room for all connections and what they send: 1024 is what many systems begin with."""
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -84,7 +86,7 @@ def main(arguments: Sequence[str]) -> int:
         say_progress(f"subt-check: {error}")
         return EXIT_USAGE
     except JobsUnreachable as error:
-        say_progress(f"subt-check: the database of the service does not answer: {error}")
+        say_progress(f"subt-check: {error}")
         return EXIT_CRASH
     return 0
 

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
+from checker.confined import module_path
 from checker.errors import CheckerError
 from checker.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
 from checker.serving.exposure import address_of, listening, warning_of
@@ -29,10 +30,12 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
     """Run the web server and its workers until SIGTERM or SIGINT; a second one ends all at once.
 
     Raises:
-        CheckerError: The service is not installed, or what is asked for makes no sense.
+        CheckerError: The service is not installed, its database does not answer, or what is asked
+            for makes no sense.
     """
     _refuse_without_extra()
     _data_made(options)
+    _refuse_without_database()
     environment = _environment(options)
     with listening(options.host, options.port) as bound:
         warning = warning_of(bound, environment)
@@ -66,7 +69,7 @@ def worker(options: argparse.Namespace) -> int:
     try:
         work(WorkerOptions(database_url(), store, trials=options.jobs, **own))
     except JobsUnreachable as error:
-        raise CheckerError(f"the database of the service does not answer: {error}") from None
+        raise CheckerError(str(error)) from None
     return EXIT_CLEAN
 
 
@@ -78,13 +81,28 @@ def _refuse_without_extra() -> None:
         )
 
 
+def _refuse_without_database() -> None:
+    """Say once what each of the processes would say."""
+    from checker.jobs.durable.database import open_database, reachable
+    from checker.jobs.place import database_url
+    from checker.jobs.port import JobsUnreachable
+
+    shown = ""
+    try:
+        engine = open_database(database_url())
+        shown = f" ({engine.url.render_as_string(hide_password=True)})"
+        with reachable(), engine.connect():
+            pass
+    except JobsUnreachable as error:
+        raise CheckerError(f"{error}{shown}") from None
+    engine.dispose()
+
+
 def _environment(options: argparse.Namespace) -> Mapping[str, str]:
     """Return the variables of the processes: those of here, and what the options say."""
-    here = str(Path(__file__).parents[2])
-    path = os.pathsep.join(filter(None, (here, os.environ.get("PYTHONPATH"))))
     said = {"SUBT_CHECK_BASE_URL": options.base_url} if options.base_url else {}
     said |= {"SUBT_CHECK_PUBLIC": "1"} if options.public else {}
-    return {**os.environ, "PYTHONPATH": path, **said}
+    return {**os.environ, "PYTHONPATH": module_path(), **said}
 
 
 def _data_made(options: argparse.Namespace) -> Path:

@@ -6,6 +6,7 @@ import socket
 from collections.abc import Mapping
 
 from checker.errors import CheckerError
+from checker.loopback import is_loopback
 from checker.report.wording import plain, shortened
 from checker.web.config import config_from
 
@@ -46,13 +47,6 @@ def address_of(bound: socket.socket) -> str:
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
 
-def is_local(bound: socket.socket) -> bool:
-    """Say whether only this machine can reach a socket."""
-    import ipaddress
-
-    return ipaddress.ip_address(bound.getsockname()[0].partition("%")[0]).is_loopback
-
-
 def warning_of(bound: socket.socket, environment: Mapping[str, str]) -> str:
     """Return what to say aloud about who may upload; empty where there is nothing to say.
 
@@ -64,7 +58,7 @@ def warning_of(bound: socket.socket, environment: Mapping[str, str]) -> str:
         return ""
     if config.public:
         return "without SUBT_CHECK_TOKENS, everybody who reaches it may upload (--public)"
-    if not is_local(bound):
+    if not is_loopback(bound.getsockname()[0]):
         raise CheckerError(
             f"{address_of(bound)} can be reached from other machines; set SUBT_CHECK_TOKENS to the "
             "tokens of those who may upload, or let everybody by --public"

@@ -31,9 +31,17 @@ def move(source: Path, target: Path) -> None:
     Raises:
         OSError: A folder of that name holds files, or the names lie on two file systems.
     """
-    made = not target.parent.is_dir()
+    rename(source, target)
+    settle_name(target)
+
+
+def rename(source: Path, target: Path) -> None:
+    """Do the same in no time; a power failure undoes it until `settle_name` has been called."""
     target.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     source.rename(target)
+
+
+def settle_name(target: Path) -> None:
+    """Have a name written to the disk, and that of its folder, which may be new."""
     settle(target.parent)
-    if made:
-        settle(target.parent.parent)
+    settle(target.parent.parent)

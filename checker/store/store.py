@@ -20,7 +20,8 @@ from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from checker.store.durable import move, settle_below
+from checker.report.artefacts import ARTEFACT_NAME
+from checker.store.durable import move, rename, settle_below, settle_name
 from checker.store.incoming import Incoming, TooLarge
 from checker.store.workplace import sweep, workplace
 
@@ -36,7 +37,6 @@ CACHE_SECONDS = 86_400.0
 """That parts of a check are kept beyond their last use: for its second stage, and for a mended
 package that is uploaded again."""
 _KEY = re.compile(r"[0-9a-f]{64}")
-_NAME = re.compile(r"(?:[\w~-]{1,110}/)?(?:report\.(?:html|json|sarif)|robot\.glb)|index\.html")
 
 
 @dataclass(frozen=True)
@@ -104,18 +104,24 @@ class Store:
     def file(self, key: str, name: str) -> Path | None:
         """Return a file of a result by its name, such as `pkg/robot.glb`; None if there is none."""
         place = self._place("results", key)
-        if place is None or not (_NAME.fullmatch(name) or name == SUMMARY):
+        if place is None or not _is_of_result(name):
             return None
         path = place / name
-        return path if path.is_file() else None
+        try:
+            return path if path.is_file() else None
+        except OSError:  # no file system has names as long
+            return None
 
     def names(self, key: str) -> tuple[str, ...]:
         """Return the names of a result's files that are for people and programs, sorted."""
         place = self._place("results", key)
         if place is None:
             return ()
-        names = (path.relative_to(place).as_posix() for path in place.rglob("*"))
-        return tuple(sorted(name for name in names if _NAME.fullmatch(name)))
+        try:
+            names = [path.relative_to(place).as_posix() for path in place.rglob("*")]
+        except FileNotFoundError:  # it expires just now
+            return ()
+        return tuple(sorted(name for name in names if ARTEFACT_NAME.fullmatch(name)))
 
     def forget_upload(self, hash: str) -> None:
         """Remove an upload that nothing was ordered for."""
@@ -131,10 +137,11 @@ class Store:
             before: Seconds since the epoch; what was used later stays.
             still_used: Hashes and keys that stay whatever their age.
         """
-        for kind in ("uploads", "results"):
-            for path in (self.folder / kind).glob("[0-9a-f][0-9a-f]/*"):
-                if path.name not in still_used:
-                    self._expire_one(path, before)
+        with self.workplace() as place:
+            for kind in ("uploads", "results"):
+                for path in (self.folder / kind).glob("[0-9a-f][0-9a-f]/*"):
+                    if path.name not in still_used:
+                        self._expire_one(path, before, place)
         for path in self.cache.glob("*/[0-9a-f][0-9a-f]/*"):
             with suppress(FileNotFoundError):
                 if path.stat().st_mtime < before - CACHE_SECONDS:
@@ -144,15 +151,17 @@ class Store:
         """Remove the temporary files of processes that have died."""
         sweep(self.folder / "incoming")
 
-    def _expire_one(self, path: Path, before: float) -> None:
-        with self.workplace() as place, self._alone(), suppress(FileNotFoundError):
+    def _expire_one(self, path: Path, before: float, place: Path) -> None:
+        with self._alone(), suppress(FileNotFoundError):
             if path.stat().st_mtime < before:
                 # A folder goes at once; its files go when the workplace does.
                 path.rename(place / path.name)
 
     def _admit(self, file: Path, hash: str) -> None:
+        place = self.folder / "uploads" / hash[:2] / hash
         with self._alone():
-            move(file, self.folder / "uploads" / hash[:2] / hash)
+            rename(file, place)
+        settle_name(place)
 
     def _place(self, kind: str, key: str) -> Path | None:
         return self.folder / kind / key[:2] / key if _KEY.fullmatch(key) else None
@@ -168,6 +177,10 @@ class Store:
         with (self.folder / "lock").open("a") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
             yield
+
+
+def _is_of_result(name: str) -> bool:
+    return name == SUMMARY or ARTEFACT_NAME.fullmatch(name) is not None
 
 
 def _touched(place: Path) -> bool:
@@ -192,7 +205,7 @@ def _check_result(folder: Path) -> None:
         if stat.S_ISDIR(found.st_mode) and "/" not in name:
             continue
         left -= found.st_size
-        if not stat.S_ISREG(found.st_mode) or not (_NAME.fullmatch(name) or name == SUMMARY):
+        if not stat.S_ISREG(found.st_mode) or not _is_of_result(name):
             raise ValueError(f"a result does not hold {name[:200]!r}")
         if left < 0:
             raise ValueError(f"a result holds no more than {RESULT_LIMIT / 1e9:g} GB")

@@ -11,7 +11,7 @@ from typing import Annotated
 from urllib.parse import quote, unquote
 
 from checker.errors import CheckerError
-from checker.report.artefacts import INDEX
+from checker.report.artefacts import ARTEFACT_NAME, INDEX
 from checker.report.from_json import SIZE_LIMIT
 from checker.report.reading import Unfit, read_as
 from checker.report.wording import count, plain, shortened
@@ -25,19 +25,15 @@ _CHECKS = "/api/checks"
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.3, 2.0
 """Seconds between two looks at a check."""
 _SHOWN = 600
-_NAME = re.compile(r"(?:[\w~-]{1,110}/)?(?:report\.(?:html|json|sarif)|robot\.glb)|index\.html")
-"""Of a result's file: what a service may have us write, and where."""
-_UNFINISHED = "the checker could not finish"
-"""How the service begins when it is not the package's fault."""
 
 
-class End(enum.Enum):
-    """How a check has ended: with a report, without one by its package or by us, or cancelled."""
+class End(enum.StrEnum):
+    """How a check has ended, as the API calls it: `REFUSED` by its package, `FAILED` by us."""
 
-    DONE = enum.auto()
-    REFUSED = enum.auto()
-    UNFINISHED = enum.auto()
-    CANCELLED = enum.auto()
+    DONE = "done"
+    REFUSED = "refused"
+    FAILED = "failed"
+    CANCELLED = "cancelled"
 
 
 @dataclass(frozen=True)
@@ -59,15 +55,7 @@ class Standing:
     @property
     def end(self) -> End | None:
         """How it has ended; None while it has not."""
-        match self.stage:
-            case "done":
-                return End.DONE
-            case "cancelled":
-                return End.CANCELLED
-            case "failed":
-                return End.UNFINISHED if self.words.startswith(_UNFINISHED) else End.REFUSED
-            case _:
-                return None
+        return next((each for each in End if each == self.stage), None)
 
     def __str__(self) -> str:
         """Say it in a few words."""
@@ -96,7 +84,7 @@ class Check:
         """Yield the names of the result's files, such as `rover/report.html`."""
         for address in standing.files:
             name = unquote(address.removeprefix(f"{self._path}/")).removeprefix("packages/")
-            if _NAME.fullmatch(name):
+            if ARTEFACT_NAME.fullmatch(name):
                 yield name
 
     def wait(self, say: Say) -> Standing:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import ipaddress
 import re
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from checker.errors import CheckerError
+from checker.loopback import is_loopback
 from checker.report.wording import plain, shortened
 
 _PORTS = {"http": 80, "https": 443}
@@ -39,12 +39,7 @@ class Server:
     @property
     def is_here(self) -> bool:
         """Whether it is this machine, so that nobody on the way can read along."""
-        if self.host == "localhost":
-            return True
-        try:
-            return ipaddress.ip_address(self.host).is_loopback
-        except ValueError:
-            return False
+        return is_loopback(self.host)
 
 
 def parse_server(text: str) -> Server:

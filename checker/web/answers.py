@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _FOR_PROGRAMS = ("/api/", "/healthz", "/readyz", "/metrics")
 CAUSE = "refused"
 """Where the state of a request says why it was refused, for logs and metrics."""
-_log = logging.getLogger(LOGGER)
+_LOG = logging.getLogger(LOGGER)
 
 
 class Problem(BaseModel):
@@ -69,7 +69,7 @@ def _refusal_of(error: Exception) -> Refused:
         case Refused():
             return error
         case JobsUnreachable():
-            _log.warning("the job engine does not answer", exc_info=error)
+            _LOG.warning("the job engine does not answer", exc_info=error)
             return _engine_away()
         case HTTPException():
             return _of_framework(error)

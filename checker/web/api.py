@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -149,7 +150,7 @@ class Api:
     async def events(self, request: Request, id: str, after: int) -> Response:
         """Send the events of a check."""
         await run_in_threadpool(check_of, self.services, id)
-        return await event_stream(request, self.services.jobs, id, after)
+        return await event_stream(request, self.services, id, after)
 
     def index(self, id: str) -> Response:
         """Lead to the list of packages, beside their folders: its links are relative."""
@@ -177,19 +178,19 @@ class Api:
     def _file(self, id: str, name: str) -> Response:
         state = check_of(self.services, id)
         path = self.services.store.file(state.result, name) if state.result else None
-        if path is None:
-            error = "The check has no such file, or not yet."
-            advice = f"Wait until /api/checks/{id} says that it is final, and see its files."
-            raise Refused(404, error, advice, "not found")
-        return file_response(path)
+        if path is not None:
+            with suppress(FileNotFoundError):  # it is deleted just now
+                return file_response(path)
+        error = "The check has no such file, or not yet."
+        advice = f"Wait until /api/checks/{id} says that it is final, and see its files."
+        raise Refused(404, error, advice, "not found")
 
     def _view(self, request: Request, state: State) -> CheckView:
         names = self.services.store.names(state.result) if state.result else ()
         return check_view(state, self._page(request, state.id), names)
 
     def _page(self, request: Request, id: str) -> str:
-        base = self.services.config.base_url or str(request.base_url).rstrip("/")
-        return f"{base}/checks/{id}"
+        return f"{self.services.address(request)}/checks/{id}"
 
 
 def _other_method(_: Request) -> Response:

@@ -42,7 +42,8 @@ def create_app(jobs: Jobs, store: Store, config: Config) -> FastAPI:
     """
     from fastapi import FastAPI
 
-    services, metrics = Services(jobs, store, config), Metrics()
+    metrics = Metrics()
+    services = Services(jobs, store, config, Gate(config), metrics)
     app = FastAPI(
         title="subt-check",
         version=version_of("subt-check"),
@@ -53,10 +54,9 @@ def create_app(jobs: Jobs, store: Store, config: Config) -> FastAPI:
         redirect_slashes=False,
         telemetry=_NO_TELEMETRY,
     )
-    app.state.gate, app.state.metrics = Gate(config), metrics
     say_no_by(app)
     app.include_router(api.router(services))
-    app.include_router(health.router(services, metrics))
+    app.include_router(health.router(services))
     app.include_router(pages.router(services))
     # The last added stands outermost.
     app.add_middleware(OwnOrigin, config=config)

@@ -5,12 +5,16 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from urllib.parse import urlsplit
 
 from checker.errors import InvalidSettings
+from checker.jobs.port import RETENTION_DAYS
 from checker.store.store import DEFAULT_UPLOAD_LIMIT
 
 _YES = ("1", "true", "yes", "on")
+_CENTURY = 36_500
+"""Days; calendars end some day."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +39,7 @@ class Config:
     tokens: tuple[str, ...] = ()
     upload_limit: int = DEFAULT_UPLOAD_LIMIT
     public: bool = False
-    retention_days: int = 30
+    retention_days: int = RETENTION_DAYS
     uploads_per_minute: int = 30
     uploads_at_once: int = 200
     streams: int = 400
@@ -43,6 +47,11 @@ class Config:
     upload_seconds: float = 900.0
     slowest: int = 10_000
     base_url: str = ""
+
+    @property
+    def room(self) -> int:
+        """Bytes that the disk must have free: reports and the database need some as well."""
+        return 2 * self.upload_limit
 
     @property
     def only_here(self) -> bool:
@@ -57,28 +66,28 @@ def config_from(environment: Mapping[str, str] = os.environ) -> Config:
         InvalidSettings: A variable has a value that makes no sense.
     """
     plain = Config()
-    number = _Numbers(environment)
+    number = partial(_number, environment)
     return Config(
         tokens=_tokens(environment.get("SUBT_CHECK_TOKENS", "")),
-        upload_limit=number("SUBT_CHECK_UPLOAD_LIMIT", plain.upload_limit, least=1),
+        upload_limit=number("SUBT_CHECK_UPLOAD_LIMIT", plain.upload_limit, 1),
         public=environment.get("SUBT_CHECK_PUBLIC", "").lower() in _YES,
-        retention_days=number("SUBT_CHECK_RETENTION_DAYS", plain.retention_days, least=1),
+        retention_days=number("SUBT_CHECK_RETENTION_DAYS", plain.retention_days, 1, _CENTURY),
         uploads_per_minute=number("SUBT_CHECK_UPLOADS_PER_MINUTE", plain.uploads_per_minute),
         base_url=_base_url(environment.get("SUBT_CHECK_BASE_URL", "")),
     )
 
 
-@dataclass(frozen=True)
-class _Numbers:
-    environment: Mapping[str, str]
-
-    def __call__(self, name: str, default: int, least: int = 0) -> int:
-        text = self.environment.get(name, "").strip()
-        if not text:
-            return default
-        if not (text.isascii() and text.isdigit() and len(text) < 16 and int(text) >= least):
-            raise InvalidSettings(None, f"{name} is {text!r}, expected a number from {least}")
-        return int(text)
+def _number(
+    environment: Mapping[str, str], name: str, default: int, least: int = 0, most: int = 10**15
+) -> int:
+    text = environment.get(name, "").strip()
+    if not text:
+        return default
+    number = int(text) if text.isascii() and text.isdigit() and len(text) < 17 else -1
+    if not least <= number <= most:
+        problem = f"{name} is {text!r}, expected a number from {least} to {most}"
+        raise InvalidSettings(None, problem)
+    return number
 
 
 def _tokens(text: str) -> tuple[str, ...]:
@@ -93,8 +102,9 @@ def _tokens(text: str) -> tuple[str, ...]:
 def _base_url(text: str) -> str:
     """Read the address of the service, without a slash at its end."""
     try:
-        parts = urlsplit(text.strip())
-        fine = parts.scheme in ("http", "https") and bool(parts.hostname)
+        parts = urlsplit(text.strip().rstrip("/"))
+        # Its pages lie at the root: a path would lead all links astray.
+        fine = parts.scheme in ("http", "https") and bool(parts.hostname) and not parts.path
     except ValueError:
         fine = False
     if text.strip() and (not fine or parts.query or parts.fragment):

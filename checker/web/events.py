@@ -15,7 +15,7 @@ from starlette.types import Receive, Scope, Send
 
 from checker.jobs.port import Event, Jobs, JobsUnreachable
 from checker.report.wording import plain
-from checker.web.gate import Gate
+from checker.web.services import Services
 
 POLL_SECONDS = 0.3
 QUIET_SECONDS = 15.0
@@ -40,7 +40,7 @@ class EventStream(StreamingResponse):
             await super().__call__(scope, receive, send)
 
 
-async def event_stream(request: Request, jobs: Jobs, id: str, after: int) -> Response:
+async def event_stream(request: Request, services: Services, id: str, after: int) -> Response:
     """Return the events of a check behind event number `after`, until the check ends.
 
     When nothing will come any more, the answer is 204: browsers stop to ask.
@@ -49,12 +49,11 @@ async def event_stream(request: Request, jobs: Jobs, id: str, after: int) -> Res
         Refused: Too many watch.
     """
     after = max(after, _last_seen(request))
-    if await _is_over(jobs, id, after):
+    if await _is_over(services.jobs, id, after):
         return Response(status_code=204)
-    gate: Gate = request.app.state.gate
     place = ExitStack()
-    place.enter_context(gate.stream(request))
-    return EventStream(jobs, id, after, place)
+    place.enter_context(services.gate.stream(request))
+    return EventStream(services.jobs, id, after, place)
 
 
 async def _is_over(jobs: Jobs, id: str, after: int) -> bool:

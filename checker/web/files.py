@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import BinaryIO
 
-from starlette.responses import FileResponse
+from starlette.responses import Response, StreamingResponse
 
 from checker.web.headers import POLICY
 
@@ -19,6 +22,8 @@ KINDS = {
 """Media types by name."""
 _HEAD = 4_096
 """Bytes of a page that hold its own policy."""
+_PIECE = 262_144
+"""Bytes that are sent at once."""
 _SCRIPT = re.compile(rb"script-src '(sha256-[A-Za-z0-9+/]{43}=)'")
 _REPORT = (
     "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; connect-src 'none'; "
@@ -29,18 +34,31 @@ _REPORT = (
 )
 
 
-def file_response(path: Path) -> FileResponse:
-    """Return the answer that sends a file of a result, as what its name says."""
-    kind = KINDS[path.name]
+def file_response(path: Path) -> Response:
+    """Return the answer that sends a file of a result, as what its name says.
+
+    The file is open from here on: deleted meanwhile, it is sent all the same.
+
+    Raises:
+        FileNotFoundError: It has been deleted.
+    """
+    kind, file = KINDS[path.name], path.open("rb")
+    headers = {"content-length": str(os.fstat(file.fileno()).st_size)}
     if kind.startswith("text/html"):
-        return FileResponse(path, media_type=kind, headers={POLICY: _policy(path)})
+        headers[POLICY] = _policy(file)
     if path.name == "robot.glb":
-        return FileResponse(path, media_type=kind, filename=path.name)
-    return FileResponse(path, media_type=kind)
+        headers["content-disposition"] = f'attachment; filename="{path.name}"'
+    return StreamingResponse(_pieces(file), media_type=kind, headers=headers)
 
 
-def _policy(page: Path) -> str:
+def _pieces(file: BinaryIO) -> Iterator[bytes]:
+    with file:
+        while piece := file.read(_PIECE):
+            yield piece
+
+
+def _policy(page: BinaryIO) -> str:
     """Return the policy of a report: its own script runs, which its head names by hash."""
-    with page.open("rb") as file:
-        found = _SCRIPT.search(file.read(_HEAD))
+    found = _SCRIPT.search(page.read(_HEAD))
+    page.seek(0)
     return _REPORT + (f"'{found[1].decode('ascii')}'" if found else "'none'")

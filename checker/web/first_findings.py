@@ -51,7 +51,10 @@ class Glance:
 def glance(store: Store, key: str) -> Glance | None:
     """Return the beginning of a stored report; None if it is not there or too large to read."""
     path = store.file(key, "report.json") if key else None
-    return _read(path) if path is not None else None
+    try:
+        return _read(path) if path is not None else None
+    except OSError:
+        return None
 
 
 @lru_cache(maxsize=64)
@@ -61,7 +64,7 @@ def _read(path: Path) -> Glance | None:
         if path.stat().st_size > SIZE_LIMIT:
             return None
         report = report_from_json(path.read_text("utf-8"))
-    except (OSError, ValueError):
+    except ValueError:
         return None
     found = [(package.name, each) for package in report.packages for each in package.findings]
     found.sort(key=lambda pair: pair[1].severity.rank)

@@ -8,7 +8,7 @@ from multipart import MultipartError, MultipartSegment, PushMultipartParser, par
 
 from checker.store.incoming import Incoming
 from checker.store.naming import UnknownKind, safe_name
-from checker.web.refusal import Refused
+from checker.web.refusal import Refused, sentence
 from checker.web.sniffing import HEAD, misfit
 
 FILE = "file"
@@ -63,7 +63,8 @@ class UploadForm:
                 for event in self._parser.parse(piece):
                     self._take(event)
         except MultipartError as error:
-            raise _damaged(str(error)) from None
+            # What follows the first word of it are the client's own bytes.
+            raise _damaged(str(error.args[0])) from None
 
     def end(self) -> None:
         """Take note that all has come.
@@ -105,7 +106,7 @@ class UploadForm:
         try:
             self.name = safe_name(filename)
         except UnknownKind as error:
-            raise Refused(415, _sentence(str(error)), _WHAT_TO_SEND, "kind") from None
+            raise Refused(415, sentence(str(error)), _WHAT_TO_SEND, "kind") from None
 
     def _write(self, piece: bytes) -> None:
         """Hold the first bytes back until they are enough to tell what they are."""
@@ -147,7 +148,3 @@ def _parser(content_type: str) -> PushMultipartParser:
 def _damaged(why: str) -> Refused:
     shown = why[:1].lower() + why[1:]
     return Refused(400, f"The upload form cannot be read: {shown}.", _HOW_TO_SEND, "form")
-
-
-def _sentence(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:]}."

@@ -75,7 +75,8 @@ class Gate:
             raise Refused(
                 401,
                 "This token is not known." if token else "This service wants a token.",
-                "Send one as 'Authorization: Bearer …', or in the field 'token' before the file.",
+                "Ask whoever runs the service for one; programs send it as 'Authorization: "
+                "Bearer …', or in the field 'token' before the file.",
                 "token",
                 {"WWW-Authenticate": "Bearer"},
             )

@@ -12,21 +12,16 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
-from checker.jobs.port import Alive, JobsUnreachable
+from checker.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
+from checker.loopback import is_loopback
 from checker.web.answers import Problem
-from checker.web.gate import Gate, bearer
-from checker.web.metrics import Metrics
-from checker.web.origin import is_loopback
+from checker.web.gate import bearer
 from checker.web.refusal import Refused, not_found
 from checker.web.services import Services
 
 if TYPE_CHECKING:
     from fastapi import APIRouter
 
-SILENT_SECONDS = 60.0
-"""After which a worker counts as gone."""
-_ROOM = 2
-"""Uploads of the largest size that the disk must have room for."""
 _TEXT_FORMAT = "text/plain; version=0.0.4"
 
 
@@ -36,11 +31,11 @@ class Well(BaseModel):
     status: str = "ok"
 
 
-def router(services: Services, metrics: Metrics) -> APIRouter:
+def router(services: Services) -> APIRouter:
     """Return the routes for those who look after the service."""
     from fastapi import APIRouter
 
-    health = Health(services, metrics)
+    health = Health(services)
     made = APIRouter(tags=["health"])
     no: dict[int | str, dict[str, Any]] = {
         503: {"model": Problem, "description": "Not ready, and why."}
@@ -56,7 +51,6 @@ class Health:
     """The routes."""
 
     services: Services
-    metrics: Metrics
 
     async def lives(self) -> Well:
         """Tell that the web process answers."""
@@ -72,13 +66,21 @@ class Health:
 
     async def figures(self, request: Request) -> Response:
         """Return the metrics, to this machine and to those with a token."""
-        if not _may_see(request):
+        if not self._may_see(request):
             raise not_found()
         try:
             alive: Alive | None = await run_in_threadpool(self.services.jobs.alive)
         except JobsUnreachable:
             alive = None
-        return PlainTextResponse(self.metrics.text(alive), media_type=_TEXT_FORMAT)
+        return PlainTextResponse(self.services.metrics.text(alive), media_type=_TEXT_FORMAT)
+
+    def _may_see(self, request: Request) -> bool:
+        """Whether it comes from this machine itself, by no proxy, or brings a token."""
+        host = request.client.host if request.client else ""
+        is_forwarded = "x-forwarded-for" in request.headers or "forwarded" in request.headers
+        if is_loopback(host) and not is_forwarded:
+            return True
+        return self.services.gate.knows(bearer(request))
 
     def _reasons(self) -> Iterator[str]:
         """Yield sentences about what is amiss."""
@@ -87,9 +89,9 @@ class Health:
         except JobsUnreachable:
             yield "The database does not answer."
         else:
-            if not any(seconds <= SILENT_SECONDS for seconds in workers.values()):
-                yield f"No worker has given a sign of life for {SILENT_SECONDS:g} s."
-        least = _ROOM * self.services.config.upload_limit
+            if not any(seconds <= SILENCE_SECONDS for seconds in workers.values()):
+                yield f"No worker has given a sign of life for {SILENCE_SECONDS:g} s."
+        least = self.services.config.room
         try:
             free = shutil.disk_usage(self.services.store.folder).free
         except OSError:
@@ -97,11 +99,3 @@ class Health:
         else:
             if free < least:
                 yield f"The disk has {free / 1e6:.0f} MB free, expected {least / 1e6:.0f} MB."
-
-
-def _may_see(request: Request) -> bool:
-    """Whether it comes from this machine itself, by no proxy, or brings a token."""
-    gate: Gate = request.app.state.gate
-    host = request.client.host if request.client else ""
-    is_forwarded = "x-forwarded-for" in request.headers or "forwarded" in request.headers
-    return (is_loopback(host) and not is_forwarded) or gate.knows(bearer(request))

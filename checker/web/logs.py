@@ -36,6 +36,7 @@ def log_to_stderr() -> None:
     """Have this process log to stderr; the server's own log of addresses, which hold ids, ends."""
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(JsonLines())
+    logging.basicConfig(level=logging.WARNING, handlers=[handler])
     for name in (LOGGER.partition(".")[0], *_OF_THE_SERVER):
         logger = logging.getLogger(name)
         logger.handlers = [] if name == "uvicorn.error" else [handler]

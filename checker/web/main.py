@@ -1,4 +1,4 @@
-"""What the web server loads: `uvicorn --factory checker.web.main:app_from_environment`."""
+"""The application of a web server, made as the environment says."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ _FAULT = JSONResponse(
     500,
 )
 """Made of what can hardly fail: the page of errors itself may have been at fault."""
-_log = logging.getLogger(LOGGER)
+_LOG = logging.getLogger(LOGGER)
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Observing:
         try:
             await self.app(scope, receive, noting)
         except Exception:  # noqa: BLE001 - whatever it is, the client is told in our words
-            _log.exception("a request fails", extra={FIELDS: _about(scope)})
+            _LOG.exception("a request fails", extra={FIELDS: _about(scope)})
             if not status:
                 await _FAULT(scope, receive, noting)
         finally:
@@ -62,7 +62,7 @@ class Observing:
         if cause := scope["state"].get(CAUSE):
             self.metrics.refused[cause] += 1
         fields = {**about, "status": status, "ms": round(seconds * 1e3, 1)}
-        _log.info("request", extra={FIELDS: fields})
+        _LOG.info("request", extra={FIELDS: fields})
 
 
 def _about(scope: Scope) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ipaddress
 import re
 from dataclasses import dataclass
 from urllib.parse import urlsplit
@@ -10,6 +9,7 @@ from urllib.parse import urlsplit
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from checker.loopback import is_loopback
 from checker.web.answers import refusal_answer
 from checker.web.config import Config
 from checker.web.refusal import Refused
@@ -72,11 +72,3 @@ class OwnOrigin:
         if self.config.base_url:
             here.add(urlsplit(self.config.base_url).netloc.lower())
         return host in here
-
-
-def is_loopback(name: str) -> bool:
-    """Whether a host name or address stands for the machine itself."""
-    try:
-        return ipaddress.ip_address(name.strip("[]")).is_loopback
-    except ValueError:
-        return name == "localhost" or name.endswith(".localhost")

@@ -19,6 +19,7 @@ from checker.web.receiving import new_check
 from checker.web.refusal import not_found
 from checker.web.services import Services
 from checker.web.site import FOLDER, html, static_file
+from checker.web.views import address_of
 
 if TYPE_CHECKING:
     from fastapi import APIRouter
@@ -91,7 +92,7 @@ class _Pages:
             profiles=[profile(name) for name in profile_names()],
             needs_token=bool(config.tokens),
             kept=count(config.retention_days, "day"),
-            address=self._address(request),
+            address=self.services.address(request),
         )
 
     async def send(self, request: Request) -> Response:
@@ -105,7 +106,7 @@ class _Pages:
         names = self.services.store.names(state.result) if state.result else ()
         done = state.stage is Stage.DONE
         packages = progress.package_lines(state, names if done else ())
-        ended_early = state.stage in (Stage.FAILED, Stage.CANCELLED)
+        ended_early = state.stage.is_final and not done
         events = self.services.jobs.events(state.id) if ended_early else ()
         return html(
             "check.html.j2",
@@ -118,7 +119,7 @@ class _Pages:
             shown=_PACKAGES_SHOWN,
             files=_files(state, names) if done else (),
             first=found,
-            link=f"{self._address(request)}/checks/{state.id}",
+            link=f"{self.services.address(request)}/checks/{state.id}",
             events=f"/api/checks/{state.id}/events",
             expires=progress.moment(state.expires) if state.expires else None,
         )
@@ -128,10 +129,6 @@ class _Pages:
         state = check_of(self.services, request.path_params["id"])
         self.services.jobs.cancel(state.id)
         return _see_other(f"/checks/{state.id}")
-
-    def _address(self, request: Request) -> str:
-        """Return where people reach the service."""
-        return self.services.config.base_url or str(request.base_url).rstrip("/")
 
 
 def _rules(_: Request) -> Response:
@@ -156,8 +153,11 @@ def _static(request: Request) -> Response:
 
 def _files(state: State, names: tuple[str, ...]) -> list[tuple[str, str, str]]:
     """Return label, address and use of each file that is offered."""
-    base = f"/api/checks/{state.id}/"
-    return [(label, base + name, use) for name, (label, use) in _FILES.items() if name in names]
+    return [
+        (label, address_of(state.id, name), use)
+        for name, (label, use) in _FILES.items()
+        if name in names
+    ]
 
 
 def _megabytes(size: int) -> str:

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
-from urllib.parse import quote
 
 from checker.jobs.port import Event, Stage, State
 from checker.report.wording import count, plain, shortened
+from checker.web.views import address_of
 
 STEPS = {
     Stage.QUEUED: "Waiting",
@@ -19,8 +19,7 @@ STEPS = {
 }
 """The way of a check that goes well."""
 LEADS = {"ready": "Ready", "not_ready": "Not ready", "incomplete": "Incomplete"}
-UNFINISHED = "the checker could not finish"
-"""How the engine begins when it is not the package's fault."""
+_AGAIN = "Send the package again; if this stays, tell whoever runs this service."
 _TEXT_LIMIT = 600
 
 
@@ -80,7 +79,7 @@ def steps_of(state: State, events: Sequence[Event]) -> tuple[Step, ...]:
 
     Args:
         state: Of the check.
-        events: Tell how far a check came that failed or was cancelled.
+        events: Tell how far a check came that ended before its report.
     """
     order = list(STEPS)
     ended_early = state.stage not in STEPS
@@ -105,8 +104,10 @@ def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
     """Say in a sentence where a check stands."""
     words = shortened(plain(state.words), _TEXT_LIMIT).rstrip(".")
     match state.stage:
+        case Stage.REFUSED:
+            return Headline("Not checked", words, "not_ready", "Mend that and send it again.")
         case Stage.FAILED:
-            return Headline("Not checked", words, "not_ready", _advice(words))
+            return Headline("Not checked", words, "not_ready", _AGAIN)
         case Stage.CANCELLED:
             return Headline("Cancelled", "", "incomplete", "Send the package again to check it.")
         case Stage.DONE:
@@ -115,12 +116,6 @@ def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
             return Headline("Waiting", _ahead(state) or "it begins in a moment")
         case _:
             return Headline("Checking", _so_far(packages) or words)
-
-
-def _advice(words: str) -> str:
-    if words.lower().startswith(UNFINISHED):
-        return "Send the package again; if this stays, tell whoever runs this service."
-    return "Mend that and send it again."
 
 
 def _verdict(words: str, packages: Sequence[PackageLine]) -> Headline:
@@ -155,8 +150,7 @@ def package_lines(state: State, names: Sequence[str]) -> tuple[PackageLine, ...]
 
 def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> PackageLine:
     folder = str(package["folder"])
-    prefix = f"{folder}/" if folder else ""
-    base = f"/api/checks/{state.id}/" + (f"packages/{quote(folder, safe='')}/" if folder else "")
+    page, model = (f"{folder}/{name}".lstrip("/") for name in ("report.html", "robot.glb"))
     verdict = str(package["verdict"])
     return PackageLine(
         name=plain(shortened(str(package["name"]), _TEXT_LIMIT)),
@@ -165,8 +159,8 @@ def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> Pac
         errors=int(package["errors"]),
         warnings=int(package["warnings"]),
         infos=int(package["infos"]),
-        page=base + "report.html" if prefix + "report.html" in names else "",
-        model=base + "robot.glb" if prefix + "robot.glb" in names else "",
+        page=address_of(state.id, page) if page in names else "",
+        model=address_of(state.id, model) if model in names else "",
     )
 
 

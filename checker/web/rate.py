@@ -18,8 +18,12 @@ _IPV6_HOME = 64
 
 
 def client_of(connection: HTTPConnection) -> str:
-    """Return whom a request counts for: an IPv4 address, or the network of an IPv6 one."""
-    host = connection.client.host if connection.client else ""
+    """Return whom a request counts for."""
+    return network_of(connection.client.host if connection.client else "")
+
+
+def network_of(host: str) -> str:
+    """Return whom an address counts for: itself if it is IPv4, its network if it is IPv6."""
     try:
         address = ipaddress.ip_address(host.partition("%")[0])
     except ValueError:

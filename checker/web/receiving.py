@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import errno
+import os
+import shutil
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
 from time import monotonic
 
+from anyio import to_thread
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
@@ -14,12 +18,12 @@ from checker.errors import UnreadableInput
 from checker.jobs.port import Order
 from checker.package.archive import ARCHIVE_SUFFIXES, check_archive
 from checker.profiles import profile_names
-from checker.store.incoming import TooLarge
+from checker.report.wording import plain
+from checker.store.incoming import Incoming, TooLarge
 from checker.store.store import Store
 from checker.web.config import Config
 from checker.web.form import ROOM, UploadForm
-from checker.web.gate import Gate
-from checker.web.refusal import Refused
+from checker.web.refusal import Refused, sentence
 from checker.web.services import Services
 
 
@@ -38,15 +42,14 @@ async def new_check(request: Request, services: Services) -> str:
         Refused: The upload is not taken; nothing of it is left.
         JobsUnreachable: The order cannot be taken now.
     """
-    gate: Gate = request.app.state.gate
-    with gate.upload(request):
-        order = await receive(request, services, gate)
-        id = await run_in_threadpool(services.jobs.submit, order)
-    request.app.state.metrics.uploads += 1
+    with services.gate.upload(request):
+        order = await receive(request, services)
+        id = await to_thread.run_sync(services.jobs.submit, order, limiter=services.ordering)
+    services.metrics.uploads += 1
     return id
 
 
-async def receive(request: Request, services: Services, gate: Gate) -> Order:
+async def receive(request: Request, services: Services) -> Order:
     """Take the upload form of a request into the store.
 
     Raises:
@@ -54,21 +57,25 @@ async def receive(request: Request, services: Services, gate: Gate) -> Order:
     """
     config, store = services.config, services.store
     _refuse_announced(request, config)
+    await run_in_threadpool(_refuse_without_room, store, config)
     try:
         with store.incoming(config.upload_limit) as incoming:
-            admit = gate.needs_token(request)
+            admit = services.gate.needs_token(request)
             form = UploadForm(request.headers.get("content-type", ""), incoming, admit)
             async for piece in _pieces(request, config):
                 await run_in_threadpool(form.feed, piece)
             form.end()
             profile = _profile(form.fields.get("profile", ""))
-            hash = await run_in_threadpool(incoming.finish)
+            return await run_in_threadpool(_kept, store, incoming, form.name, profile)
     except TooLarge:
         raise too_large(config.upload_limit) from None
     except OSError as error:
         raise _no_room(error) from None
-    order = Order(hash, form.name, profile)
-    await run_in_threadpool(_check_index, store, order)
+
+
+def _kept(store: Store, incoming: Incoming, name: str, profile: str) -> Order:
+    order = Order(incoming.finish(), name, profile)
+    _check_index(store, order)
     return order
 
 
@@ -85,8 +92,18 @@ def too_large(limit: int) -> Refused:
 def _refuse_announced(request: Request, config: Config) -> None:
     """Refuse what says of itself that it is too large, before any of it is read."""
     length = request.headers.get("content-length", "")
-    if length.isdecimal() and len(length) < 20 and int(length) > config.upload_limit + ROOM:
+    if length.isdecimal() and len(length) <= 20 and int(length) > config.upload_limit + ROOM:
         raise too_large(config.upload_limit)
+
+
+def _refuse_without_room(store: Store, config: Config) -> None:
+    """Refuse all uploads before the disk is so full that no check can be finished."""
+    try:
+        free = shutil.disk_usage(store.folder).free
+    except OSError:  # writing will tell
+        return
+    if free < config.room:
+        raise _no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
 
 
 @dataclass
@@ -178,5 +195,5 @@ def _check_index(store: Store, order: Order) -> None:
         check_archive(place, order.name)
     except UnreadableInput as error:
         store.forget_upload(order.upload)
-        advice = f"{error.advice[:1].upper()}{error.advice[1:]}."
-        raise Refused(422, f"{order.name} {error.reason}.", advice, "archive") from None
+        reason = plain(f"{order.name} {error.reason}.")
+        raise Refused(422, reason, sentence(error.advice), "archive") from None

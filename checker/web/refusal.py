@@ -25,6 +25,11 @@ class Refused(Exception):
     headers: Mapping[str, str] = field(default_factory=dict)
 
 
+def sentence(words: str) -> str:
+    """Return words as a sentence, from a capital letter to a dot."""
+    return f"{words[:1].upper()}{words[1:]}."
+
+
 def not_found() -> Refused:
     """Return the one answer to every address that leads nowhere; it says nothing of why."""
     return Refused(

@@ -58,7 +58,7 @@ def groups() -> tuple[RuleGroup, ...]:
     found = []
     for letters, members in groupby(all_rules(), lambda rule: rule.group):
         rules = list(members)
-        entries = tuple(page.entry for page in map(pages().__getitem__, (r.id for r in rules)))
+        entries = tuple(pages()[rule.id].entry for rule in rules)
         found.append(RuleGroup(letters, _line(about(rules)), entries))
     return tuple(found)
 

@@ -82,5 +82,6 @@ def check_view(state: State, url: str, names: Iterable[str]) -> CheckView:
 
 def address_of(id: str, name: str) -> str:
     """Return the path under which a file of a result is fetched."""
-    inner = "packages/" if "/" in name or name == "index.html" else ""
-    return f"/api/checks/{id}/{inner}{quote(name)}"
+    folder, slash, file = name.rpartition("/")
+    inner = "packages/" if folder or file == "index.html" else ""
+    return f"/api/checks/{id}/{inner}{quote(folder, safe='')}{slash}{quote(file)}"

@@ -26,19 +26,13 @@ export function sending(file, name, { profile, token }, told) {
   return { answer, stop: () => request.abort() };
 }
 
-// The service refuses with a sentence and advice; what stands between may answer in HTML.
+// The service refuses with two sentences; what stands between may answer in HTML.
 function saidBy(request) {
   try {
     const { error, advice } = JSON.parse(request.responseText);
-    if (error) return [sentence(error), sentence(advice)].filter(Boolean).join(" ");
+    if (error) return [error, advice].filter(Boolean).join(" ");
   } catch {
     // Falls through to what the status alone tells.
   }
   return `The service answered with status ${request.status}. Try again later.`;
-}
-
-function sentence(text = "") {
-  const trimmed = String(text).trim();
-  if (!trimmed) return "";
-  return trimmed[0].toUpperCase() + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? "" : ".");
 }

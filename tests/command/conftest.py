@@ -44,7 +44,7 @@ def run(tmp_path: Path) -> Run:
 
 
 def clean_environment() -> dict[str, str]:
-    unwanted = {"NO_COLOR", "FORCE_COLOR", "SUBT_CHECK_DEBUG"}
+    unwanted = {"NO_COLOR", "FORCE_COLOR", "SUBT_CHECK_DEBUG", "SUBT_CHECK_TOKEN"}
     return {name: value for name, value in os.environ.items() if name not in unwanted}
 
 

@@ -14,8 +14,8 @@ from checker.versions import tool_version
 from tests.deployment.bare import bare_command, bare_environment
 from tests.deployment.dockerfile import stages
 from tests.deployment.image import ROOT, Image, context_of
-from tests.deployment.started import address, process
 from tests.installing import packages
+from tests.started import address, process
 
 STAGES = {stage.name: stage for stage in stages((ROOT / "Dockerfile").read_text("utf-8"))}
 

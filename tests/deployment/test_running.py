@@ -16,8 +16,8 @@ import yaml
 
 from tests.conftest import SAMPLES
 from tests.deployment.image import ROOT
-from tests.deployment.started import address, process
 from tests.postgres import fresh_database
+from tests.started import address, process
 
 COMMANDS: dict[str, list[str]] = {
     name: told["command"]

@@ -17,12 +17,12 @@ from time import monotonic, sleep
 
 import pytest
 
-from checker.jobs.checking import check_upload
+from checker.jobs.checking import check_upload, stored_result
 from checker.jobs.isolation import StageLimits
 from checker.jobs.layout import environment
 from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
 from checker.jobs.port import Order, Stage
-from checker.store.store import Store
+from checker.store.store import SUMMARY, Store
 
 BUGGY = "subtcheck_buggy_sensor_config_1"
 GURDY = "broken_gurdy_description"
@@ -180,6 +180,22 @@ def test_the_same_upload_is_checked_once(store: Store, samples: Path) -> None:
     assert check(store, order) == outcome
     assert isinstance(check(store, order, Stage.TRIAL), Refused)
     assert isinstance(check(store, Order(order.upload, "robot.sdf")), Refused)
+
+
+@pytest.mark.parametrize("said", ["", "{", "[]", '{"packages": 3, "words": ""}', "[" * 100_000])
+def test_a_result_with_a_damaged_summary_is_made_again(
+    said: str, store: Store, samples: Path
+) -> None:
+    order = given(store, "model.sdf", (samples / BUGGY / "model.sdf").read_bytes())
+    outcome = check(store, order)
+    assert isinstance(outcome, Checked)
+    assert stored_result(store, order, Stage.STATIC) == outcome
+    summary = store.file(outcome.key, SUMMARY)
+    assert summary is not None
+    summary.write_text(said, "utf-8")
+    assert stored_result(store, order, Stage.STATIC) is None
+    store.forget_upload(order.upload)
+    assert isinstance(check(store, order), Refused), "it would be opened again"
 
 
 def test_what_reads_meshes_has_no_network(store: Store, samples: Path, tmp_path: Path) -> None:

@@ -63,7 +63,10 @@ def test_the_roll_knows_who_lives(url: str) -> None:
     engine.dispose()
 
 
-@pytest.mark.parametrize("address", ["", "nonsense", "mysql://u:secret@host/db", "http://[::1"])
+@pytest.mark.parametrize(
+    "address",
+    ["", "nonsense", "mysql://u:secret@host/db", "http://[::1", "sqlite://", "sqlite:///:memory:"],
+)
 def test_an_address_that_is_none_is_not_repeated(address: str) -> None:
     with pytest.raises(JobsUnreachable) as caught:
         open_database(address)
@@ -77,7 +80,30 @@ def test_a_server_that_is_not_there_is_unreachable(tmp_path: Path) -> None:
         url = f"postgresql://me:secret@127.0.0.1:{nobody.getsockname()[1]}/jobs"
         with pytest.raises(JobsUnreachable) as caught:
             durable_jobs(url, Store(tmp_path))
+    assert "Connection refused" in str(caught.value)
     assert "secret" not in str(caught.value)
+
+
+def test_a_file_that_is_no_database_cannot_be_read(tmp_path: Path) -> None:
+    file = tmp_path / "jobs.sqlite"
+    file.write_bytes(b"a page of the service" * 999)
+    with pytest.raises(JobsUnreachable, match=r"cannot be read: file is not a database"):
+        durable_jobs(f"sqlite:///{file}", Store(tmp_path))
+
+
+def test_a_database_that_is_a_folder_cannot_be_written(tmp_path: Path) -> None:
+    with pytest.raises(JobsUnreachable, match=r"cannot be written \(Is a directory\)"):
+        open_database(f"sqlite:///{tmp_path}")
+
+
+def test_only_its_owner_can_read_it(tmp_path: Path) -> None:
+    engine = open_database(f"sqlite:///{tmp_path}/jobs.sqlite")
+    prepare(engine)
+    # Beside it lie what is written ahead and its index, as long as it is open.
+    with engine.connect():
+        found = {each.name: each.stat().st_mode & 0o777 for each in tmp_path.iterdir()}
+    assert found == dict.fromkeys(("jobs.sqlite", "jobs.sqlite-wal", "jobs.sqlite-shm"), 0o600)
+    engine.dispose()
 
 
 def test_a_database_that_goes_away_is_unreachable_in_every_call(tmp_path: Path) -> None:

@@ -27,6 +27,7 @@ def test_without_the_extra_one_sentence_says_how_to_get_it(
     [
         *(["serve", "--port", "65536"], ["serve", "--port", "-1"], ["serve", "--port", "²"]),
         *(["serve", "--workers", "-1"], ["serve", "--workers", "many"], ["serve", "here"]),
+        *(["serve", "--behind-proxy", "proxy"], ["serve", "--behind-proxy", "10.0.0.1/8"]),
         *(["worker", "--jobs", "0"], ["submit", "a.zip"], ["submit", "--server", "http://a"]),
     ],
 )

@@ -41,6 +41,7 @@ def test_its_first_line_is_its_address(serve: Serve) -> None:
     assert serving.said == f"subt-check serves at {serving.url}\n"
     assert get(serving.url, "/healthz") == (200, b'{"status":"ok"}')
     assert not serving.workers()
+    assert all(line.startswith('{"time"') for line in serving.told.splitlines())
     assert (serving.folder / "data").is_dir()
 
 
@@ -180,12 +181,20 @@ def test_with_tokens_any_address_is_fine(serve: Serve) -> None:
         (("--host", "192.0.2.1"), {}, "choose another --host or --port"),
         ((), {"SUBT_CHECK_UPLOAD_LIMIT": "much"}, "SUBT_CHECK_UPLOAD_LIMIT is 'much'"),
         (("--base-url", "here"), {}, "SUBT_CHECK_BASE_URL is 'here'"),
+        ((), {"SUBT_CHECK_DATABASE_URL": "sqlite://"}, "SUBT_CHECK_DATABASE_URL is no address"),
     ],
 )
 def test_what_makes_no_sense_is_refused(
     serve: Serve, options: tuple[str, ...], environment: dict[str, str], reason: str
 ) -> None:
     refused(serve(*options, **environment), reason)
+
+
+def test_a_database_that_is_damaged_is_said_once(serve: Serve, tmp_path: Path) -> None:
+    (tmp_path / "jobs.sqlite").write_bytes(b"no page of a database" * 999)
+    serving = serve("--data", tmp_path)
+    refused(serving, f"file is not a database (sqlite:///{tmp_path}/jobs.sqlite)\n")
+    assert serving.told.count("\n") == 1
 
 
 def test_a_port_that_is_taken_is_refused(serve: Serve) -> None:
@@ -223,12 +232,12 @@ def headers_of(url: str, headers: dict[str, str]) -> dict[str, str]:
 
 
 def test_the_public_address_is_the_one_of_links(serve: Serve, tmp_path: Path) -> None:
-    serving = serve("--workers", 0, "--base-url", "https://check.example/subt")
+    serving = serve("--workers", 0, "--base-url", "https://check.example")
     model = tmp_path / "robot.sdf"
     model.write_text("<sdf version='1.6'/>", "utf-8")
     connection = Connection(parse_server(serving.url))
     said = json.loads(connection.ask("POST", "/api/checks", Form(model, model.name)).body)
-    assert said["url"] == f"https://check.example/subt/checks/{said['id']}"
+    assert said["url"] == f"https://check.example/checks/{said['id']}"
 
 
 def test_a_worker_joins_and_leaves(serve: Serve, tmp_path: Path) -> None:

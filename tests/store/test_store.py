@@ -8,6 +8,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
+from threading import Event
 
 import pytest
 from hypothesis import given
@@ -221,3 +222,22 @@ def test_parts_of_checks_are_kept_a_day_longer(store: Store) -> None:
 def test_others_cannot_read_it(store: Store) -> None:
     uploaded(store, b"mine")
     assert store.folder.stat().st_mode & 0o077 == 0
+
+
+def test_what_expires_while_it_is_listed_is_whole_or_not_there(store: Store) -> None:
+    files = {f"rover_{number}/report.json": "" for number in range(9)}
+    over = Event()
+
+    def listed() -> set[tuple[str, ...]]:
+        seen = set()
+        while not over.is_set():
+            seen.add(store.names(KEY))
+        return seen
+
+    with ThreadPoolExecutor(1) as pool:
+        looking = pool.submit(listed)
+        for _ in range(80):
+            made(store, files)
+            store.expire(time.time() + 60, ())
+        over.set()
+        assert looking.result() <= {(), tuple(sorted(files))}

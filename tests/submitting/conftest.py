@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import socket
 import subprocess
 import sys
@@ -17,6 +16,7 @@ import pytest
 
 from checker.report.json_report import to_json
 from checker.submitting.connection import Patience
+from tests.command.conftest import clean_environment
 from tests.report.any_report import many
 
 ID = "A-check_of_22_letters_"
@@ -160,7 +160,7 @@ def submit(tmp_path: Path) -> Submit:
             capture_output=True,
             check=False,
             cwd=tmp_path,
-            env=surroundings() | environment,
+            env=clean_environment() | environment,
             text=True,
             timeout=60,
         )
@@ -169,11 +169,6 @@ def submit(tmp_path: Path) -> Submit:
         return done
 
     return run
-
-
-def surroundings() -> dict[str, str]:
-    unwanted = {"NO_COLOR", "FORCE_COLOR", "SUBT_CHECK_DEBUG", "SUBT_CHECK_TOKEN"}
-    return {name: value for name, value in os.environ.items() if name not in unwanted}
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ from checker.check import check_paths
 from checker.finding import Severity
 from checker.report.json_report import to_json
 from checker.report.report import Report
-from tests.command.conftest import BROKEN, GOOD
+from tests.command.conftest import BROKEN, GOOD, clean_environment
 from tests.conftest import SAMPLES
 from tests.report.any_report import many
 from tests.submitting.conftest import (
@@ -28,7 +28,6 @@ from tests.submitting.conftest import (
     Submit,
     answer,
     checking,
-    surroundings,
 )
 
 DONE: dict[str, object] = {"stage": "done", "words": "1 package"}
@@ -158,8 +157,8 @@ def test_an_upload_that_is_not_taken(
 def test_a_package_that_the_check_refuses(
     start_service: StartService, submit: Submit, model: Path
 ) -> None:
-    failed: dict[str, object] = {"stage": "failed", "words": "the upload cannot be checked: it is"}
-    service = start_service(checking(RUNNING, failed))
+    state: dict[str, object] = {"stage": "refused", "words": "the upload cannot be checked: it is"}
+    service = start_service(checking(RUNNING, state))
     refused(submit(model, "--server", service.url), "the upload cannot be checked: it is")
 
 
@@ -255,7 +254,7 @@ def at_a_terminal(model: Path, service: Service) -> tuple[subprocess.Popen[bytes
     ours, its = pty.openpty()
     command = [sys.executable, "-m", "checker.cli", "submit", str(model), "--server", service.url]
     process = subprocess.Popen(
-        command, stdin=its, stdout=its, stderr=its, env=surroundings(), start_new_session=True
+        command, stdin=its, stdout=its, stderr=its, env=clean_environment(), start_new_session=True
     )
     os.close(its)
     return process, ours
@@ -298,7 +297,7 @@ def test_without_a_terminal_the_check_goes_on(
     said = tmp_path / "said"
     with said.open("wb") as file:
         process = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, env=surroundings()
+            command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, env=clean_environment()
         )
     ends = time.monotonic() + 30
     while len(service.asked) < 3:

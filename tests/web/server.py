@@ -12,6 +12,7 @@ from time import monotonic, sleep
 import uvicorn
 from fastapi import FastAPI
 
+from checker.serving.connection import Connection
 from checker.store.store import Store
 
 BOUNDARY = "limit-of-parts"
@@ -21,7 +22,9 @@ BOUNDARY = "limit-of-parts"
 def served(app: FastAPI) -> Iterator[int]:
     """Serve an application on a free port of this machine, and yield the port."""
     with socket.create_server(("127.0.0.1", 0)) as listening:
-        config = uvicorn.Config(app, log_config=None, timeout_graceful_shutdown=1)
+        config = uvicorn.Config(
+            app, http=Connection, ws="none", log_config=None, timeout_graceful_shutdown=1
+        )
         server = uvicorn.Server(config)
         thread = threading.Thread(target=server.run, args=([listening],), daemon=True)
         thread.start()

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-STOP_SECONDS = 60
+from tests.started import address, process
+
+ROOT = Path(__file__).parents[2]
 
 
 @contextmanager
-def service(
-    data: Path, more: Mapping[str, str] | None = None, workers: int = 1
-) -> Iterator[str]:
+def service(data: Path, more: Mapping[str, str] | None = None, workers: int = 1) -> Iterator[str]:
     """Start a service, yield its address, and stop it.
 
     Args:
@@ -25,24 +24,10 @@ def service(
         workers: How many.
     """
     command = [sys.executable, "-m", "checker.cli", "serve", "--port", "0"]
-    command += ["--workers", str(workers)]
-    environment = {**os.environ, **(more or {})}
-    with (data.parent / f"{data.name}.log").open("w") as log:
-        started = subprocess.Popen(
-            [*command, "--data", str(data)],
-            stdout=subprocess.PIPE,
-            stderr=log,
-            text=True,
-            env=environment,
-        )
-        try:
-            assert started.stdout is not None
-            line = started.stdout.readline()
-            assert line.startswith("subt-check serves at http"), Path(log.name).read_text("utf-8")
-            yield line.split()[-1]
-        finally:
-            started.terminate()
-            started.wait(STOP_SECONDS)
+    command += ["--workers", str(workers), "--data", str(data)]
+    log = data.parent / f"{data.name}.log"
+    with process(command, ROOT, {**os.environ, **(more or {})}, log) as started:
+        yield address(started)
 
 
 def zip_of(folders: list[Path], archive: Path, also: Mapping[str, bytes] | None = None) -> Path:

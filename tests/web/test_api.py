@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from checker.jobs.port import Alive, Event, JobsUnreachable, Stage, State
 from checker.store.store import SUMMARY, Store
 from checker.web.app import create_app
 from checker.web.config import Config
+from checker.web.files import file_response
 from tests.web.board import DONE, ID, QUEUED, ROVER, BoardJobs, keep_result
 from tests.web.server import eventually, served
 
@@ -72,6 +74,35 @@ def test_a_file_comes_as_what_it_is(
     assert answer.status_code == 200
     assert answer.headers["content-type"] == kind
     assert answer.text == PAGE
+
+
+def test_a_file_that_is_deleted_before_it_is_sent_is_not_there(
+    jobs: BoardJobs, tmp_path: Path
+) -> None:
+    class Deleting(Store):
+        def file(self, key: str, name: str) -> Path | None:
+            path = super().file(key, name)
+            shutil.rmtree(self.folder)
+            return path
+
+    store = Deleting(tmp_path / "data")
+    client = TestClient(create_app(jobs, store, Config()), base_url="http://localhost")
+    jobs.states[ID] = DONE
+    for name in ("report.html", "report.json"):
+        keep_result(store, PAGE, "report.html")
+        answer = client.get(f"/api/checks/{ID}/{name}")
+        assert answer.status_code == 404
+        assert answer.json()["error"] == "The check has no such file, or not yet."
+
+
+def test_a_file_that_is_deleted_while_it_is_sent_comes_whole(tmp_path: Path) -> None:
+    path = tmp_path / "report.json"
+    path.write_bytes(content := b"[]" * 400_000)
+    answer = file_response(path)
+    path.unlink()
+    sent = TestClient(answer).get("/")
+    assert sent.content == content
+    assert sent.headers["content-length"] == str(len(content))
 
 
 def test_files_of_several_packages_lie_beside_the_list_of_them(

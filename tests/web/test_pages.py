@@ -118,7 +118,7 @@ def test_a_refused_form_is_answered_by_a_page(client: Client) -> None:
         ),
         (DONE, "Not ready: 5 errors to fix"),
         (
-            replace(QUEUED, stage=Stage.FAILED, words="rover.zip is damaged; pack it again"),
+            replace(QUEUED, stage=Stage.REFUSED, words="rover.zip is damaged; pack it again"),
             "Not checked: rover.zip is damaged; pack it again",
         ),
         (replace(QUEUED, stage=Stage.CANCELLED), "Cancelled"),
@@ -139,14 +139,11 @@ def test_each_stage_is_said_in_a_sentence(
 
 
 @pytest.mark.parametrize(
-    ("words", "advice"),
-    [
-        ("rover.zip is damaged", "Mend that"),
-        ("the checker could not finish: its worker died three times", "tell whoever runs"),
-    ],
+    ("stage", "advice"),
+    [(Stage.REFUSED, "Mend that"), (Stage.FAILED, "tell whoever runs")],
 )
-def test_a_failure_says_what_to_do(words: str, advice: str) -> None:
-    assert advice in headline(replace(QUEUED, stage=Stage.FAILED, words=words), ()).advice
+def test_a_check_without_a_report_says_what_to_do(stage: Stage, advice: str) -> None:
+    assert advice in headline(replace(QUEUED, stage=stage, words="so it is"), ()).advice
 
 
 @pytest.mark.parametrize("stage", Stage)
@@ -158,6 +155,7 @@ def test_the_steps_mark_where_a_check_is(stage: Stage) -> None:
         Stage.STATIC: ["done", "now", "next", "next"],
         Stage.TRIAL: ["done", "done", "now", "next"],
         Stage.DONE: ["done"] * 4,
+        Stage.REFUSED: ["done", "stopped", "skipped", "skipped"],
         Stage.FAILED: ["done", "stopped", "skipped", "skipped"],
         Stage.CANCELLED: ["done", "stopped", "skipped", "skipped"],
     }

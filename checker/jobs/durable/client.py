@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import json
 import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sqlalchemy as sa
 
-from checker.jobs.checking import result_key
+from checker.jobs.checking import stored_result
 from checker.jobs.durable.database import open_database, prepare, reachable
 from checker.jobs.durable.ledger import WAITS, Ledger, Step
 from checker.jobs.durable.queues import Queues, queues_of
 from checker.jobs.durable.readings import alive, events_of, state_of
 from checker.jobs.outcome import Checked
-from checker.jobs.port import Alive, Event, Order, Stage, State
-from checker.jobs.summary import read_summary
-from checker.store.store import SUMMARY, Store
+from checker.jobs.port import RETENTION_DAYS, Alive, Event, Order, Stage, State
+from checker.store.store import Store
 
-RETENTION_DAYS = 30.0
 _DAY = 86400.0
 
 
@@ -51,7 +48,7 @@ class DurableJobs:
         again: the new check finishes at once and shares the report.
         """
         id = secrets.token_urlsafe(16)
-        known = _stored(self.store, order)
+        known = stored_result(self.store, order, Stage.TRIAL)
         step = finished(known) if known else Step("queued", Stage.QUEUED, WAITS)
 
         def then(connection: sa.Connection) -> None:
@@ -113,10 +110,3 @@ def finished(checked: Checked) -> Step:
     """Return the last step of a check with a report."""
     data = {"result": checked.key}
     return Step("end", Stage.DONE, checked.words, checked.key, checked.packages, data)
-
-
-def _stored(store: Store, order: Order) -> Checked | None:
-    """Return the final result of an order, if there is one already."""
-    key = result_key(order, Stage.TRIAL)
-    path = store.file(key, SUMMARY) if store.has(key) else None
-    return read_summary(key, json.loads(path.read_bytes())) if path else None

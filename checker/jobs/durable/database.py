@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,6 +12,7 @@ import sqlalchemy as sa
 
 from checker.jobs.durable.tables import METADATA
 from checker.jobs.port import JobsUnreachable
+from checker.report.wording import plain, shortened
 
 CONNECT_SECONDS = 5
 """After which a server that does not answer counts as unreachable."""
@@ -24,10 +26,16 @@ _POOL: Mapping[str, Any] = {
     "max_overflow": 0,
     "pool_timeout": _POOL_SECONDS,
     "pool_use_lifo": True,
+    "hide_parameters": True,  # ids open reports, and errors get into logs
 }
 _BUSY_MILLISECONDS = 30_000
-_NO_ADDRESS = "the database's address cannot be read, expected sqlite:///… or postgresql://…"
+_NO_ADDRESS = (
+    "SUBT_CHECK_DATABASE_URL is no address of a database that processes share, expected "
+    "sqlite:///FILE or postgresql://…"
+)
 """Said without the address: it may hold a password."""
+_AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
+_SHOWN = 200
 _MIGRATION_LOCK = 7_302_815_601
 """Of PostgreSQL's advisory locks; any number that others do not use."""
 
@@ -66,8 +74,13 @@ def reachable() -> Iterator[None]:
     """
     try:
         yield
-    except (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError) as error:
-        raise JobsUnreachable(f"the database does not answer ({type(error).__name__})") from error
+    except _AWAY as error:
+        raise JobsUnreachable(f"the database does not answer: {_cause(error)}") from error
+    except sa.exc.DatabaseError as error:
+        if type(error) is not sa.exc.DatabaseError:
+            raise
+        # What SQLite says of a file that is damaged, or is none of its own.
+        raise JobsUnreachable(f"the database cannot be read: {_cause(error)}") from error
 
 
 def prepare(engine: sa.Engine) -> None:
@@ -97,9 +110,30 @@ def now(engine: sa.Engine) -> sa.ColumnElement[float]:
     return sa.cast(sa.extract("epoch", sa.func.clock_timestamp()), sa.Double)
 
 
+def _cause(error: sa.exc.SQLAlchemyError) -> str:
+    """Return what the database said, without the statement that it was asked."""
+    said = getattr(error, "orig", None) or type(error).__name__
+    return plain(shortened(str(said).partition("\n")[0], _SHOWN))
+
+
+def _make(file: Path) -> None:
+    """Make the file, for its owner alone: ids in it open reports, and SQLite would let all read it.
+
+    Raises:
+        JobsUnreachable: It cannot be made or written.
+    """
+    try:
+        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        os.close(os.open(file, os.O_RDWR | os.O_CREAT, 0o600))
+    except OSError as error:
+        reason = error.strerror or "it cannot be opened"
+        raise JobsUnreachable(f"the database {file} cannot be written ({reason})") from None
+
+
 def _sqlite(address: sa.URL) -> sa.Engine:
-    if address.database:
-        Path(address.database).parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    if address.database in (None, "", ":memory:"):  # each process would have one of its own
+        raise JobsUnreachable(_NO_ADDRESS)
+    _make(Path(address.database))
     engine = sa.create_engine(address, **_POOL)
 
     @sa.event.listens_for(engine, "connect")

@@ -16,13 +16,14 @@ import sqlalchemy as sa
 
 from checker.jobs.durable.database import now
 from checker.jobs.durable.tables import CHECKS, EVENTS
+from checker.jobs.outcome import UNFINISHED
 from checker.jobs.port import Order, Stage
 from checker.report.wording import plain, shortened
 
 WORKERS_LOST = 3
 """A check that so many workers died of is not given to another one."""
 WAITS = "waits for its turn"
-GIVEN_UP = "the checker could not finish: its worker died three times"
+GIVEN_UP = f"{UNFINISHED}: its worker died three times"
 _WORDS_LIMIT = 2000
 _FINAL = [stage.value for stage in Stage if stage.is_final]
 Then = Callable[[sa.Connection], None]

@@ -20,7 +20,7 @@ from checker.jobs.durable.client import finished
 from checker.jobs.durable.database import reachable
 from checker.jobs.durable.ledger import Ledger, Step, Then, Turn
 from checker.jobs.durable.queues import Queues
-from checker.jobs.outcome import Cancelled, Checked, Died, Refused
+from checker.jobs.outcome import FAILED_INSIDE, Cancelled, Checked, Died, Refused
 from checker.jobs.port import JobsUnreachable, Stage
 from checker.store.store import Store
 
@@ -32,8 +32,6 @@ _BEGINS = {
     Stage.TRIAL: Step("trial", Stage.TRIAL, "the robot is tried on the course"),
 }
 _READ = "the static rules have looked; the trial waits for its turn"
-_INSIDE = "the checker could not finish: it failed inside; its operator finds the cause in the log"
-_FAILED_INSIDE = Step("end", Stage.FAILED, _INSIDE)
 
 
 @dataclass(frozen=True)
@@ -64,7 +62,7 @@ class Stages:
         except Exception:  # noqa: BLE001 - whatever it is
             # Left alone, the check would stay in hand for ever.
             _LOG.exception("a check fails in its stage %s", stage)
-            _patiently(lambda: self.ledger.settle(turn, _FAILED_INSIDE))
+            _patiently(lambda: self.ledger.settle(turn, Step("end", Stage.FAILED, FAILED_INSIDE)))
 
     def _do(self, turn: Turn, stage: Stage) -> None:
         outcome = check_upload(self.store, turn.order, stage, lambda: self._unwanted(turn))
@@ -105,7 +103,7 @@ def _conclusion(outcome: Checked | Refused | Died, stage: Stage) -> Step:
         case Checked():
             return finished(outcome)
         case Refused(reason):
-            return Step("end", Stage.FAILED, reason, data={"refused": True})
+            return Step("end", Stage.REFUSED, reason)
         case Died(reason):
             return Step("end", Stage.FAILED, reason)
 

@@ -37,6 +37,7 @@ def process(
 def address(started: subprocess.Popen[str]) -> str:
     """Return where a service is to be found, once it says so."""
     assert started.stdout is not None
-    said = _SAID.fullmatch(started.stdout.readline())
-    assert said is not None
+    line = started.stdout.readline()
+    said = _SAID.fullmatch(line)
+    assert said is not None, f"it says {line!r}"
     return said[1]
