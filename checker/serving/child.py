@@ -62,9 +62,9 @@ def _allow_open_files() -> None:
 
 
 def worker(name: str) -> None:
-    """Take checks from the queues until SIGTERM; see `checker.jobs.worker`."""
+    """Take checks from the queues until SIGTERM; see `checker.jobs.durable.worker`."""
+    from checker.jobs.durable.worker import WorkerOptions, work
     from checker.jobs.place import database_url
-    from checker.jobs.worker import WorkerOptions, work
     from checker.store.place import data_folder
     from checker.store.store import Store
 

@@ -53,15 +53,15 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
 
 
 def worker(options: argparse.Namespace) -> int:
-    """Be a worker of a service until SIGTERM or SIGINT; see `checker.jobs.worker.work`.
+    """Be a worker of a service until SIGTERM or SIGINT; see `checker.jobs.durable.worker.work`.
 
     Raises:
         CheckerError: The service is not installed, or its database does not answer.
     """
     _refuse_without_extra()
+    from checker.jobs.durable.worker import WorkerOptions, work
     from checker.jobs.place import database_url
     from checker.jobs.port import JobsUnreachable
-    from checker.jobs.worker import WorkerOptions, work
     from checker.store.store import Store
 
     store = Store(_data_made(options))

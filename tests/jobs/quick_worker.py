@@ -19,9 +19,9 @@ from typing import Any
 
 from checker.jobs.checking import result_key
 from checker.jobs.durable import stages
+from checker.jobs.durable.worker import WorkerOptions, work
 from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
 from checker.jobs.port import Order, Stage
-from checker.jobs.worker import WorkerOptions, work
 from checker.store.store import SUMMARY, Store
 
 PACKAGE = {

@@ -19,7 +19,7 @@ from tests.jobs.site import ROOT, Site, site_in
 WORKER = """
 import sys
 from pathlib import Path
-from checker.jobs.worker import WorkerOptions, work
+from checker.jobs.durable.worker import WorkerOptions, work
 from checker.store.store import Store
 work(WorkerOptions(sys.argv[1], Store(Path(sys.argv[2])), "slot-1"))
 """

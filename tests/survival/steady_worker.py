@@ -14,10 +14,10 @@ from time import sleep
 
 from checker.jobs.checking import result_key
 from checker.jobs.durable import stages
+from checker.jobs.durable.worker import WorkerOptions, work
 from checker.jobs.outcome import Checked, Outcome
 from checker.jobs.place import database_url
 from checker.jobs.port import Order, Stage
-from checker.jobs.worker import WorkerOptions, work
 from checker.store.place import data_folder
 from checker.store.store import Store
 from tests.jobs.quick_worker import PACKAGE, WORDS, keep

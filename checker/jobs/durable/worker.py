@@ -16,11 +16,11 @@ from checker.jobs.durable.database import open_database, prepare, reachable
 from checker.jobs.durable.engine import land, launch
 from checker.jobs.durable.ledger import Ledger
 from checker.jobs.durable.queues import queues_of
+from checker.jobs.durable.retention import Retention
 from checker.jobs.durable.roll import Roll
 from checker.jobs.durable.stages import Stages
+from checker.jobs.durable.watchdog import Watchdog
 from checker.jobs.port import SILENCE_SECONDS, JobsUnreachable
-from checker.jobs.retention import Retention
-from checker.jobs.watchdog import Watchdog
 from checker.store.store import Store
 
 _LOG = logging.getLogger(__name__)
