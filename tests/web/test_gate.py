@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hmac
+import secrets
 from pathlib import Path
 
 import pytest
@@ -16,6 +18,7 @@ from checker.store.store import Store
 from checker.web.app import create_app
 from checker.web.config import Config, config_from
 from checker.web.files import file_response
+from checker.web.gate import Gate
 from checker.web.headers import NOTHING, PAGE, POLICY
 from checker.web.rate import CLIENTS, Rate, Slots, client_of
 from tests.web.board import DONE, ID, BoardJobs, keep_result
@@ -56,6 +59,21 @@ def test_uploads_want_one_of_the_tokens(
     assert answer.status_code == ((201 if path == "/api/checks" else 303) if welcome else 401)
     assert ("www-authenticate" in answer.headers) is not welcome
     assert TOKEN not in answer.text
+
+
+@pytest.mark.parametrize("guess", [TOKEN, "other", "guess", TOKEN[:-1], ""])
+def test_tokens_are_compared_in_constant_time(guess: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    compared: list[tuple[bytes, bytes]] = []
+
+    def compare(one: bytes, other: bytes) -> bool:
+        compared.append((one, other))
+        return hmac.compare_digest(one, other)
+
+    monkeypatch.setattr(secrets, "compare_digest", compare)
+    known = Gate(Config(tokens=(TOKEN, "other"))).knows(guess)
+    assert known is (guess in (TOKEN, "other"))
+    # Each is compared, also behind the one that fits, and by nothing else than this.
+    assert compared == [(guess.encode(), TOKEN.encode()), (guess.encode(), b"other")]
 
 
 def test_reports_are_read_by_their_link_alone_and_nothing_lists_them(tmp_path: Path) -> None:
