@@ -184,13 +184,15 @@ def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     if known is not None:
         return replace(known, timings={"recall": perf_counter() - started})
     # Readers, engines and rules are loaded only when there is something to judge.
+    from checker.display.early import early_children
     from checker.mesh.early import early_child
 
     mesh_child = None if settings.select else early_child(package, cache)
+    early = early_children(mesh_child, display=settings.display)
     with collection_put_off():
         from checker.judging import judged
 
-        report = judged(package, shown, settings, cache, task.say, mesh_child)
+        report = judged(package, shown, settings, cache, task.say, early)
     remember(cache, key, report)
     return report
 

@@ -8,8 +8,8 @@ from typing import Any
 
 from checker.cache import Cache
 from checker.collection import collection_put_off
-from checker.confined import Child
 from checker.discovery import all_rules
+from checker.display.early import NO_CHILDREN, EarlyChildren
 from checker.engine import crashed, needed_parts
 from checker.facts import facts_of
 from checker.finding import Safety
@@ -44,7 +44,7 @@ def judged(
     settings: Settings,
     cache: Cache,
     say: Say,
-    mesh_child: Child | None = None,
+    early: EarlyChildren = NO_CHILDREN,
 ) -> PackageReport:
     """Return the report of a package; what goes wrong with it is in it, and nothing is raised.
 
@@ -54,14 +54,15 @@ def judged(
         settings: By which rules, and how strictly.
         cache: Where results that take long are kept.
         say: Told what takes long when it begins.
-        mesh_child: A child that waits for the meshes to read; it is stopped in the end.
+        early: Children that wait for something to do; they are stopped in the end.
 
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.
     """
     settings = settings.suiting(urdf=package.is_urdf)
     stages = Stages(lambda words: say(f"{package.name}: {words}"))
-    subject = Subject(package, cache, stages, known_devices(settings.devices), mesh_child)
+    devices = known_devices(settings.devices)
+    subject = Subject(package, cache, stages, devices, early)
     try:
         if not settings.select:
             # Whatever the rules are, some ask for the meshes: these are read while those load.

@@ -13,6 +13,7 @@ from checker.confined import Child
 from checker.controlling.entries import LaunchEntries, launch_entries
 from checker.controlling.system import control_system
 from checker.describing import Describing
+from checker.display.early import NO_CHILDREN, EarlyChildren
 from checker.driving import Driving
 from checker.dynamics.mass_properties import MassProperties
 from checker.dynamics.weighing import weigh
@@ -68,14 +69,14 @@ class Subject:
         cache: Where results that take long are kept.
         stages: Told of what takes long.
         devices: Sensor devices of which figures are known.
-        mesh_child: A child that waits for the meshes to read.
+        early: Children that wait for something to do.
     """
 
     package: Package
     cache: Cache = NO_CACHE
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
-    mesh_child: Child | None = None
+    early: EarlyChildren = NO_CHILDREN
     _provided: dict[type, Sequence[object]] = field(default_factory=dict, repr=False)
 
     def part(self, kind: type) -> Sequence[object] | NotAtHand:
@@ -122,8 +123,7 @@ class Subject:
 
     def close(self) -> None:
         """End what was begun and nobody asked for."""
-        if self.mesh_child is not None:
-            self.mesh_child.stop()
+        self.early.stop()
         robots = self.__dict__.get("robots")
         for robot in robots if isinstance(robots, tuple) else ():
             if isinstance(robot.meshes, TimedMeshes):
@@ -207,7 +207,7 @@ class Subject:
         robots = self._read_robots()
         if isinstance(robots, NotAtHand):
             return robots
-        waiting = (self.mesh_child, *(None for _ in robots))
+        waiting = (self.early.meshes, *(None for _ in robots))
         return tuple(
             replace(robot, meshes=self._meshes(robot, child))
             for robot, child in zip(robots, waiting, strict=False)
@@ -283,7 +283,9 @@ class Subject:
         from checker.display.displaying import Displaying
 
         had = self.robots
-        return had if isinstance(had, NotAtHand) else Displaying(had, self.cache, self.stages)
+        if isinstance(had, NotAtHand):
+            return had
+        return Displaying(had, self.cache, self.stages, self.early)
 
     @cached_property
     def viewing(self) -> Viewing | NotAtHand:

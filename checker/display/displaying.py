@@ -8,6 +8,7 @@ from functools import cached_property
 
 from checker.cache import Cache
 from checker.display.display import display_of
+from checker.display.early import NO_CHILDREN, EarlyChildren
 from checker.display.mesh_files import MeshFiles, surfaces_of
 from checker.display.pictures import Drawing
 from checker.display.surface import NoSurfaces
@@ -25,11 +26,13 @@ class Displaying:
         robots: At least one.
         cache: Where results are kept.
         stages: Told of what takes long.
+        early: Children that wait; whoever has started them ends them.
     """
 
     robots: tuple[Robot, ...]
     cache: Cache
     stages: Stages
+    early: EarlyChildren = NO_CHILDREN
 
     def begin(self) -> None:
         """Begin to read the meshes and to load what draws, while the caller does something else."""
@@ -63,12 +66,12 @@ class Displaying:
 
     @cached_property
     def _drawing(self) -> Drawing:
-        return Drawing(self.cache)
+        return Drawing(self.cache, self.early.artist)
 
     @cached_property
     def _surfaces(self) -> MeshFiles | NoSurfaces:
         robot = self.robots[0]
         meshes = robot.meshes
         if isinstance(meshes, TimedMeshes):
-            return surfaces_of(meshes.meshes, robot, self.cache)
+            return surfaces_of(meshes.meshes, robot, self.cache, self.early.looks)
         return NoSurfaces()

@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from checker.cache import Cache
-from checker.confined import Child, Limits
+from checker.confined import Child
+from checker.display.early import looks
 from checker.display.files.request import Asked, asked_of
 from checker.display.files.thinning import shares
 from checker.display.files.wire import Looked, from_json, to_json
-from checker.display.files.worker import SECONDS_FOR_ALL
-from checker.mesh.limits import MEMORY
 from checker.mesh.package_meshes import PackageMeshes, mesh_uris
 from checker.mesh.reading_child import all_read
 from checker.mesh.uris import MeshFile
@@ -45,11 +44,13 @@ class MeshFiles:
         meshes: Where they are found, and what is in them.
         uris: All that the robot names.
         cache: Where results are kept.
+        waiting: A child that waits for files to read.
     """
 
     meshes: PackageMeshes = field(repr=False)
     uris: tuple[Located[str], ...]
     cache: Cache
+    waiting: Child | None = None
 
     def of(self, uri: Located[str]) -> Looked:
         """Return what the file behind a URI looks like; the first call reads all files."""
@@ -94,8 +95,10 @@ class MeshFiles:
         if not unread:
             return _Reading(known, (), None)
         request = json.dumps([requests[key] for key in unread]).encode()
-        limits = Limits(SECONDS_FOR_ALL, MEMORY)
-        return _Reading(known, unread, Child("checker.display.files.worker", request, limits))
+        if self.waiting is None:
+            return _Reading(known, unread, looks(request))
+        self.waiting.give(request)
+        return _Reading(known, unread, self.waiting)
 
     @cached_property
     def _looked(self) -> dict[str, Looked]:
@@ -117,15 +120,18 @@ class MeshFiles:
             return None
 
 
-def surfaces_of(meshes: PackageMeshes, robot: Robot, cache: Cache) -> MeshFiles:
+def surfaces_of(
+    meshes: PackageMeshes, robot: Robot, cache: Cache, waiting: Child | None = None
+) -> MeshFiles:
     """Return what gives the looks of a robot's mesh files.
 
     Args:
         meshes: Those of the robot.
         robot: Its visuals and collisions are shown.
         cache: Where results are kept.
+        waiting: A child that waits for files to read.
     """
-    return MeshFiles(meshes, mesh_uris(robot), cache)
+    return MeshFiles(meshes, mesh_uris(robot), cache, waiting)
 
 
 def _answered(child: Child, number: int) -> list[Looked]:

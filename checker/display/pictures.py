@@ -9,18 +9,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from checker.cache import NO_CACHE, Cache, code_hash, key_of
-from checker.confined import Child, Died, Limits
+from checker.confined import Child, Died
 from checker.display.drawing.request import Shot, request_of
 from checker.display.drawing.shots import ground_of, shots_of
+from checker.display.early import PLATFORMS, artist
 from checker.display.scene import DisplayScene
 from checker.report.report import Picture
 from checker.versions import version_of
 
 WIDTH, HEIGHT = 640, 480
 """Pixels."""
-_LIMITS = Limits(20.0, 4_000_000_000)
-"""OpenGL takes 0.9 GB of address space for an empty scene, drivers of graphics cards more."""
-_PLATFORMS = ("egl", "osmesa")
 _KIND = "pictures"
 
 
@@ -30,10 +28,11 @@ class Drawing:
 
     Attributes:
         cache: Where pictures are kept.
+        child: Waits for a scene, or draws it.
     """
 
     cache: Cache = NO_CACHE
-    _child: Child | None = None
+    child: Child | None = None
     _request: bytes = b""
     _key: str = ""
     _known: list[bytes] | None = None
@@ -41,13 +40,13 @@ class Drawing:
 
     def begin(self) -> None:
         """Load what draws, while it is not known yet what."""
-        if self._child is None:
-            self._child = _artist(_PLATFORMS[0], None)
+        if self.child is None:
+            self.child = artist(PLATFORMS[0], None)
 
     def stop(self) -> None:
         """End what nobody waits for."""
-        if self._child is not None:
-            self._child.stop()
+        if self.child is not None:
+            self.child.stop()
 
     def give(self, scene: DisplayScene) -> None:
         """Say what to draw; it is drawn while the caller does something else."""
@@ -58,8 +57,8 @@ class Drawing:
             self._known = _files(self.cache.get(_KIND, self._key), len(self._shots))
             if self._known is None:
                 self.begin()
-                if self._child is not None:
-                    self._child.give(self._request)
+                if self.child is not None:
+                    self.child.give(self._request)
 
     @property
     def pictures(self) -> tuple[Picture, ...]:
@@ -72,21 +71,17 @@ class Drawing:
 
     def _drawn(self) -> list[bytes] | None:
         """Return what the child draws, and keep it; None where nothing can draw."""
-        if self._child is None or not self._shots:
+        if self.child is None or not self._shots:
             return None
-        for platform in _PLATFORMS:
-            is_first = platform == _PLATFORMS[0]
-            child = self._child if is_first else _artist(platform, self._request)
+        for platform in PLATFORMS:
+            is_first = platform == PLATFORMS[0]
+            child = self.child if is_first else artist(platform, self._request)
             said = _read(child.answer())
             drawn = _files(said, len(self._shots))
             if drawn is not None:
                 self.cache.put(_KIND, self._key, said)
                 return drawn
         return None
-
-
-def _artist(platform: str, request: bytes | None) -> Child:
-    return Child(f"checker.display.drawing.by_{platform}", request, _LIMITS)
 
 
 def _read(answer: bytes | Died) -> Any:

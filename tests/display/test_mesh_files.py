@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from checker.cache import Cache
-from checker.confined import Child
 from checker.display import mesh_files
+from checker.display.early import looks
 from checker.display.files.wire import Looked
 from checker.display.surface import GREY, Surface
 from checker.model.mesh import Mesh
@@ -254,7 +254,7 @@ def test_what_was_looked_at_is_not_read_again(
     }
     (first,) = surfaces(looked(files, tmp_path / "1", cache)["meshes/a.dae"])
     started: list[object] = []
-    monkeypatch.setattr(mesh_files, "Child", lambda *said: (started.append(said), Child(*said))[1])
+    monkeypatch.setattr(mesh_files, "looks", lambda said: (started.append(said), looks(said))[1])
     (again,) = surfaces(looked(files, tmp_path / "2", cache)["meshes/a.dae"])
     assert not started
     assert np.array_equal(first.vertices, again.vertices)
@@ -265,6 +265,21 @@ def test_what_was_looked_at_is_not_read_again(
     (painted,) = surfaces(looked(files, tmp_path / "3", cache)["meshes/a.dae"])
     assert started
     assert not np.array_equal(first.vertex_colours, painted.vertex_colours)
+
+
+@pytest.mark.parametrize("broken", [False, True])
+def test_files_may_share_a_picture(tmp_path: Path, *, broken: bool) -> None:
+    """It is read once for both, and looks as it does on one alone."""
+    painted = b"no picture" if broken else picture({(0, 0): RED, (1, 0): BLUE})
+    one = collada(TEXTURE, textured=True)
+    alone: dict[str, str | bytes] = {"meshes/a.dae": one, "meshes/a.png": painted}
+    both = {**alone, "meshes/b.dae": one + b"\n"}
+    (first,) = surfaces(looked(alone, tmp_path / "1")["meshes/a.dae"])
+    found = looked(both, tmp_path / "2")
+    for name in ("meshes/a.dae", "meshes/b.dae"):
+        (again,) = surfaces(found[name])
+        assert (again.vertex_colours is None) is (first.vertex_colours is None) is broken
+        assert broken or np.array_equal(first.vertex_colours, again.vertex_colours)
 
 
 def test_the_same_file_gives_the_same_arrays(tmp_path: Path) -> None:

@@ -148,7 +148,7 @@ def test_of_nothing_there_are_no_pictures() -> None:
 def test_without_opengl_there_are_no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere")
     monkeypatch.setenv("LIBGL_DRIVERS_PATH", "/nowhere")
-    monkeypatch.setattr("checker.display.pictures._PLATFORMS", ("egl",))
+    monkeypatch.setattr("checker.display.pictures.PLATFORMS", ("egl",))
     assert pictures_of(scene(surface())) == ()
 
 
@@ -179,7 +179,7 @@ def test_what_was_drawn_once_is_not_drawn_again(
     found = pictures(scene(surface()))
     if not found:
         pytest.skip("nothing here draws without a window: no EGL, no OSMesa")
-    monkeypatch.setattr("checker.display.pictures._PLATFORMS", ("nothing",))
+    monkeypatch.setattr("checker.display.pictures.PLATFORMS", ("nothing",))
     assert pictures(scene(surface())) == found
     assert pictures(scene(surface((0.1, 0.9, 0.1, 1.0)))) == ()
     for entry in tmp_path.rglob("*.json"):

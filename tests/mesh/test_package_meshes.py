@@ -11,6 +11,7 @@ import pytest
 
 from checker.cache import NO_CACHE, Cache
 from checker.confined import Child, Died
+from checker.display.early import EarlyChildren
 from checker.mesh import package_meshes
 from checker.mesh.early import early_child
 from checker.mesh.uris import MeshFile
@@ -239,7 +240,7 @@ def test_a_child_that_waits_reads_what_it_is_given(
         child = early_child(opened.packages[0], cache)
         assert child is not None
         monkeypatch.setattr(package_meshes, "Child", None)  # no other is started
-        robots = Subject(opened.packages[0], cache, mesh_child=child).robots
+        robots = Subject(opened.packages[0], cache, early=EarlyChildren(child)).robots
         assert isinstance(robots, tuple)
         (use,) = robots[0].mesh_uses
         assert isinstance(use.file, Mesh)
@@ -251,7 +252,7 @@ def test_a_child_that_waits_in_vain_is_ended(tmp_path: Path) -> None:
     with open_input(package) as opened:
         child = early_child(opened.packages[0], Cache(tmp_path / "cache"))
         assert child is not None
-        Subject(opened.packages[0], mesh_child=child).close()
+        Subject(opened.packages[0], early=EarlyChildren(child)).close()
     assert isinstance(child.answer(), Died)
 
 

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
+from checker.display.early import SECONDS_FOR_ALL
 from checker.display.files.collada import collada_pieces
 from checker.display.files.painting import FILE_LIMIT, picture, sampled
 from checker.display.files.piece import Piece, by_look
@@ -24,15 +27,25 @@ from checker.mesh.reader import load_libraries, read_surface
 from checker.mesh.surface import NoSurface
 from checker.package.reading import NotReadable, read_bytes
 
-SECONDS_FOR_ALL = 60
-"""By the clock, for the files of one robot."""
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+Pictures = Mapping[str, "Array | None"]
+"""Pixels (h × w × 4, uint8) by path; None where there are none."""
+_SHARED = 64
+"""Pictures that are kept, a megabyte each at most."""
+_HEIGHT = 4
+"""Bytes of a number."""
 _SMALL = 100
 """Triangles that each material of a file keeps where there is room."""
 
 
 def prepare() -> None:
-    """Import what every file needs."""
-    import_module("numpy")
+    """Import what most files need, before it is known which files there are."""
+    load_libraries(["mesh.dae"])
+    import_module("PIL.Image")
 
 
 def answer(request: bytes) -> bytes:
@@ -51,22 +64,52 @@ def answer(request: bytes) -> bytes:
     if any(each["pictures"] for each in asked):
         import_module("PIL.Image")
     until = monotonic() + SECONDS_FOR_ALL
-    return b"[" + b",".join(_read_apart(each, until) for each in asked) + b"]"
+    shared = _shared_pictures(asked, until)
+    return b"[" + b",".join(_read_apart(each, shared, until) for each in asked) + b"]"
 
 
-def _read_apart(asked: Mapping[str, Any], until: float) -> bytes:
+def _shared_pictures(asked: Iterable[Mapping[str, Any]], until: float) -> Pictures:
+    """Read the pictures that several files use: to decode one can take half a second."""
+    uses = Counter(path for each in asked for path in set(each["pictures"].values()))
+    shared = [path for path, number in uses.most_common(_SHARED) if number > 1]
+    return {path: _picture_apart(path, until) for path in shared}
+
+
+def _picture_apart(path: str, until: float) -> Array | None:
+    """Read a picture in a process of its own, as files are."""
+    import numpy as np
+
+    read = apart_until(partial(_pixels, path), SECONDS_FOR_ONE, until, SECONDS_FOR_ALL)
+    if isinstance(read, Ended) or not read:
+        return None
+    height = int.from_bytes(read[:_HEIGHT], "big")
+    return np.frombuffer(read[_HEIGHT:], np.uint8).reshape(height, -1, 4)
+
+
+def _pixels(path: str) -> bytes:
+    """Return a picture's height and its pixels; nothing if it cannot be read."""
+    pixels = _picture(path)
+    return b"" if pixels is None else len(pixels).to_bytes(_HEIGHT, "big") + pixels.tobytes()
+
+
+def _read_apart(asked: Mapping[str, Any], shared: Pictures, until: float) -> bytes:
     """Read one file in a process of its own: it takes no other file with it."""
-    work = partial(_as_bytes, asked)
+    work = partial(_as_bytes, asked, shared)
     read = apart_until(work, SECONDS_FOR_ONE, until, SECONDS_FOR_ALL)
     return json.dumps(to_json(read.reason)).encode() if isinstance(read, Ended) else read
 
 
-def _as_bytes(asked: Mapping[str, Any]) -> bytes:
-    return json.dumps(to_json(look(asked))).encode()
+def _as_bytes(asked: Mapping[str, Any], shared: Pictures) -> bytes:
+    return json.dumps(to_json(look(asked, shared))).encode()
 
 
-def look(asked: Mapping[str, Any]) -> Looked:
-    """Return what one file looks like; see `answer`."""
+def look(asked: Mapping[str, Any], shared: Pictures = MappingProxyType({})) -> Looked:
+    """Return what one file looks like.
+
+    Args:
+        asked: See `answer`.
+        shared: Pictures that are read already, by their path.
+    """
     data = read_bytes(Path(asked["file"]), asked["name"], SIZE_LIMIT)
     if isinstance(data, NotReadable):
         return data.reason
@@ -74,7 +117,7 @@ def look(asked: Mapping[str, Any]) -> Looked:
         pieces = by_look(_pieces(data, asked["name"], asked["materials"]))
     except NoSurface as none:
         return none.reason
-    painted = [_painted(piece, asked["pictures"]) for piece in pieces]
+    painted = [_painted(piece, asked["pictures"], shared) for piece in pieces]
     most = shares([len(each.faces) for each in painted], asked["triangles"], _SMALL)
     return tuple(
         thinned(each, count) for each, count in zip(painted, most, strict=True) if count > 0
@@ -92,11 +135,17 @@ def _pieces(data: bytes, name: str, materials: Iterable[str]) -> Iterable[Piece]
             return (Piece(corners=read_surface(data, name).corners),)
 
 
-def _painted(piece: Piece, pictures: Mapping[str, str]) -> Surface:
+def _picture(path: str) -> Array | None:
+    data = read_bytes(Path(path), path, FILE_LIMIT)
+    return picture(data) if isinstance(data, bytes) else None
+
+
+def _painted(piece: Piece, pictures: Mapping[str, str], shared: Pictures) -> Surface:
     """Return the triangles with the colours of their picture; without one, with their own."""
     path = pictures.get(piece.look.picture)
-    data = read_bytes(Path(path), path, FILE_LIMIT) if path and piece.places is not None else b""
-    pixels = picture(data) if isinstance(data, bytes) else None
+    pixels = None
+    if path and piece.places is not None:
+        pixels = shared[path] if path in shared else _picture(path)
     if pixels is None or piece.places is None:
         return joined(piece.corners, piece.look.colour, None, None)
     colours = sampled(pixels, piece.places)

@@ -1,0 +1,65 @@
+"""Children that are started before it is known what they are to do.
+
+They load their libraries while the parent loads its own, which takes each of them half a second.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from checker.confined import Child, Limits
+from checker.mesh.limits import MEMORY
+
+_DRAWS = Limits(20.0, 4_000_000_000)
+"""OpenGL takes 0.9 GB of address space for an empty scene, drivers of graphics cards more."""
+SECONDS_FOR_ALL = 60
+"""By the clock, for the looks of the mesh files of one robot."""
+_READS = Limits(SECONDS_FOR_ALL, MEMORY)
+PLATFORMS = ("egl", "osmesa")
+"""What draws without a window; the second where the first is missing."""
+
+
+@dataclass(frozen=True)
+class EarlyChildren:
+    """Children that wait.
+
+    Attributes:
+        meshes: For mesh files to measure.
+        artist: For a scene to draw.
+        looks: For mesh files to look at.
+    """
+
+    meshes: Child | None = None
+    artist: Child | None = None
+    looks: Child | None = None
+
+    def stop(self) -> None:
+        """End those that nobody has given anything."""
+        for child in (self.meshes, self.artist, self.looks):
+            if child is not None:
+                child.stop()
+
+
+NO_CHILDREN = EarlyChildren()
+
+
+def early_children(meshes: Child | None, *, display: bool) -> EarlyChildren:
+    """Start the children behind a display.
+
+    Args:
+        meshes: One that is there already.
+        display: Whether there is to be a display.
+    """
+    if not display:
+        return EarlyChildren(meshes)
+    return EarlyChildren(meshes, artist(PLATFORMS[0], None), looks(None))
+
+
+def artist(platform: str, request: bytes | None) -> Child:
+    """Start a child that draws; see `Child`."""
+    return Child(f"checker.display.drawing.by_{platform}", request, _DRAWS)
+
+
+def looks(request: bytes | None) -> Child:
+    """Start a child that reads what mesh files look like; see `Child`."""
+    return Child("checker.display.files.worker", request, _READS)
