@@ -9,7 +9,7 @@ import random
 import re
 import sys
 import threading
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -75,19 +75,13 @@ class Client:
                 if line.startswith(b"data: "):
                     yield json.loads(line.removeprefix(b"data: "))
 
-    def ends(self, ids: Collection[str]) -> dict[str, Mapping[str, Any]]:
+    def ends(self, ids: Iterable[str]) -> dict[str, Mapping[str, Any]]:
         """Wait until all checks are over, and return how they stand."""
         over: dict[str, Mapping[str, Any]] = {}
-        while len(over) < len(ids):
-            # In the order of the queue: what is behind the first one that goes on goes on as well.
-            for id in (id for id in ids if id not in over):
-                state = self.state(id)
-                if not state["final"]:
-                    break
-                over[id] = state
-            else:
-                continue
-            sleep(_POLL_SECONDS)
+        for id in ids:
+            while not (state := self.state(id))["final"]:
+                sleep(_POLL_SECONDS)
+            over[id] = state
         return over
 
     def _json(self, path: str) -> Mapping[str, Any]:
@@ -115,7 +109,8 @@ def noise(number: int, megabytes: float) -> bytes:
     from PIL import Image
 
     side = int((megabytes * 1e6 / 3) ** 0.5)
-    picture = Image.frombytes("RGB", (side, side), random.Random(number).randbytes(3 * side**2))
+    noise = random.Random(number).randbytes(3 * side**2)  # noqa: S311 - the same each time
+    picture = Image.frombytes("RGB", (side, side), noise)
     made = io.BytesIO()
     picture.save(made, "PNG", compress_level=1)
     return made.getvalue()
@@ -173,7 +168,8 @@ def watched() -> Iterator[Memory]:
 
 def below(pid: int) -> list[int]:
     """Return the ids of all processes that a process started, and of those that these started."""
-    parents = {each: _parent(each) for each in map(int, filter(str.isdigit, os.listdir("/proc")))}
+    names = (folder.name for folder in Path("/proc").iterdir())
+    parents = {each: _parent(each) for each in map(int, filter(str.isdigit, names))}
     found = [pid]
     for one in found:
         found += [each for each, parent in parents.items() if parent == one]

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 
 from checker.confined import end_with_parent
 
+_NICENESS = 10
+"""Below that of the processes of the service, as `nice` counts it."""
+
 
 @dataclass(frozen=True)
 class StageLimits:
@@ -43,7 +46,9 @@ def isolate(limits: StageLimits, parent: int) -> None:
     end_with_parent()
     if os.getppid() != parent:
         raise ProcessLookupError(f"process {parent} has ended")
-    seconds = int(limits.seconds)
+    # What people wait for at this very moment comes first: uploads, pages.
+    os.nice(_NICENESS)
+    seconds = max(1, int(limits.seconds))
     for kind, most in (
         (resource.RLIMIT_CPU, seconds),
         (resource.RLIMIT_AS, limits.memory),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import secrets
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import sqlalchemy as sa
 
@@ -36,7 +37,7 @@ class DurableJobs:
     store: Store
     retention_days: float = RETENTION_DAYS
 
-    @property
+    @cached_property
     def ledger(self) -> Ledger:
         """The book of checks."""
         return Ledger(self.engine)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import sqlalchemy as sa
@@ -87,12 +88,11 @@ class Ledger:
             "upload": order.upload,
             "name": order.name,
             "profile": order.profile,
-            "created": now(self.engine),
-            "expires": now(self.engine) + keep_seconds,
+            "keep_seconds": keep_seconds,
             **_values(step),
         }
         with self.engine.begin() as connection:
-            connection.execute(sa.insert(CHECKS).values(entry))
+            connection.execute(self._entering, entry)
             self._tell(connection, id, step)
             then(connection)
 
@@ -181,19 +181,40 @@ class Ledger:
 
     def _tell(self, connection: sa.Connection, id: str, step: Step) -> None:
         """Write an event, unless it was told before; the check's row is locked by now."""
-        told = sa.exists().where(EVENTS.c.check_id == id, EVENTS.c.key == step.key)
-        last = sa.select(sa.func.max(EVENTS.c.number)).where(EVENTS.c.check_id == id)
         event = {
-            "check_id": sa.literal(id),
+            "its_check": id,
+            "its_key": step.key,
+            "its_stage": step.stage.value,
+            "its_words": _said(step.words),
+            "its_data": dict(step.data),
+        }
+        connection.execute(self._telling, event)
+
+    @cached_property
+    def _entering(self) -> sa.Insert:
+        """What writes a check; to build a statement takes longer than to run it."""
+        moment = now(self.engine)
+        expires = moment + sa.bindparam("keep_seconds", type_=sa.Double)
+        return sa.insert(CHECKS).values(created=moment, expires=expires)
+
+    @cached_property
+    def _telling(self) -> sa.Insert:
+        """What writes an event."""
+        check = sa.bindparam("its_check", type_=sa.Text)
+        key = sa.bindparam("its_key", type_=sa.Text)
+        told = sa.exists().where(EVENTS.c.check_id == check, EVENTS.c.key == key)
+        last = sa.select(sa.func.max(EVENTS.c.number)).where(EVENTS.c.check_id == check)
+        event: dict[str, sa.ColumnElement[Any]] = {
+            "check_id": check,
             "number": sa.func.coalesce(last.scalar_subquery(), 0) + 1,
-            "key": sa.literal(step.key),
-            "stage": sa.literal(step.stage.value),
-            "words": sa.literal(_said(step.words)),
+            "key": key,
+            "stage": sa.bindparam("its_stage", type_=sa.Text),
+            "words": sa.bindparam("its_words", type_=sa.Text),
             "time": now(self.engine),
-            "data": sa.literal(dict(step.data), sa.JSON),
+            "data": sa.bindparam("its_data", type_=sa.JSON),
         }
         chosen = sa.select(*event.values()).where(~told)
-        connection.execute(sa.insert(EVENTS).from_select(list(event), chosen))
+        return sa.insert(EVENTS).from_select(list(event), chosen)
 
 
 def forget(connection: sa.Connection, ids: Collection[str]) -> None:
