@@ -96,7 +96,7 @@ def test_one_bad_path_does_not_keep_the_others_from_being_checked(
     report = run("nowhere", good, "--format", "json")
     assert [each["name"] for each in packages(report.stdout)] == [GOOD]
     assert json.loads(report.stdout)["not_opened"] == [
-        {"path": "nowhere", "reason": "does not exist; check the spelling"}
+        {"path": "nowhere", "reason": "does not exist; check the spelling", "failed": True}
     ]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import time
 from pathlib import Path
 
 import pytest
@@ -81,12 +80,10 @@ def test_missing_specification_is_the_package_s_own_lack(corpus: Path) -> None:
     assert found == Missing("specifications.md", "x1_sensor_config_6 has no specifications.md")
 
 
-def test_opening_takes_milliseconds(corpus: Path) -> None:
-    seconds = {}
+def test_every_package_is_opened(corpus: Path) -> None:
     for folder in sorted(path for path in corpus.iterdir() if path.is_dir()):
-        start = time.perf_counter()
         with open_input(folder) as opened:
-            assert opened.packages[0].kind
-            assert opened.packages[0].inherited is not None
-        seconds[folder.name] = time.perf_counter() - start
-    assert sorted(seconds.values())[len(seconds) // 2] < 0.010
+            (package,) = opened.packages
+            assert package.name == folder.name
+            assert package.kind
+            assert package.inherited is not None
