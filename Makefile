@@ -44,6 +44,10 @@ bench: .venv/tested $(VIEWER)
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/trial.py
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python -m bench.report
 	$(BIN)/python bench/hostile.py
+	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python -m bench.first_findings
+	$(BIN)/python -m bench.uploads
+	$(BIN)/python -m bench.uploads --postgres
+	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python -m bench.batch
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)
