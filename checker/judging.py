@@ -73,6 +73,7 @@ def judged(
         subject.close()
 
 
+@collection_put_off()
 def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[ReportedFinding, ...]:
     """Return what the rules find in a package; for what needs no more than that.
 
@@ -83,9 +84,8 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
     subject = Subject(package, cache, devices=known_devices(settings.devices))
     try:
         check_against_rules(settings, all_rules())
-        with collection_put_off():
-            judge = profile(settings.profile)
-            return run_and_set_aside(all_rules(), subject, judge, settings).findings
+        judge = profile(settings.profile)
+        return run_and_set_aside(all_rules(), subject, judge, settings).findings
     finally:
         subject.close()
 

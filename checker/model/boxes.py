@@ -8,11 +8,10 @@ from dataclasses import dataclass
 
 from checker.model.mesh import Meshes, NoMeshes
 from checker.model.shapes import Geometry
-from checker.model.support import extent
+from checker.model.support import own_extent
 from checker.model.transform import Transform, Vector
 
 _NO_MESHES = NoMeshes()
-_AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True)
@@ -55,11 +54,12 @@ def box_around(
     """
     low, high = [math.inf] * 3, [-math.inf] * 3
     for geometry, pose in shapes:
-        for i, axis in enumerate(_AXES):
-            reach = extent(geometry, pose, axis, meshes)
+        # A row of the rotation is an axis of the box as the shape sees it.
+        for i, (axis, middle) in enumerate(zip(pose.rotation, pose.translation, strict=True)):
+            reach = own_extent(geometry, axis, meshes)
             if reach is None:
                 return None
-            low[i], high[i] = min(low[i], reach[0]), max(high[i], reach[1])
+            low[i], high[i] = min(low[i], middle + reach[0]), max(high[i], middle + reach[1])
     if not all(math.isfinite(corner) for corner in (*low, *high)):
         return None
     return Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))

@@ -35,15 +35,15 @@ def extent(
     geometry: Geometry, pose: Transform, direction: Vector, meshes: Meshes = _NO_MESHES
 ) -> Extent | None:
     """Return how far a shape reaches against a direction and along it; as for `support`."""
-    own = _own_extent(geometry, pose.inverse.rotate(direction), meshes)
+    own = own_extent(geometry, pose.inverse.rotate(direction), meshes)
     if own is None:
         return None
     middle = sum(a * b for a, b in zip(direction, pose.translation, strict=True))
     return middle + own[0], middle + own[1]
 
 
-def _own_extent(geometry: Geometry, local: Vector, meshes: Meshes) -> Extent | None:
-    """Return the extent of a shape about its own centre, in its own frame."""
+def own_extent(geometry: Geometry, local: Vector, meshes: Meshes) -> Extent | None:
+    """Return the extent of a shape about its own centre, along a direction of its own frame."""
     x, y, z = local
     sideways = math.hypot(x, y)
     reach: float | None = None

@@ -98,6 +98,10 @@ class Held:
             self._entries.setdefault(entry.rule, []).append(entry)
         self._stale = dict(self._entries)
 
+    def knows(self, rule: str) -> bool:
+        """Say whether the baseline holds findings of a rule."""
+        return rule in self._entries
+
     def entries_of(self, rule: str, spots: Sequence[Spot]) -> list[BaselineEntry | None]:
         """Return the entry of each spot that a rule finds; None for what is new."""
         entries = self._entries.get(rule, [])

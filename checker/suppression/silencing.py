@@ -80,6 +80,8 @@ class Silencer:
             spot_of: Returns how the baseline knows a finding.
         """
         silences = [self._by_wish(rule, each.places[0]) for each in found]
+        if not self.held.knows(rule):
+            return silences
         # A place that is reported twice in the same words is one place of the finding.
         spots = {
             at: (each.places[0], spot_of(each))
