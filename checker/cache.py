@@ -13,10 +13,11 @@ import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cache as once
 from pathlib import Path
 from typing import Any
+
+from checker.record import record
 
 SIZE_LIMIT = 300_000_000
 """Bytes on disk; the entries that were used least recently go first."""
@@ -71,7 +72,7 @@ def _state(path: str) -> str:
     return f"{path} {found.st_size} {found.st_mtime_ns}"
 
 
-@dataclass(frozen=True)
+@record()
 class Cache:
     """Results by kind and key.
 

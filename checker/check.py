@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import chain
 from pathlib import Path
 from time import perf_counter
@@ -16,6 +16,7 @@ from checker.errors import InvalidSettings, UnreadableInput
 from checker.package.opening import open_input
 from checker.package.package import Package
 from checker.recall import memory_key, recalled, remember
+from checker.record import record
 from checker.report.report import (
     NotOpened,
     PackageReport,
@@ -66,7 +67,7 @@ def check_paths(
     return _report([_check_or_say_why_not(task) for task in tasks])
 
 
-@dataclass(frozen=True)
+@record()
 class Task:
     """What one process does at a time.
 

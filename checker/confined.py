@@ -11,9 +11,10 @@ import subprocess
 import sys
 import tempfile
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
+
+from checker.record import record
 
 _OWN_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 ANSWER_LIMIT = 200_000_000
@@ -22,7 +23,7 @@ _STARTUP_SECONDS = 10.0
 """For the interpreter and its imports, on a machine that does something else as well."""
 
 
-@dataclass(frozen=True)
+@record()
 class Limits:
     """What a child may use.
 
@@ -40,7 +41,7 @@ class Limits:
         return 4.0 * self.seconds + _STARTUP_SECONDS
 
 
-@dataclass(frozen=True)
+@record()
 class Died:
     """No answer came.
 

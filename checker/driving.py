@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from checker.cache import Cache
 from checker.model.robot import Robot
 from checker.parts import NotAtHand
+from checker.record import record
 from checker.stages import Stages
 from checker.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.trial.trial import Trial
@@ -22,7 +22,7 @@ ROBOTS_LIMIT = 8
 """Of one file; a world with more of them is no submission, and each takes about a second."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Driving:
     """The trials of some robots."""
 

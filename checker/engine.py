@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from itertools import product
 from typing import Any
@@ -14,6 +14,7 @@ from checker.options import options_of
 from checker.page import parse_page
 from checker.parts import NotAtHand, Parts
 from checker.profiles import Profile
+from checker.record import record
 from checker.report.report import NO_TRIAL, Cause, NotChecked, ReportedFinding, Suppressed
 from checker.report.wording import shortened
 from checker.rule import Context, Finding, Rule, Unchecked
@@ -26,7 +27,7 @@ TEXT_LIMIT = 1000
 """Characters of a message, note or reason; names in a package may be longer than any of them."""
 
 
-@dataclass(frozen=True)
+@record()
 class Outcome:
     """What the rules said, and which of them could not look.
 

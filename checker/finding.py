@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
+
+from checker.record import record
 
 SNIPPET_LIMIT = 240
 """Characters of a line that a place keeps."""
@@ -26,7 +27,7 @@ class Severity(enum.StrEnum):
         return list(Severity).index(self)
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Place:
     """A stretch of one file.
 
@@ -63,7 +64,7 @@ class Safety(enum.StrEnum):
     UNSAFE = "unsafe"
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Edit:
     """Replace the text at `place` by `replacement`.
 
@@ -79,7 +80,7 @@ class Edit:
     original: str
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Fix:
     """Text edits that together mend a finding."""
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import posixpath
-from dataclasses import dataclass
 
 from checker.model.paperwork import SdfEntry, read_model_config
 from checker.model.sdf.version import parse_version
 from checker.package.package import Package
+from checker.record import record
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
 
-@dataclass(frozen=True)
+@record()
 class ModelIncludes:
     """Finds the model file behind the URI of an `<include>`: an `IncludeReader`."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import posixpath
 from collections import ChainMap
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import chain
 from types import MappingProxyType
 
@@ -17,6 +16,7 @@ from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.parts import NotAtHand
+from checker.record import record
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
 from checker.spawner.reader import EXECUTABLES_ARGUMENTS
@@ -112,7 +112,7 @@ def _reason(include: UnresolvedInclude) -> str:
     return f"{include.file} is not read: {include.reason}"
 
 
-@dataclass(frozen=True)
+@record()
 class LaunchFiles:
     """Finds launch files, and what they name, in the package and its siblings."""
 

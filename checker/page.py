@@ -6,10 +6,10 @@ paragraphs: `Fix:` and `Source:`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from checker.record import record
 
 
-@dataclass(frozen=True)
+@record()
 class Page:
     """The parts of a rule's page.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.model.paperwork import (
@@ -13,13 +12,14 @@ from checker.model.paperwork import (
 )
 from checker.package.package import Package
 from checker.package.reading import NotReadable
+from checker.record import record
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Paperwork:
     """What a package's own paperwork says; nothing here is inherited."""
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
+from checker.record import record
 
-@dataclass(frozen=True)
+
+@record()
 class NotAtHand:
     """A part of a package that a rule asks for and that cannot be had.
 

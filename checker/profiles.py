@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 
 from checker.finding import Severity
+from checker.record import record
 from checker.resources import table
 from checker.rule import Context, Rule
 
 
-@dataclass(frozen=True)
+@record()
 class Profile:
     """What is judged, for which target.
 

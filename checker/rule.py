@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, Protocol, get_type_hints
 
 from checker.finding import Fix, Place, Safety, Severity
+from checker.record import record
 from checker.source.text import Span
 
 __all__ = [
@@ -38,7 +39,7 @@ class HasSpan(Protocol):
 Where = HasSpan | Place
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Finding:
     """What a rule says about one place; the engine adds the rule, its severity and its page.
 
@@ -57,7 +58,7 @@ class Finding:
     fix: Fix | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Unchecked:
     """Something that a rule should look at and cannot; the reason ends the sentence."""
 
@@ -105,7 +106,7 @@ def replace_text(where: HasSpan, replacement: str, safety: Safety = Safety.SAFE)
     return Fix(safety, (where.span.replaced_by(replacement),))
 
 
-@dataclass(frozen=True)
+@record()
 class Context:
     """What a rule may ask about the check itself.
 
@@ -123,7 +124,7 @@ class Context:
 Check = Callable[..., Findings]
 
 
-@dataclass(frozen=True)
+@record()
 class Rule:
     """A rule of the book: one function, and what is known about it.
 

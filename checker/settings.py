@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from checker.model.device_form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
 from checker.package.reading import NotReadable, read_text
 from checker.profiles import profile_names
+from checker.record import record
 from checker.rule import Rule
 from checker.suppression.baseline import Baseline, read_baseline
 from checker.suppression.entries import SettingsEntry, entries_of
@@ -30,7 +31,7 @@ URDF_PROFILE = "urdf"
 DEVICES_LIMIT = 100
 
 
-@dataclass(frozen=True)
+@record()
 class Settings:
     """What to check and how strictly.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import posixpath
 import re
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
@@ -12,6 +11,7 @@ from checker.package.inheritance import SPAWNER
 from checker.package.package import Package
 from checker.package.reading import NotReadable
 from checker.parts import NotAtHand
+from checker.record import record
 from checker.source.fragments import parse_fragments, unwrapped
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText, Span
@@ -20,7 +20,7 @@ from checker.spawner.emitted import EmittedText
 from checker.spawner.signals import Unread
 
 
-@dataclass(frozen=True)
+@record()
 class WorkspaceFiles:
     """Gives the spawner reader the texts of a package and of its siblings."""
 
@@ -52,7 +52,7 @@ class WorkspaceFiles:
         return found.root.name if found is not None else None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class EmittedXml:
     """What a function of the spawner emits, as XML.
 
@@ -75,7 +75,7 @@ class EmittedXml:
         return [Span(span.source, span.start + w.start(), span.start + w.end()) for w in words]
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SpawnedXml(EmittedXml):
     """What `spawner` emits: the robot and the plugins that it gets."""
 
@@ -96,7 +96,7 @@ class SpawnedXml(EmittedXml):
         return self.document.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class StartedXml(EmittedXml):
     """What `rosExecutables` emits: the commands that start the robot's ROS nodes."""
 

@@ -9,11 +9,12 @@ from time import perf_counter
 
 from checker.mesh.package_meshes import PackageMeshes
 from checker.model.mesh import Mesh, MeshFault
+from checker.record import record
 from checker.saying import Say, say_nothing
 from checker.source.text import Located
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Stages:
     """The stages of one check.
 

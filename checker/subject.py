@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
@@ -41,6 +41,7 @@ from checker.package.package import Package
 from checker.package.reading import NotReadable
 from checker.paperwork import Paperwork
 from checker.parts import NotAtHand
+from checker.record import record
 from checker.source.positions import XmlFault
 from checker.source.xml import XmlDocument
 from checker.spawner.reader import Spawner, read_spawner
@@ -60,7 +61,7 @@ _WITHOUT_ROBOT = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Subject:
     """One package under review.
 

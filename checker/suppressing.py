@@ -7,12 +7,12 @@ entries nothing was found of.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from checker.discovery import all_rules
 from checker.engine import Outcome, joined, run_rules
 from checker.parts import NotAtHand, Parts
 from checker.profiles import Profile
+from checker.record import record
 from checker.rule import Rule
 from checker.settings import Settings
 from checker.subject import Subject
@@ -20,7 +20,7 @@ from checker.suppression.parts import BaselineUse, Suppressions
 from checker.suppression.silencing import Silencer
 
 
-@dataclass(frozen=True)
+@record()
 class _With:
     """The parts of a package, and one that is known only at the end."""
 

@@ -13,6 +13,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 LAYERS = (
+    {"record"},
     {"cache", "collection", "confined", "errors", "finding", "fingerprint", "loopback"},
     {"page", "parts", "resources", "saying", "versions"},
     {"output", "report", "source"},
@@ -40,7 +41,7 @@ LAYERS = (
 
 FOR_RULES = {
     *("dynamics", "finding", "flattening", "launching", "model", "package", "paperwork"),
-    *("resources", "rule", "source", "spawner", "spawning", "suppression", "trial"),
+    *("record", "resources", "rule", "source", "spawner", "spawning", "suppression", "trial"),
 }
 """What a rule may import: the parts of a package, and what a rule's author reads."""
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.launching import LaunchFiles, joined
 from checker.model.launch.expand import expand_launch
 from checker.model.launch.graph import LaunchFaultKind, LaunchGraph
 from checker.package.package import Package
+from checker.record import record
 from checker.source.xml import XmlDocument
 
 MAX_FILES = 60
@@ -15,7 +14,7 @@ MAX_PARTS = 20_000
 """Nodes, parameters and includes of all launch files together."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LaunchEntry:
     """A launch file that no other one of the package starts, with what it starts."""
 
@@ -23,7 +22,7 @@ class LaunchEntry:
     graph: LaunchGraph
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LaunchEntries:
     """What a package can be started with.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from checker.convert.notes import Notes
 from checker.dynamics.hanging import hang
@@ -12,9 +12,10 @@ from checker.model.transform import Transform
 from checker.model.tree import WORLD, Tie
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.lumping import Lumping
+from checker.record import record
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class PartOfBody:
     """A link of the source within a body.
 
@@ -26,7 +27,7 @@ class PartOfBody:
     pose: Transform
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Body:
     """A link of the result.
 
@@ -49,7 +50,7 @@ class Body:
         return sum(part.link.mass for part in self.parts)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Bodies:
     """The bodies of a robot.
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from lxml import etree
 
 from checker.model.components import Plugin
 from checker.model.transform import Transform
+from checker.record import record
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class CarriedPlugin:
     """A plugin of the source that stands in the result, for the caller to judge.
 
@@ -36,7 +37,7 @@ class CarriedPlugin:
             parent.remove(self.node)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Lumped:
     """Where a link of the source is to be found in the result.
 
@@ -49,7 +50,7 @@ class Lumped:
     pose: Transform
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Conversion:
     """A converted robot.
 

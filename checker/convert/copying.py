@@ -17,13 +17,14 @@ from checker.model.sdf.links import read_plugin
 from checker.model.sdf.scope import Scope
 from checker.model.transform import Transform
 from checker.model.values import ValueReader
+from checker.record import record
 from checker.source.xml import Element
 
 _NAMED = frozenset({"sensor", "light"})
 _POSED = COPIED - {"plugin", "audio_sink"}
 
 
-@dataclass(frozen=True)
+@record()
 class CarriedFrom:
     """What `CarriedPlugin` says of the place of a plugin."""
 

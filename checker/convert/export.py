@@ -5,7 +5,6 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from checker.cache import NO_CACHE, Cache, cache_folder
@@ -19,6 +18,7 @@ from checker.output import EXIT_CLEAN, say_progress, show, write
 from checker.package.opening import open_input
 from checker.package.package import Package
 from checker.parts import NotAtHand
+from checker.record import record
 from checker.report.wording import plain, shortened
 from checker.subject import Subject
 
@@ -26,7 +26,7 @@ _MODEL = re.compile(r"(?:model|package)://")
 _SUFFIXES = {"urdf": ".urdf", "mjcf": ".xml"}
 
 
-@dataclass(frozen=True)
+@record()
 class Exported:
     """The robot in another format.
 

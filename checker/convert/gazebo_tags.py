@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from checker.convert.notes import Notes
 from checker.model.robot import Robot
 from checker.model.urdf.description import UrdfDescription
+from checker.record import record
 from checker.source.xml import Element
 
 _COLLISION: Mapping[str, tuple[str, ...]] = {
@@ -52,7 +53,7 @@ _EVERY_SHAPE = frozenset({"visual", "collision"})
 _FALSE = ("0", "false")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Setting:
     """A value to be written at a path below an element of the result.
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from checker.convert.bodies import PartOfBody
 from checker.model.transform import Transform, Vector
+from checker.record import record
 
 _PLACES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 
-@dataclass(frozen=True)
+@record()
 class JoinedInertial:
     """What a body weighs.
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from lxml import etree
 
 from checker.model.robot import Robot
+from checker.record import record
 
 _BLANKS = " \t\r\n"
 
 
-@dataclass(frozen=True)
+@record()
 class Naming:
     """What goes in front of names in the source.
 

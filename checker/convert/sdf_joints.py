@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lxml import etree
 
@@ -12,6 +11,7 @@ from checker.convert.gazebo_tags import Setting
 from checker.convert.notes import Notes
 from checker.convert.writing import add, child_of, exact, exact_numbers
 from checker.model.components import UNLIMITED, Axis, Joint
+from checker.record import record
 
 _TYPES = {
     "revolute": "revolute",
@@ -21,7 +21,7 @@ _TYPES = {
 }
 
 
-@dataclass(frozen=True)
+@record()
 class Ends:
     """The links that a joint ties, by their names in the result."""
 

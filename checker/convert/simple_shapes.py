@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from checker.model.shapes import Geometry
 from checker.model.transform import Transform
+from checker.record import record
 from checker.source.text import Located
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Shape:
     """One shape of what replaces a geometry.
 

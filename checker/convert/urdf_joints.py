@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lxml import etree
 
@@ -15,6 +14,7 @@ from checker.model.components import UNLIMITED, Axis, Joint
 from checker.model.robot import Robot
 from checker.model.transform import Transform, Vector
 from checker.model.tree import Tie
+from checker.record import record
 
 _NEAR = 1e-12
 """Metres between a joint and its child's origin that make no difference."""
@@ -22,7 +22,7 @@ _AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _ENDLESS = (-math.inf, math.inf)
 
 
-@dataclass(frozen=True)
+@record()
 class Step:
     """One joint of URDF.
 
@@ -83,7 +83,7 @@ def _steps(joint: Joint, motion: Motion, place: Transform) -> Sequence[Step]:
     return [Step("continuous" if endless else "revolute", place, axis, limits)]
 
 
-@dataclass(frozen=True)
+@record()
 class Named:
     """A joint of URDF and the links that it ties, by name."""
 

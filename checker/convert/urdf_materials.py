@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from lxml import etree
 
@@ -13,6 +12,7 @@ from checker.convert.writing import add, number, tidy
 from checker.model.components import Visual
 from checker.model.robot import Robot
 from checker.model.values import ValueReader
+from checker.record import record
 from checker.resources import table
 from checker.source.xml import Element
 
@@ -22,7 +22,7 @@ _BYTE = 255.0
 _COLOURS = ("ambient", "diffuse", "specular", "emissive")
 
 
-@dataclass(frozen=True)
+@record()
 class Paint:
     """How a visual looks.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from checker.cache import Cache
@@ -13,12 +13,13 @@ from checker.display.mesh_files import MeshFiles, surfaces_of
 from checker.display.pictures import Drawing
 from checker.display.surface import NoSurfaces
 from checker.model.robot import Robot
+from checker.record import record
 from checker.report.report import Display
 from checker.stages import Stages, TimedMeshes
 from checker.trial.trial import Trial
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Displaying:
     """The first of some robots, to be shown.
 

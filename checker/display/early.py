@@ -5,10 +5,9 @@ They load their libraries while the parent loads its own, which takes each of th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.confined import Child, Limits
 from checker.mesh.limits import MEMORY
+from checker.record import record
 
 _DRAWS = Limits(20.0, 4_000_000_000)
 """OpenGL takes 0.9 GB of address space for an empty scene, drivers of graphics cards more."""
@@ -19,7 +18,7 @@ PLATFORMS = ("egl", "osmesa")
 """What draws without a window; the second where the first is missing."""
 
 
-@dataclass(frozen=True)
+@record()
 class EarlyChildren:
     """Children that wait.
 

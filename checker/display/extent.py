@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from checker.display.scene import DisplayScene, Item, Layer
 from checker.display.surface import Surface
 from checker.model.transform import Transform, Vector
+from checker.record import record
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,7 +23,7 @@ _UNSEEN = 0.5
 """Metres: at least the size of a robot of which nothing is to see."""
 
 
-@dataclass(frozen=True)
+@record()
 class Sphere:
     """A sphere around something, metres."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 from checker.cache import Cache
@@ -18,6 +18,7 @@ from checker.mesh.reading_child import all_read
 from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh, MeshFault
 from checker.model.robot import Robot
+from checker.record import record
 from checker.source.text import Located
 
 FOR_ONE = 40_000
@@ -27,7 +28,7 @@ FOR_ALL = 150_000
 _KIND = "surfaces"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Reading:
     """What is known already, by key, and a child that reads the rest, in this order."""
 
@@ -36,7 +37,7 @@ class _Reading:
     child: Child | None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class MeshFiles:
     """Gives what the mesh files of a robot look like: a `Surfaces`.
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from checker.display.surface import Surface
 from checker.model.transform import Transform, Vector, rotation_from_quaternion
+from checker.record import record
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -28,7 +29,7 @@ class Layer(enum.StrEnum):
     VIEW = "view"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Item:
     """One thing to see.
 
@@ -49,7 +50,7 @@ class Item:
     scale: Vector = (1.0, 1.0, 1.0)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LinkNode:
     """A link with what hangs on it.
 
@@ -69,7 +70,7 @@ class LinkNode:
     carrier: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Tracks:
     """How links move in the world (z up, the ground at z = 0).
 
@@ -82,7 +83,7 @@ class Tracks:
     poses: Mapping[str, Array] = field(repr=False)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class DisplayScene:
     """All there is to see of a robot.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import posixpath
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from checker.display.notes import short
 from checker.display.primitives import box, capsule, cone, cylinder, rectangle, sphere
@@ -13,12 +13,13 @@ from checker.model.components import Collision, Visual
 from checker.model.mesh import MeshFault
 from checker.model.shapes import Geometry
 from checker.model.transform import Rotation, Transform, Vector
+from checker.record import record
 from checker.trial.mjcf_text import FAR, usable
 
 _NOTHING = ("", "empty")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Drawn:
     """A shape as triangles.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 from checker.display.notes import Notes, short
@@ -12,13 +12,14 @@ from checker.display.surface import Surfaces
 from checker.model.components import Link, Part, Pose
 from checker.model.robot import Robot
 from checker.model.transform import Transform
+from checker.record import record
 from checker.trial.mjcf_text import well_placed
 
 Hung = Iterator[tuple[str, Item]]
 """Items, each with the scoped name of the link that it hangs on."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Showing:
     """A robot to be shown.
 

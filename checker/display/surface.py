@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any, Protocol
 
+from checker.record import record
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ Colour = tuple[float, float, float, float]
 GREY: Colour = (0.7, 0.7, 0.7, 1.0)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Surface:
     """Triangles of one material.
 
@@ -50,7 +51,7 @@ class Surfaces(Protocol):
         ...
 
 
-@dataclass(frozen=True)
+@record()
 class NoSurfaces:
     """For a robot whose mesh files nobody reads."""
 

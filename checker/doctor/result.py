@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
+
+from checker.record import record
 
 INSTALL_AGAIN = "install subt-check again, with its libraries"
 
@@ -16,7 +17,7 @@ class State(StrEnum):
     PROBLEM = "problem"
 
 
-@dataclass(frozen=True)
+@record()
 class Result:
     """What was found.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.dynamics.contact import contact_points
 from checker.dynamics.polygon import Point, convex_hull, margin
@@ -12,6 +11,7 @@ from checker.model.components import Collision, Link
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.model.transform import Transform, Vector
+from checker.record import record
 
 _TOUCHES = 0.01
 """Metres above the lowest point up to which points stand on the ground: wheels sink in, and models
@@ -19,7 +19,7 @@ are not drawn more precisely."""
 _DOWN: Vector = (0.0, 0.0, -1.0)
 
 
-@dataclass(frozen=True)
+@record()
 class Stand:
     """What a robot stands on.
 

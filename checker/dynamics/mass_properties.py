@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
 from checker.model.transform import Vector
+from checker.record import record
 from checker.source.text import Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LinkInertia:
     """The inertia of one link.
 
@@ -41,7 +41,7 @@ class LinkInertia:
         return (inertia or inertial or self.link.element).span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class MassProperties:
     """A robot in the pose that it starts in.
 

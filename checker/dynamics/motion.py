@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import enum
 import math
-from dataclasses import dataclass
 
 from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.model.transform import Vector
+from checker.record import record
 
 
 class Freedom(enum.StrEnum):
@@ -37,7 +37,7 @@ AXES = {
 """How many axes the joints need that move, by their type."""
 
 
-@dataclass(frozen=True)
+@record()
 class Motion:
     """One way in which a joint moves.
 

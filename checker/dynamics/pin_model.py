@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from checker.dynamics.hanging import Hanging, hang
@@ -13,6 +12,7 @@ from checker.model.components import Link
 from checker.model.robot import Robot
 from checker.model.transform import Transform, Vector
 from checker.model.tree import WORLD, Tie
+from checker.record import record
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     Matrix = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@record()
 class Degree:
     """One degree of freedom.
 
@@ -38,7 +38,7 @@ class Degree:
     free: bool = False
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class PinModel:
     """A robot in Pinocchio's words; its configuration `neutral` is the pose that it starts in.
 

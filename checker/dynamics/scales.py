@@ -8,12 +8,13 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from checker.cache import Cache, code_hash, key_of
 from checker.dynamics.inertia import placed_inertia, principal_moments, pseudo_eigenvalue
 from checker.model.transform import Transform, Vector
+from checker.record import record
 from checker.versions import version_of
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ _KIND = "weights"
 _LIBRARIES = ("numpy", "pin")
 
 
-@dataclass(frozen=True)
+@record()
 class Body:
     """What is put on the scales.
 
@@ -44,7 +45,7 @@ class Body:
         return [self.mass, self.moments, pose]
 
 
-@dataclass(frozen=True)
+@record()
 class Weight:
     """What the scales say of one body; see `LinkInertia`."""
 
@@ -52,7 +53,7 @@ class Weight:
     pseudo_eigenvalue: float
 
 
-@dataclass(frozen=True)
+@record()
 class Weights:
     """What they say of some bodies.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +14,13 @@ from checker.fixing.writing import write_files
 from checker.judging import findings_of
 from checker.package.opening import open_input
 from checker.patching.rounds import Fixed, Judge, fix_package
+from checker.record import record
 from checker.settings import Settings
 
 _ARCHIVES_STAY = "unpack it first; --diff shows what would change"
 
 
-@dataclass(frozen=True)
+@record()
 class FixedPackage:
     """A package and what fixing it comes to; `shown` is its path as the user would write it."""
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.finding import Edit
@@ -22,6 +21,7 @@ from checker.model.robot import Robot
 from checker.model.sdf.links import read_plugin
 from checker.model.sdf.version import sdf_version
 from checker.model.transform import Transform
+from checker.record import record
 from checker.source.insertion import with_blanks
 from checker.source.text import Located, SourceText
 from checker.source.xml import Element
@@ -33,7 +33,7 @@ _FRAMES_TOO = (1, 7)
 """SDF version from which on poses can name the frame that they are written in."""
 
 
-@dataclass(frozen=True)
+@record()
 class Flattening:
     """A robot, and what its parts are to be called; `obstacle` must find nothing in the way."""
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.flattening.draft import Draft
 from checker.flattening.names import FlatNames
 from checker.model.frames import MODEL_FRAME
+from checker.record import record
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -24,7 +24,7 @@ _NAMED = ("parent", "child", "gearbox_reference_body", "gripper_link", "palm_lin
 """Elements whose text names a part."""
 
 
-@dataclass(frozen=True)
+@record()
 class Holder:
     """A model whose parts are being moved.
 

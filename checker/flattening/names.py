@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from checker.model.components import Frame, Joint, Link, Model
 from checker.model.frames import MODEL_FRAME
 from checker.model.robot import Robot
+from checker.record import record
 
 SEPARATOR = "__"
 """Between the name of a model and those of its parts, as in `arm__wrist`."""
 _SCOPE = "::"
 
 
-@dataclass(frozen=True)
+@record()
 class FlatNames:
     """New names by scoped names; what stands in the outermost model keeps its own."""
 

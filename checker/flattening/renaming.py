@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.finding import Edit
 from checker.flattening.draft import Draft
@@ -11,11 +10,12 @@ from checker.flattening.holder import Holder
 from checker.flattening.names import FlatNames
 from checker.flattening.references import named_by
 from checker.model.robot import Robot
+from checker.record import record
 
 _PARTS = ("link", "joint", "frame", "gripper")
 
 
-@dataclass(frozen=True)
+@record()
 class Renaming:
     """A robot and the new names of its parts."""
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import os
 from contextlib import suppress
-from dataclasses import dataclass
 
 from checker.confined import end_with_parent
+from checker.record import record
 
 _NICENESS = 10
 """Below that of the processes of the service, as `nice` counts it."""
 
 
-@dataclass(frozen=True)
+@record()
 class StageLimits:
     """What the check of an upload may use.
 

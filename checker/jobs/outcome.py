@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from checker.record import record
 
-@dataclass(frozen=True)
+
+@record()
 class Checked:
     """A report is in the store.
 
@@ -22,7 +23,7 @@ class Checked:
     words: str
 
 
-@dataclass(frozen=True)
+@record()
 class Refused:
     """The upload cannot be checked, and its sender can mend that.
 
@@ -33,7 +34,7 @@ class Refused:
     reason: str
 
 
-@dataclass(frozen=True)
+@record()
 class Died:
     """The checker could not finish: it ran into a limit, or into a fault of its own.
 
@@ -44,7 +45,7 @@ class Died:
     reason: str
 
 
-@dataclass(frozen=True)
+@record()
 class Cancelled:
     """Somebody wanted it to end."""
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Protocol
+
+from checker.record import record
 
 
 class Stage(enum.StrEnum):
@@ -29,7 +31,7 @@ class Stage(enum.StrEnum):
         return self in (Stage.DONE, Stage.REFUSED, Stage.FAILED, Stage.CANCELLED)
 
 
-@dataclass(frozen=True)
+@record()
 class Order:
     """A check that somebody asks for.
 
@@ -44,7 +46,7 @@ class Order:
     profile: str = ""
 
 
-@dataclass(frozen=True)
+@record()
 class State:
     """Where a check stands.
 
@@ -72,7 +74,7 @@ class State:
     expires: float = 0.0
 
 
-@dataclass(frozen=True)
+@record()
 class Event:
     """Something that happened to a check; numbers go up by one from 1."""
 
@@ -93,7 +95,7 @@ class JobsUnreachable(Exception):
     """The database does not answer; any of the calls may raise it."""
 
 
-@dataclass(frozen=True)
+@record()
 class Alive:
     """What is known of the engine.
 

@@ -7,15 +7,16 @@ import signal
 import subprocess
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic, sleep
+
+from checker.record import record
 
 _GLANCE, _LOOK = 0.05, 0.2
 """Seconds between looks at the child, and between questions whether it is still wanted."""
 
 
-@dataclass(frozen=True)
+@record()
 class Ended:
     """How it ended.
 

@@ -6,16 +6,16 @@ import os
 import resource
 import signal
 from collections.abc import Callable
-from dataclasses import dataclass
 from time import monotonic
 
 from checker.confined import end_with_parent
+from checker.record import record
 
 _OUT_OF_MEMORY, _FAILED = 71, 70
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
 
 
-@dataclass(frozen=True)
+@record()
 class Ended:
     """No result came; the reason ends a sentence whose subject is the work."""
 

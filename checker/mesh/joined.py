@@ -5,8 +5,10 @@ As trimesh finds it, down to the order of the corners, but without a third of a 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
+
+from checker.record import record
 
 if TYPE_CHECKING:
     from numpy import bool_, float64, int64
@@ -16,7 +18,7 @@ _PER_METRE = 1e8
 """Corners that are one when rounded to 10 nm, as in trimesh, are the same."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Joined:
     """Corners, and triangles that name them.
 

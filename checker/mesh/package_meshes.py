@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import posixpath
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from itertools import islice
 
@@ -22,6 +22,7 @@ from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.package.reading import NotReadable, read_bytes
+from checker.record import record
 from checker.source.text import Located
 
 _MATERIAL_FILES = 20
@@ -31,7 +32,7 @@ _UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is no mesh of this robot")
 _Read = Mesh | MeshFault
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Reading:
     """Meshes that are known, and a child that reads the others.
 
@@ -50,7 +51,7 @@ class _Reading:
     child: Child | None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class PackageMeshes:
     """Gives the meshes of a robot: a `Meshes`.
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.mesh import MeshTrouble
+from checker.record import record
 
 if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Surface:
     """What a reader of one format finds in a file.
 

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import posixpath
 import re
-from dataclasses import dataclass
 from pathlib import Path
 
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.package.package import Package
+from checker.record import record
 
 _SCHEME = re.compile(r"(?:model|package)://([^/]+)/(.*)", re.DOTALL)
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
-@dataclass(frozen=True)
+@record()
 class MeshFile:
     """A file within the workspace.
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from checker.model.components import Sensor
 from checker.model.launch.topics import Channel, sensor_channels
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
+from checker.record import record
 
 _ANY_ROBOT = "/world/*/model/*/"
 _ROBOT = "/world/$(arg world_name)/model/$(arg name)/"
@@ -20,7 +20,7 @@ _NARROW = math.radians(30)
 """Greatest angle of a lidar that measures one distance."""
 
 
-@dataclass(frozen=True)
+@record()
 class Bridge:
     """A node that passes one topic on.
 
@@ -53,7 +53,7 @@ class Bridge:
         return _optical(self.info_topic)
 
 
-@dataclass(frozen=True)
+@record()
 class SensorBridges:
     """What is passed on of one sensor.
 

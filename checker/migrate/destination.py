@@ -7,15 +7,15 @@ import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 
 from checker.migrate.wishes import NotMigrated
+from checker.record import record
 
 _PREFIX = ".subt-check-migrate-"
 
 
-@dataclass(frozen=True)
+@record()
 class Staging:
     """A package that is being written.
 

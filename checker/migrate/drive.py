@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from statistics import fmean
 
 from lxml import etree
@@ -16,6 +16,7 @@ from checker.migrate.xml_parts import put
 from checker.model.lift import GRAVITY
 from checker.model.locomotion import Wheel
 from checker.model.robot import Robot
+from checker.record import record
 from checker.resources import table
 
 _STEERING_LIMIT = 0.5
@@ -27,7 +28,7 @@ LATERAL_COMPLIANCE = 0.172
 _WHEELS_THAT_SLIP = 4
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Drive:
     """A DiffDrive or AckermannSteering.
 

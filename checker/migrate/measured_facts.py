@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.model.boxes import Box
 from checker.model.components import Sensor
 from checker.model.placed import placed, union
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
+from checker.record import record
 
 _ABOVE_GROUND = 0.05
 """Metres that a robot falls when it is spawned."""
@@ -21,7 +21,7 @@ _DIGITS = 4
 _NARROW = math.radians(30)
 
 
-@dataclass(frozen=True)
+@record()
 class Facts:
     """Figures as texts write them.
 

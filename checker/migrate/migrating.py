@@ -38,12 +38,13 @@ from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 from checker.package.opening import open_input
 from checker.parts import NotAtHand
+from checker.record import record
 from checker.subject import Subject
 
 _SHEET_POINTS = "everything that says TODO in specifications.md: devices, cost, rights, validation"
 
 
-@dataclass(frozen=True)
+@record()
 class Migrated:
     """A package that was made.
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
 from checker.migrate.source import Source
 from checker.migrate.wishes import NotMigrated, Wishes
+from checker.record import record
 
 NO_ORGANIZATION = "my_team"
 """Stands for the organization that nobody has named."""
@@ -15,7 +15,7 @@ _UNFIT = re.compile(r"[^a-z0-9]+")
 _ENDING = re.compile(r"(?:_(?:description|gazebo|urdf|model|sensor_config_\d+))+$", re.IGNORECASE)
 
 
-@dataclass(frozen=True)
+@record()
 class Names:
     """What things are called in the new package.
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.migrate.source import Source
+from checker.record import record
 
 NO_NAME, NO_EMAIL, NO_LICENSE = "TODO", "todo@example.org", "TODO"
 
 
-@dataclass(frozen=True)
+@record()
 class Papers:
     """Who made the robot, and under which terms.
 

@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from checker.cache import NO_CACHE
 from checker.migrate.source import Source
 from checker.model.controllers import Controller, ControlSystem
 from checker.model.robot import Robot
+from checker.record import record
 from checker.subject import Subject
 
 _KIND = "JointPositionController"
 _UNFIT = re.compile(r"\W+", re.ASCII)
 
 
-@dataclass(frozen=True)
+@record()
 class Servo:
     """A JointPositionController.
 

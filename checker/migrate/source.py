@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 from checker.cache import NO_CACHE
@@ -17,12 +16,13 @@ from checker.model.urdf.files import UrdfFiles, XacroFault, XacroFaultKind
 from checker.package.opening import Opened, open_input
 from checker.package.package import Package
 from checker.paperwork import Paperwork
+from checker.record import record
 
 _NAMED_LIMIT = 8
 _GIVE_ARGUMENT = "; give it by --args name:=value"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Source:
     """A description to migrate.
 

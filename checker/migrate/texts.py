@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from checker.migrate.measured_facts import Facts, sensor_lines
 from checker.migrate.naming import Names
 from checker.migrate.papers import Papers
 from checker.migrate.servos import Servo
+from checker.record import record
 from checker.resources import templates
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ _PLAIN = (".rb.j2", ".md.j2", ".txt.j2")
 _LIMITS = ("min_velocity", "max_velocity", "min_acceleration", "max_acceleration", "power_load")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Known:
     """What the files are written from.
 

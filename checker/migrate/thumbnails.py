@@ -6,13 +6,14 @@ import base64
 import json
 import posixpath
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
 from checker.confined import Died, Limits, ask
 from checker.model.components import Visual
 from checker.model.robot import Robot
+from checker.record import record
 from checker.trial.mjcf_text import quaternion
 
 NAMES = ("1", "2", "3", "4", "5")
@@ -23,7 +24,7 @@ _SECONDS, _MEMORY = 60.0, 16_000_000_000
 """Of processor time, and bytes of address space: software renderers map far more than they use."""
 
 
-@dataclass(frozen=True)
+@record()
 class Thumbnails:
     """Pictures, or why there are none.
 

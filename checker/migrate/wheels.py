@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from checker.convert.conversion import CarriedPlugin
 from checker.migrate.wishes import NotMigrated, Wishes
@@ -13,6 +12,7 @@ from checker.model.locomotion import Side, Wheel
 from checker.model.robot import Robot
 from checker.model.wheel_reader import WheelReader
 from checker.model.wheel_shape import stands_askew, tread
+from checker.record import record
 
 _LEVEL = 0.2
 """Share of its radius by which a wheel may hang above the lowest one."""
@@ -27,7 +27,7 @@ _SEVERAL = 24
 """Wheels; a robot with more is not guessed at."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Wheels:
     """The wheels that turn to drive the robot.
 

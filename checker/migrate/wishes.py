@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from checker.errors import CheckerError
+from checker.record import record
 
 
 class NotMigrated(CheckerError):
     """A description that cannot be migrated; its text is one sentence and says what to do."""
 
 
-@dataclass(frozen=True)
+@record()
 class Wishes:
     """What the author asks for; what is empty is found out.
 

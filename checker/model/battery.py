@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.components import Plugin
+from checker.record import record
 from checker.resources import table
 from checker.source.text import Located, Span
 from checker.source.xml import XmlDocument
@@ -38,7 +38,7 @@ _TRUE = ("1", "true")
 _MINUTES = 60.0 / 100.0
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Battery:
     """A LinearBatteryPlugin.
 

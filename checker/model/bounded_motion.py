@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Literal
 
 from checker.model.components import UNLIMITED, Plugin
 from checker.model.locomotion import Locomotion, MotionLimits, TrackedDrive, WheelDrive
+from checker.record import record
 from checker.source.text import Located
 
 Kind = Literal["linear", "angular"]
 Ends = tuple[Located[float] | None, Located[float] | None]
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class BoundedMotion:
     """One motion of a robot and its limits.
 

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from checker.model.mesh import Meshes, NoMeshes
 from checker.model.shapes import Geometry
 from checker.model.support import own_extent
 from checker.model.transform import Transform, Vector
+from checker.record import record
 
 _NO_MESHES = NoMeshes()
 
 
-@dataclass(frozen=True)
+@record()
 class Box:
     """A box along the axes of a frame.
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.components import Plugin
 from checker.model.transform import Vector
 from checker.model.values import parse_number
+from checker.record import record
 from checker.source.text import Located, Span
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 BREADCRUMBS_CLASS = "Breadcrumbs"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Breadcrumbs:
     """A Breadcrumbs plugin.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.model.sensing.attenuation import Attenuation, read_attenuation
@@ -14,6 +13,7 @@ from checker.model.sensing.lidar import Lidar, read_lidar
 from checker.model.shapes import Geometry, Material
 from checker.model.transform import Transform
 from checker.model.values import ValueReader, parse_number
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
@@ -25,7 +25,7 @@ _WITH_ALPHA = 4
 """Numbers of a colour that says how opaque it is."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Part:
     """Anything of a robot that has a name and an element.
 
@@ -43,7 +43,7 @@ class Part:
         return self.element.span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Pose:
     """A pose as written.
 
@@ -60,7 +60,7 @@ class Pose:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Inertial:
     """Mass and inertia of a link.
 
@@ -77,7 +77,7 @@ class Inertial:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Collision(Part):
     """A shape that touches things, posed in its link's frame."""
 
@@ -85,7 +85,7 @@ class Collision(Part):
     geometry: Geometry
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Visual(Part):
     """A shape that is seen, posed in its link's frame."""
 
@@ -101,7 +101,7 @@ class Visual(Part):
         return clear or ValueReader().number(self.element, "transparency", 0.0).value > 0.0
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Plugin(Part):
     """A plugin and its parameters (below `element`).
 
@@ -145,7 +145,7 @@ class Plugin(Part):
         return None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Sensor(Part):
     """A sensor.
 
@@ -188,7 +188,7 @@ class Sensor(Part):
         return ValueReader().number(self.element, "update_rate", 0.0)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Light(Part):
     """A light and the link that carries it."""
 
@@ -207,7 +207,7 @@ class Light(Part):
         return ValueReader().boolean(self.element, "cast_shadows", False).value
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Link(Part):
     """A rigid body.
 
@@ -236,7 +236,7 @@ class Link(Part):
         return self.inertial.mass.value if self.inertial is not None else self.default_mass
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Axis:
     """One axis of a joint.
 
@@ -266,7 +266,7 @@ class Axis:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Joint(Part):
     """A joint.
 
@@ -293,7 +293,7 @@ class Joint(Part):
         return [named for mimic in mimics if (named := mimic.attribute("joint")) is not None]
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Frame(Part):
     """A named frame (SDF 1.7 and later)."""
 
@@ -302,7 +302,7 @@ class Frame(Part):
     pose: Pose
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Model(Part):
     """A nested model, or an include that was read.
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.model.robot import Robot
+from checker.record import record
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class FirstConfiguration:
     """The configuration of lowest number at hand, for those of higher numbers; without meshes.
 

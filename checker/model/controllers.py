@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.model.components import Joint, Plugin
 from checker.model.launch.control_nodes import Spawned, SpawnedModel, StateListener
 from checker.model.launch.names import resolve_name
 from checker.model.urdf.description import Transmission
+from checker.record import record
 from checker.source.text import Located, Span
 
 IMMOBILE = ("fixed", "floating")
@@ -17,7 +17,7 @@ STATE_CONTROLLER = "JointStateController"
 _PREFIX = "hardware_interface/"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Gain:
     """A gain of a PID loop.
 
@@ -31,7 +31,7 @@ class Gain:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Controller:
     """A controller that a YAML text configures.
 
@@ -69,7 +69,7 @@ class Controller:
         return self.type.value.partition("/")[2] if self.type else ""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class ControlPlugin:
     """The plugin `gazebo_ros_control`.
 
@@ -88,7 +88,7 @@ class ControlPlugin:
         return self.plugin.span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SimulatorGains:
     """Gains that `gazebo_ros_control` uses itself, by `pid_gains` in its namespace."""
 
@@ -97,7 +97,7 @@ class SimulatorGains:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class ParameterFault:
     """A file that a launch file names, and that is not there or cannot be read.
 
@@ -112,7 +112,7 @@ class ParameterFault:
     hides: bool = False
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class ControlLaunch:
     """What one launch file, with all that it includes, does for control.
 
@@ -135,7 +135,7 @@ class ControlLaunch:
     missing: tuple[ParameterFault, ...] = ()
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class ControlSystem:
     """What controls the joints of a URDF package.
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.components import Plugin
 from checker.model.locomotion import Side, TrackedDrive, WheelDrive
 from checker.model.transform import Vector
+from checker.record import record
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ _FORWARD: Vector = (1.0, 0.0, 0.0)
 _LEFT: Vector = (0.0, 1.0, 0.0)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class CountedDistance:
     """A distance that a plugin counts on.
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from checker.model.components import Sensor
+from checker.record import record
 from checker.source.text import Located
 
 _TEXT_LIMIT = 1000
@@ -22,7 +22,7 @@ _WORDS = {
 """Words for devices by their kind."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Device:
     """A device, as `devices.json` or the user's settings describe it.
 
@@ -63,7 +63,7 @@ class Device:
         return self.source_of(field).startswith("general knowledge")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SensorDevice:
     """A sensor and the device that it stands for.
 
@@ -87,7 +87,7 @@ class SensorDevice:
         return self.device.model in text
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SensorDevices:
     """The devices that a robot's sensors stand for, as far as sheet and names tell.
 

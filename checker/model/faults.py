@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
 
+from checker.record import record
 from checker.source.text import Span
 
 
@@ -16,7 +16,7 @@ class FaultKind(enum.Enum):
     INCLUDE = "an included model cannot be read"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Fault:
     """One fault in a user's file."""
 

@@ -6,12 +6,13 @@ from dataclasses import dataclass, field
 
 from checker.model.faults import Fault, FaultKind
 from checker.model.transform import Transform
+from checker.record import record
 from checker.source.text import Span
 
 MODEL_FRAME = "__model__"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class FrameNode:
     """A frame: its pose in another one.
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.components import Collision, Link
 from checker.model.urdf.extensions import extension_number
 from checker.model.values import stated_number
+from checker.record import record
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from checker.model.robot import Robot
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Friction:
     """Coefficients of sliding friction; None where they are left to the physics engine.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from checker.model.mesh import Mesh
 from checker.model.overlap import face_directions, overlap_depth
 from checker.model.placed import Placed, placed
 from checker.model.rigid import RigidBodies, rigid_bodies
+from checker.record import record
 
 if TYPE_CHECKING:
     from checker.model.robot import Robot
@@ -24,7 +24,7 @@ DEEP_PAIRS = 60
 """After so many findings no more are looked for: each takes some ms."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Inside:
     """Two collisions of different parts.
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 from checker.model.devices import Device
+from checker.record import record
 from checker.resources import table
 
 TEXT_LIMIT = 500
@@ -16,7 +16,7 @@ TEXT_LIMIT = 500
 _JOINTS = re.compile(r"[_/:.]+")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class KnownDevices:
     """Devices of which figures are known.
 

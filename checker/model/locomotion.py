@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from checker.model.components import Joint, Link, Plugin
 from checker.model.transform import Vector
+from checker.record import record
 from checker.source.text import Located, Span
 
 
@@ -30,7 +31,7 @@ class Side(enum.StrEnum):
     RIGHT = "right"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class MotionLimits:
     """Limits of one kind of motion of a plugin; None where it states none.
 
@@ -59,7 +60,7 @@ class MotionLimits:
         return None not in four
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Wheel:
     """A wheel that a plugin turns.
 
@@ -89,7 +90,7 @@ class Wheel:
     steering: Joint | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class WheelDrive:
     """One DiffDrive, AckermannSteering or MecanumDrive plugin.
 
@@ -120,7 +121,7 @@ class WheelDrive:
         return tuple(wheel for wheel in self.wheels if wheel.side is side)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Track:
     """A link whose surface a TrackController moves.
 
@@ -135,7 +136,7 @@ class Track:
     limits: MotionLimits
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class TrackedDrive:
     """One TrackedVehicle plugin.
 
@@ -153,7 +154,7 @@ class TrackedDrive:
     angular: MotionLimits
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Rotor:
     """A rotor of a multicopter: one MulticopterMotorModel.
 
@@ -184,7 +185,7 @@ class Rotor:
     axis: Vector | None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class RotorEntry:
     """One `<rotor>` of the controller's `<rotorConfiguration>`.
 
@@ -203,7 +204,7 @@ class RotorEntry:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class CopterControl:
     """One MulticopterVelocityControl plugin.
 
@@ -218,7 +219,7 @@ class CopterControl:
     angular: tuple[MotionLimits, ...]
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Locomotion:
     """All that moves a robot."""
 

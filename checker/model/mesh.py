@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import enum
 import itertools
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
+
+from checker.record import record
 
 # Readers of mesh files, which run in children, load this module and no robot.
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ class MeshTrouble(enum.StrEnum):
     """The checker gave up (limits of time, memory, size), or its place is beyond the workspace."""
 
 
-@dataclass(frozen=True)
+@record()
 class MeshFault:
     """A mesh that is not known.
 
@@ -40,7 +41,7 @@ class MeshFault:
     reason: str
 
 
-@dataclass(frozen=True)
+@record()
 class Mesh:
     """What a mesh file holds, in metres: its own unit is honoured, the model's `<scale>` is not.
 
@@ -94,7 +95,7 @@ class Meshes(Protocol):
         ...
 
 
-@dataclass(frozen=True)
+@record()
 class NoMeshes:
     """For a robot that was read without its package."""
 
@@ -125,7 +126,7 @@ def _as_used(geometry: Geometry, file: Mesh | MeshFault) -> Mesh | MeshFault:
     return MeshFault(MeshTrouble.NOT_LOOKED_AT, "is used in part only (<submesh>)")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class MeshUse:
     """A collision or visual that names a mesh file.
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
@@ -13,7 +12,7 @@ DEPENDENCY_TAGS = (
 )
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Person:
     """A maintainer or author; what is not stated is empty and placed at the person's tag."""
 
@@ -22,7 +21,7 @@ class Person:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Dependency:
     """A dependency; `kind` is the name of its tag: `exec_depend`."""
 
@@ -35,7 +34,7 @@ class Dependency:
         return self.kind in {"depend", "exec_depend", "run_depend"}
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class PackageManifest:
     """A package.xml. A text whose tag is missing is empty, not stated, and placed at the root.
 
@@ -68,7 +67,7 @@ class PackageManifest:
         return any(each.package.value == package for each in self.dependencies)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SdfEntry:
     """An `<sdf>` of model.config: the file, and the SDF version it is said to have.
 
@@ -79,7 +78,7 @@ class SdfEntry:
     version: Located[str]
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class ModelConfig:
     """A model.config. A text whose tag is missing is empty, not stated, and placed at the root.
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.boxes import Box
 from checker.model.components import Collision, Link, Visual
 from checker.model.transform import Transform, Vector
+from checker.record import record
 
 if TYPE_CHECKING:
     from checker.model.robot import Robot
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Placed:
     """A shape of a link in the robot's frame.
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from checker.record import record
 from checker.resources import table
 
 SUBT_RELEASE = "dome"
@@ -17,7 +17,7 @@ _CLASSIC = re.compile(r"(?:gazebo_ros|hector_gazebo)_.*")
 _INLINE_NAMESPACE = re.compile(r"::v\d+::")
 
 
-@dataclass(frozen=True)
+@record()
 class PluginLibrary:
     """A shared library and the plugin classes in it.
 

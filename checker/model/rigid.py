@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from checker.model.tree import WORLD, LinkTree
+from checker.record import record
 
 if TYPE_CHECKING:
     from checker.model.robot import Robot
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class RigidBodies:
     """The rigid bodies of a robot, each named for its first link.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import posixpath
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 from checker.model.boxes import Box, box_around
@@ -34,6 +34,7 @@ from checker.model.shapes import Geometry
 from checker.model.support import support
 from checker.model.transform import Transform, Vector
 from checker.model.tree import LinkTree, link_tree
+from checker.record import record
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
@@ -41,7 +42,7 @@ _FRAMES_TOO = (1, 7)
 """SDF version from which on joints tie frames of any kind; before, links alone."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Robot(Part):
     """A whole robot; the parts of nested models stand in the same tuples, with scoped names.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.boxes import Box
@@ -11,6 +10,7 @@ from checker.model.components import Link
 from checker.model.locomotion import Wheel
 from checker.model.placed import placed, union
 from checker.model.tree import WORLD
+from checker.record import record
 
 if TYPE_CHECKING:
     from checker.model.robot import Robot
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _TURNING = ("continuous", "revolute")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class RollingPart:
     """A wheel or a track.
 

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
 
+from checker.record import record
 from checker.resources import table
 from checker.source.xml import Element
 
@@ -19,7 +19,7 @@ NO_DEFAULT = "__default__"
 VERSIONS = ("1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12")
 
 
-@dataclass(frozen=True)
+@record()
 class ElementType:
     """What the specification says of one element at one place.
 

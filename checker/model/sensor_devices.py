@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence, Set
-from dataclasses import dataclass
 
 from checker.model.components import Sensor
 from checker.model.devices import Device, SensorDevice, SensorDevices
@@ -20,6 +19,7 @@ from checker.model.robot import Robot
 from checker.model.specification.sensor_types import TYPES
 from checker.model.specification.sensors import ListedSensor
 from checker.model.specification.sheet import Specification
+from checker.record import record
 from checker.source.text import Located
 
 SENSORS_LIMIT = 500
@@ -36,7 +36,7 @@ _WORDS = {
 """Words for where a sensor is or looks, and what they have in common."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Item:
     """What one item of the sheet says of one kind of sensors."""
 
@@ -47,7 +47,7 @@ class _Item:
     places: frozenset[str]
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Named:
     """What the model itself says of a sensor."""
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Geometry:
     """The shape of a collision or visual.
 
@@ -31,7 +30,7 @@ class Geometry:
         return self.element.span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Material:
     """Colours and textures.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
-from checker.source.record import record
+from checker.record import record
 
 Vector = tuple[float, float, float]
 Rotation = tuple[Vector, Vector, Vector]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from checker.model.components import Joint, Link
 from checker.model.frames import MODEL_FRAME
+from checker.record import record
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 WORLD = "world"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Tie:
     """A joint both ends of which are known.
 
@@ -31,7 +31,7 @@ class Tie:
     child: str
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class BrokenTie:
     """A joint one end of which, or both, is no link.
 
@@ -45,7 +45,7 @@ class BrokenTie:
     known: str | None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LinkTree:
     """The links of a robot and what ties them; in a sound robot, one tree.
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from checker.model.rolling import RollingPart, rolling_parts
 from checker.model.transform import Vector
 from checker.model.wheel_shape import stands_askew
+from checker.record import record
 
 if TYPE_CHECKING:
     from checker.model.robot import Robot
@@ -20,7 +21,7 @@ _FARTHEST = 1e6
 """Metres; numbers beyond are no places."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Foot:
     """The lowest point of a wheel or track.
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.components import Joint, Link, Plugin
 from checker.model.locomotion import Side, Wheel
 from checker.model.shapes import Geometry
 from checker.model.transform import Transform, Vector
+from checker.record import record
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -147,7 +147,7 @@ class WheelReader:
         return reach if abs(reach) < _FARTHEST else None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Measured:
     body: tuple[Link, ...]
     centre: Vector | None

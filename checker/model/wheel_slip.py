@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.model.components import Plugin
 from checker.model.robot import Robot
 from checker.model.values import stated_number
+from checker.record import record
 from checker.source.text import Located, Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SlippingWheel:
     """One `<wheel>` of a WheelSlip plugin.
 

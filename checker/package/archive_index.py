@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from checker.errors import RefusedArchive
+from checker.record import record
 
 _DRIVE = re.compile(r"[A-Za-z]:")
 _MAX_SHOWN = 80
 
 
-@dataclass(frozen=True)
+@record()
 class ArchiveLimits:
     """What an archive may hold.
 
@@ -50,7 +51,7 @@ def plain_path(name: str) -> str:
     return "/".join(part for part in name.split("/") if part not in ("", "."))
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Member:
     """An entry that passed: its path (normal, relative, with `/`) and size in bytes."""
 

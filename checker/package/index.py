@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import posixpath
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
+
+from checker.record import record
 
 
 class EntryKind(StrEnum):
@@ -32,7 +34,7 @@ class LinkState(StrEnum):
     LOOP = "loop"
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class FileEntry:
     """A file, folder or link.
 
@@ -66,7 +68,7 @@ class FileEntry:
         return self.content is EntryKind.FOLDER
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class IndexFault:
     """What of a folder could not be indexed or read, and why."""
 
@@ -74,7 +76,7 @@ class IndexFault:
     reason: str
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class FileIndex:
     """What a folder holds.
 

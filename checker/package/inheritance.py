@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from checker.finding import Place
 from checker.package.model_file import own_model
 from checker.package.references import Reference, ReferenceKind
+from checker.record import record
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -35,7 +36,7 @@ class Part(StrEnum):
     SPECIFICATION = "specifications.md"
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Found:
     """Where a part is.
 
@@ -53,7 +54,7 @@ class Found:
         return self.path.startswith("../")
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Missing:
     """A part that is not there.
 
@@ -69,7 +70,7 @@ class Missing:
     package_not_at_hand: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Inherited:
     """A part that comes from a sibling.
 

@@ -6,7 +6,6 @@ import os
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 from checker.errors import UnreadableInput
@@ -19,6 +18,7 @@ from checker.package.recognition import (
     looks_like_package,
 )
 from checker.package.workspace import Workspace
+from checker.record import record
 
 SINGLE_FILE_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro", ".xml")
 SUBMISSIONS = "submitted_models"
@@ -27,7 +27,7 @@ MAX_WRAPPERS = 3
 _WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
 
 
-@dataclass(frozen=True)
+@record()
 class Skipped:
     """A subfolder that was not looked at, and why."""
 
@@ -35,7 +35,7 @@ class Skipped:
     reason: str
 
 
-@dataclass(frozen=True)
+@record()
 class Opened:
     """What the user gave, ready to be checked.
 

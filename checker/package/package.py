@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -30,6 +30,7 @@ from checker.package.model_file import own_model
 from checker.package.reading import NotReadable, read_bytes, read_text
 from checker.package.references import Reference, dependencies, spawner_references
 from checker.package.walk import build_index, entry_at
+from checker.record import record
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
@@ -41,7 +42,7 @@ XML_SUFFIXES = (".sdf", ".world", ".config", ".launch", ".xml", ".urdf", ".xacro
 BYTES_LIMIT = 200_000_000
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Package:
     """A robot package.
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
+from checker.record import record
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.text import SourceText
 
 _OUTPUT_NAME = "OUTPUT_NAME"
 
 
-@dataclass(frozen=True)
+@record()
 class Lenders:
     """The packages whose libraries a package can load.
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import stat
-from dataclasses import dataclass
 from pathlib import Path
 
+from checker.record import record
 from checker.source.decode import NotText, decode, encoding_of
 from checker.source.text import SourceText
 
@@ -14,7 +14,7 @@ TEXT_LIMIT = 20_000_000
 """Bytes; the largest text of 99 real packages is below 1 MB."""
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class NotReadable:
     """A file that cannot be read, and why.
 

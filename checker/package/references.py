@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import StrEnum
 
 from checker.finding import Place
 from checker.package.ruby_comments import blank_comments
+from checker.record import record
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
@@ -29,7 +29,7 @@ class ReferenceKind(StrEnum):
     DEPENDENCY = "dependency"
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Reference:
     """One mention of a package.
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.finding import Place
 from checker.package.references import ReferenceKind
+from checker.record import record
 from checker.source.xml import Element, XmlDocument
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ _MODEL = re.compile(r"(?:model|package)://([a-z][a-z0-9_]{0,199}_sensor_config_\
 """Submissions alone: other models, and those on Fuel in upper case, come from elsewhere."""
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Use:
     """One place at which a package is used; `how` is the text that uses it."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -14,13 +14,14 @@ from checker.package.package import Package
 from checker.package.reading import NotReadable, read_text
 from checker.package.recognition import looks_like_package
 from checker.package.walk import build_index
+from checker.record import record
 
 MAX_FOLDERS = 5_000
 MANIFEST_LIMIT = 1_000_000
 THUMBNAILS = "thumbnails"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Workspace:
     """Folders whose direct subfolders are packages; nothing above them is ever looked at.
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from checker.finding import Safety
 from checker.package.package import Package
 from checker.patching.edits import EditedText, take
+from checker.record import record
 from checker.report.report import ReportedFinding
 from checker.source.text import SourceText
 
@@ -17,7 +18,7 @@ Judge = Callable[[Package], tuple[ReportedFinding, ...]]
 """Checks a package and returns its findings."""
 
 
-@dataclass(frozen=True)
+@record()
 class FixedFile:
     """A file of the package before and after."""
 
@@ -26,7 +27,7 @@ class FixedFile:
     after: str
 
 
-@dataclass(frozen=True)
+@record()
 class Fixed:
     """What fixing comes to.
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from checker.record import record
 from checker.report.wording import count
 
 UNITS = {"kg": "kg", "m": "m", "deg": "°", "s": "s"}
 """Units by the ends of the names of facts: `mass_kg`."""
 
 
-@dataclass(frozen=True)
+@record()
 class Fact:
     """Something known.
 

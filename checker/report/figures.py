@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from checker.finding import Severity
+from checker.record import record
 
 HEADLINES = (
     *("settle_drop", "settle_tilt", "rest_penetration"),
@@ -23,7 +23,7 @@ _SEVERITIES = tuple(map(str, Severity))
 _GRAVITY = (*_SEVERITIES, "ok", "not judged")
 
 
-@dataclass(frozen=True)
+@record()
 class Row:
     """The figures of one name.
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypedDict
 
 from checker.finding import Safety, Severity
+from checker.record import record
 from checker.report.report import Cause, InheritedPart, SuppressedBy
 
 Word = Annotated[str, re.compile(r"[A-Za-z0-9_-]{1,100}")]
@@ -20,7 +20,7 @@ Count = Annotated[int, range(1, 10**9)]
 """A line or a column."""
 
 
-@dataclass(frozen=True)
+@record()
 class PlaceJson:
     """A stretch of a file."""
 
@@ -34,7 +34,7 @@ class PlaceJson:
     snippet: str = ""
 
 
-@dataclass(frozen=True)
+@record()
 class EditJson:
     """An edit and its stretch in one."""
 
@@ -46,7 +46,7 @@ class EditJson:
     replacement: str
 
 
-@dataclass(frozen=True)
+@record()
 class FixJson:
     """Edits that belong together."""
 
@@ -54,7 +54,7 @@ class FixJson:
     edits: tuple[EditJson, ...]
 
 
-@dataclass(frozen=True)
+@record()
 class FindingJson:
     """A finding without what its rule's page says."""
 
@@ -67,7 +67,7 @@ class FindingJson:
     fix: FixJson | None = None
 
 
-@dataclass(frozen=True)
+@record()
 class SuppressedJson:
     """A finding that does not count."""
 
@@ -77,7 +77,7 @@ class SuppressedJson:
     place: PlaceJson | None
 
 
-@dataclass(frozen=True)
+@record()
 class NotCheckedJson:
     """A rule that did not look."""
 
@@ -133,7 +133,7 @@ class TrialJson(TypedDict):
     series: Mapping[str, list[float | None]]
 
 
-@dataclass(frozen=True)
+@record()
 class PackageJson:
     """A package; its verdict follows from the rest."""
 
@@ -152,7 +152,7 @@ class PackageJson:
     fail_on: Severity = Severity.ERROR
 
 
-@dataclass(frozen=True)
+@record()
 class NotOpenedJson:
     """What was not checked at all."""
 
@@ -161,14 +161,14 @@ class NotOpenedJson:
     failed: bool = False
 
 
-@dataclass(frozen=True)
+@record()
 class ToolJson:
     """What wrote the report."""
 
     versions: Mapping[str, str]
 
 
-@dataclass(frozen=True)
+@record()
 class ReportJson:
     """The whole report."""
 

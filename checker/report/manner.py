@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from checker.record import record
 from checker.report.palette import Palette
 
 
-@dataclass(frozen=True)
+@record()
 class Manner:
     """How a report is to be rendered.
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from checker.finding import Place
+from checker.record import record
 from checker.report.finding_text import path_of
 from checker.report.report import PackageReport, Report, ReportedFinding
 
@@ -34,7 +34,7 @@ def owners(report: Report) -> Mapping[Identity, str]:
     }
 
 
-@dataclass(frozen=True)
+@record()
 class Share:
     """What is said about one package.
 

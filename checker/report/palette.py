@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TextIO
 
 from checker.finding import Severity
+from checker.record import record
 from checker.report.report import VerdictKind
 
 _SEVERITY = {Severity.ERROR: "1;31", Severity.WARNING: "33", Severity.INFO: "36"}
@@ -18,7 +18,7 @@ _VERDICT = {
 }
 
 
-@dataclass(frozen=True)
+@record()
 class Palette:
     """Colours text, or leaves it as it is."""
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from checker.finding import Fix, Place, Severity
+from checker.record import record
 
 SCHEMA_VERSION = "1"
 NO_TRIAL = "trial not run (--no-trial)"
@@ -39,7 +40,7 @@ class Cause(enum.StrEnum):
     CRASHED = "crashed"
 
 
-@dataclass(frozen=True)
+@record()
 class NotChecked:
     """A rule that did not look, and why."""
 
@@ -48,7 +49,7 @@ class NotChecked:
     cause: Cause
 
 
-@dataclass(frozen=True)
+@record()
 class ReportedFinding:
     """A fault, with all its places.
 
@@ -82,7 +83,7 @@ class ReportedFinding:
         return f"subt-check rule {self.rule}"
 
 
-@dataclass(frozen=True)
+@record()
 class InheritedPart:
     """A part that a package takes from another one."""
 
@@ -103,7 +104,7 @@ IN_BASELINE = "in the baseline"
 """The reason for what the baseline sets aside and nobody gave one for."""
 
 
-@dataclass(frozen=True)
+@record()
 class Suppressed:
     """A finding that the user has seen and set aside.
 
@@ -119,7 +120,7 @@ class Suppressed:
     place: Place | None = None
 
 
-@dataclass(frozen=True)
+@record()
 class Picture:
     """The robot at one moment.
 
@@ -136,7 +137,7 @@ class Picture:
     height: int
 
 
-@dataclass(frozen=True)
+@record()
 class Display:
     """The robot in 3D, for those who look.
 
@@ -151,7 +152,7 @@ class Display:
     notes: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
+@record()
 class PackageReport:
     """All that was found out about one package.
 
@@ -216,7 +217,7 @@ class PackageReport:
         return sum(finding.severity is severity for finding in self.findings)
 
 
-@dataclass(frozen=True)
+@record()
 class NotOpened:
     """An argument, or a folder below one, that was not checked at all, and why.
 
@@ -231,7 +232,7 @@ class NotOpened:
     failed: bool
 
 
-@dataclass(frozen=True)
+@record()
 class Report:
     """The reports of all packages of one run, sorted by name."""
 

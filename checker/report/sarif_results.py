@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.finding import Place, Severity
+from checker.record import record
 from checker.report.report import PackageReport, ReportedFinding, Suppressed, SuppressedBy
 from checker.report.sarif_places import Json, fixes, location
 from checker.report.wording import plain
@@ -15,7 +14,7 @@ RELATED_LIMIT = 100
 LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
-@dataclass(frozen=True)
+@record()
 class Said:
     """A finding, of which package, and what set it aside."""
 
@@ -34,7 +33,7 @@ class Said:
         return self.suppressed is not None and not self.in_baseline
 
 
-@dataclass(frozen=True)
+@record()
 class Marks:
     """Which marks all results of a run carry as soon as one does, as SARIF asks."""
 

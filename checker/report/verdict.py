@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.finding import Severity
+from checker.record import record
 from checker.report.report import NO_TRIAL, Cause, PackageReport, VerdictKind
 from checker.report.wording import count, listed, plain, shortened
 
 _REASON_LIMIT = 600
 
 
-@dataclass(frozen=True)
+@record()
 class Sentence:
     """A verdict in words.
 

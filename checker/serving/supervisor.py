@@ -11,6 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from time import monotonic
 
+from checker.record import record
 from checker.saying import Say
 
 _LOOK_SECONDS = 0.2
@@ -19,7 +20,7 @@ _SETTLED_SECONDS = 60.0
 _DEATHS_COUNTED = 30
 
 
-@dataclass(frozen=True)
+@record()
 class Pace:
     """How long things take at most.
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from checker.record import record
 from checker.source.cmake_evaluation import Call, evaluate
 from checker.source.cmake_tokens import CMakeFault, read_commands
 from checker.source.text import Located, SourceText, Span
@@ -18,7 +18,7 @@ _KEYWORDS = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Install:
     """An `install()`.
 
@@ -45,7 +45,7 @@ class Install:
         return same and inside and item.span.source is self.span.source
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Library:
     """An `add_library()`: the target builds `lib<name>.so`."""
 
@@ -54,7 +54,7 @@ class Library:
     conditional: bool
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class CMakeFile:
     """A CMakeLists.txt.
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
+from checker.record import record
 from checker.source.cmake_tokens import Argument, ArgumentKind, CMakeFault, Command
 from checker.source.text import Located, Span
 
@@ -27,7 +27,7 @@ _BLOCKS = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Call:
     """A command with its variables put in.
 

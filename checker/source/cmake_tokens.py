@@ -9,9 +9,9 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import islice
 
+from checker.record import record
 from checker.source.text import Located, SourceText, Span
 
 MAX_TOKENS = 200_000
@@ -39,7 +39,7 @@ class ArgumentKind(enum.Enum):
     PAREN = "parenthesis"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class CMakeFault:
     """One fault of a CMake file."""
 
@@ -47,7 +47,7 @@ class CMakeFault:
     message: str
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Argument:
     """One argument as written, escapes read; `${…}` stands in it unchanged.
 
@@ -58,7 +58,7 @@ class Argument:
     text: Located[str]
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Command:
     """One call, `name(arguments)`; the name in lower case, as CMake reads it."""
 

@@ -7,7 +7,8 @@ budget: offsets and counts in it may say anything.
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
+
+from checker.record import record
 
 BUDGET = 1_000_000
 """Bytes that may be read of one file; real libraries need a few thousand."""
@@ -15,7 +16,7 @@ _COST = 32
 """What every single read costs beside its bytes, so that empty reads end, too."""
 
 
-@dataclass(frozen=True)
+@record()
 class SharedLibrary:
     """What the headers of an ELF file say.
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from checker.finding import Place
+from checker.record import record
 from checker.source.markup import blank_markup
 from checker.source.text import SourceText, Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Excerpt(SourceText):
     """A text inside another one; places are those of the outer text.
 

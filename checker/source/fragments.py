@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import ClassVar
 
 from checker.finding import Place
+from checker.record import record
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument, parse_xml
@@ -15,7 +15,7 @@ ROOT = "emitted"
 _DECLARATION = re.compile(r"\A\s*<\?xml\s[^>]*\?>")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class WrappedText(SourceText):
     """A text inside an element that only the parser sees; places are those of the inner text.
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
+from checker.record import record
 from checker.source.text import SourceText, Span
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ class PassageKind(enum.Enum):
     ITEM = "item"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Passage:
     """One block of visible text.
 
@@ -60,7 +61,7 @@ class Passage:
         return Span(self.span.source, self.span.start + start, self.span.start + end)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Markdown:
     """A Markdown file as its passages, in order.
 

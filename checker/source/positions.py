@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from checker.record import record
 from checker.source.text import Span
 
 
@@ -29,7 +30,7 @@ class TagPosition:
     end: int
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class XmlFault:
     """Why and where a text is not well-formed XML."""
 
@@ -38,7 +39,7 @@ class XmlFault:
     hint: str = ""
 
 
-@dataclass(frozen=True)
+@record()
 class LocatedTags:
     """All tags of a text in document order, and the text as the parsers are to read it."""
 

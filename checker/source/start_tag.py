@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+from checker.record import record
 
 _ATTRIBUTE = re.compile(r"""([^\s=<>/"']+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
 _NAME = re.compile(r"<\s*([^\s/>]+)")
@@ -11,7 +12,7 @@ _NAME = re.compile(r"<\s*([^\s/>]+)")
 Range = tuple[int, int]
 
 
-@dataclass(frozen=True)
+@record()
 class AttributeSpans:
     """Character ranges of a start tag's name and of each attribute's name and value."""
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import ClassVar, Generic, Protocol, TypeVar
 
 from checker.finding import SNIPPET_LIMIT, Edit, Place
-from checker.source.record import record
+from checker.record import record
 
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SourceText:
     """The decoded text of one file.
 

@@ -8,15 +8,15 @@ Entities, document types and network access are off in both.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 
 from lxml import etree
 
+from checker.record import record
 from checker.source.markup import blank_markup
 from checker.source.namespaces import namespace_faults
 from checker.source.positions import TagPosition, XmlFault
-from checker.source.record import record
 from checker.source.start_tag import AttributeSpans, scan_start_tag
 from checker.source.tags import locate_tags
 from checker.source.text import Located, SourceText, Span
@@ -28,7 +28,7 @@ _BLANKS = " \t\r\n"
 """XML's own; a no-break space is none of them."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class XmlDocument:
     """A well-formed XML text.
 

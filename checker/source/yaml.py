@@ -24,6 +24,7 @@ from yaml.constructor import SafeConstructor
 from yaml.events import CollectionStartEvent, DocumentEndEvent, Event, NodeEvent
 from yaml.resolver import Resolver
 
+from checker.record import record
 from checker.source.text import SourceText, Span
 
 MAX_LENGTH = 1_000_000
@@ -34,7 +35,7 @@ Plain = str | int | float | bool | None
 _PLAIN_TAGS = {f"tag:yaml.org,2002:{name}" for name in ("null", "bool", "int", "float")}
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class YamlFault:
     """One fault of a YAML file."""
 
@@ -42,7 +43,7 @@ class YamlFault:
     message: str
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class YamlNode:
     """A value of a YAML file.
 
@@ -83,7 +84,7 @@ class YamlNode:
         return {name.scalar: value.plain() for name, value in self.entries if name.kind == "scalar"}
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class YamlDocument:
     """The first document of a YAML file; `root` is None when it is empty or not readable."""
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from itertools import accumulate
 
 from checker.finding import Place
+from checker.record import record
 from checker.source.text import SourceText, Span
 from checker.spawner.traced import NO_PARAMETERS, Piece, TracedString
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class EmittedText(SourceText):
     """A source whose places lie in the Ruby files that made it.
 

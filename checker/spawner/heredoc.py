@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from checker.record import record
 from checker.source.ruby import RubyNode
 
 Range = tuple[int, int]
@@ -14,7 +14,7 @@ _TAB = 8
 """Ruby counts a tab up to the next multiple of 8 columns."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class HeredocBody:
     """The body of a heredoc.
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from checker.record import record
 from checker.source.ruby import RubyNode, parse_ruby
 from checker.source.text import SourceText
 from checker.spawner.emitted import EmittedText
@@ -36,7 +37,7 @@ EXECUTABLES_ARGUMENTS: tuple[Argument, ...] = (SAMPLE_NAME, SAMPLE_WORLD)
 """`_name _worldName`."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Spawner:
     """A `launch/spawner.rb`.
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from checker.record import record
 from checker.source.ruby import RubyNode
 from checker.source.text import Span
 from checker.spawner.values import Block, Value
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Parameter:
     """A parameter of a Ruby function.
 
@@ -26,7 +27,7 @@ class Parameter:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Function:
     """A function that a spawner defines.
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from checker.record import record
 from checker.source.text import Span
 
 if TYPE_CHECKING:
     from checker.spawner.values import Block, Value
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Unread:
     """A construct that cannot be read without running Ruby, or that is not at hand.
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
+from checker.record import record
 from checker.source.text import Span
 
 NO_PARAMETERS: frozenset[str] = frozenset()
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Piece:
     r"""A stretch of text with one origin.
 
@@ -65,7 +66,7 @@ def _holds(outer: Span, inner: Span) -> bool:
     return outer.source is inner.source and outer.start <= inner.start and inner.end <= outer.end
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class TracedString:
     """Text made of pieces; it never changes."""
 

@@ -9,6 +9,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
+from checker.record import record
 from checker.source.ruby import RubyNode
 from checker.spawner.traced import NO_PARAMETERS, TracedString
 
@@ -29,7 +30,7 @@ class RubyString:
         return self.content.text
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Symbol:
     """`:name`."""
 
@@ -53,7 +54,7 @@ class RubyHash:
     frozen: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class RubyRange:
     """`first..last`, or `first...last` without its last number."""
 
@@ -67,14 +68,14 @@ class RubyRange:
         return range(self.first, self.last if self.exclusive else self.last + 1)
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class Constant:
     """A class or module of Ruby: `File`, `Math`, `StandardError`."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
+@record(slots=True)
 class ErrorValue:
     """What `rescue => error` gives."""
 
@@ -82,7 +83,7 @@ class ErrorValue:
     message: str
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@record(eq=False, slots=True)
 class Block:
     """`{ |x| … }` with the variables around it, or `&:method`."""
 
@@ -106,7 +107,7 @@ Data: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@record(eq=False, slots=True)
 class Value:
     """A value, and the parameters and globals that influenced which one it is.
 

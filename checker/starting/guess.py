@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from checker.package.kind import PackageKind
 from checker.package.model_file import own_model
 from checker.package.opening import open_input
 from checker.package.package import Package
+from checker.record import record
 from checker.source.text import SourceText
 
 _LOOKED_AT = 100
@@ -22,7 +22,7 @@ _HARMONIC = re.compile(r"\b(?:lib)?gz-sim-|\bgz::sim::")
 """Plugins by the names that they have since Gazebo Garden."""
 
 
-@dataclass(frozen=True)
+@record()
 class Guess:
     """A profile, and what speaks for it.
 

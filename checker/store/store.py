@@ -17,9 +17,9 @@ import shutil
 import stat
 from collections.abc import Collection, Iterator
 from contextlib import closing, contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 
+from checker.record import record
 from checker.report.artefacts import ARTEFACT_NAME
 from checker.store.durable import move, rename, settle_below, settle_name
 from checker.store.incoming import Incoming, TooLarge
@@ -39,7 +39,7 @@ package that is uploaded again."""
 _KEY = re.compile(r"[0-9a-f]{64}")
 
 
-@dataclass(frozen=True)
+@record()
 class Store:
     """What was uploaded and what was found out about it.
 

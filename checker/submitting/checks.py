@@ -5,12 +5,12 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from time import sleep
 from typing import Annotated
 from urllib.parse import quote, unquote
 
 from checker.errors import CheckerError
+from checker.record import record
 from checker.report.artefacts import ARTEFACT_NAME, INDEX
 from checker.report.from_json import SIZE_LIMIT
 from checker.report.reading import Unfit, read_as
@@ -36,14 +36,14 @@ class End(enum.StrEnum):
     CANCELLED = "cancelled"
 
 
-@dataclass(frozen=True)
+@record()
 class Given:
     """What the service answers to an upload."""
 
     id: Annotated[str, re.compile(r"[A-Za-z0-9_-]{16,100}")]
 
 
-@dataclass(frozen=True)
+@record()
 class Standing:
     """How a check stands, as far as it matters here; the members are those of the API."""
 
@@ -64,7 +64,7 @@ class Standing:
         return said + before
 
 
-@dataclass(frozen=True)
+@record()
 class Check:
     """One check on a service."""
 

@@ -8,11 +8,12 @@ import socket
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from time import monotonic, sleep
 from typing import TYPE_CHECKING
 
 from checker.errors import CheckerError
+from checker.record import record
 from checker.report.wording import plain, shortened
 from checker.saying import Say, say_nothing
 from checker.submitting.form import Form
@@ -28,7 +29,7 @@ _BUSY = (408, 429, 502, 503, 504)
 _SHOWN = 300
 
 
-@dataclass(frozen=True)
+@record()
 class Patience:
     """How long something is waited for.
 
@@ -47,7 +48,7 @@ class Patience:
     longest_pause: float = 30.0
 
 
-@dataclass(frozen=True)
+@record()
 class Answer:
     """What a service answers.
 
@@ -77,7 +78,7 @@ class NoAnswer(Exception):
     """A request came to nothing; the text says why."""
 
 
-@dataclass(frozen=True)
+@record()
 class Connection:
     """Speaks with one service, and with no other: it follows no redirect.
 

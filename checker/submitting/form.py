@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
+
+from checker.record import record
 
 _PIECE = 1 << 16
 
 
-@dataclass(frozen=True)
+@record()
 class Form:
     """A form with some fields and one file behind them.
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from checker.errors import CheckerError
 from checker.loopback import is_loopback
+from checker.record import record
 from checker.report.wording import plain, shortened
 
 _PORTS = {"http": 80, "https": 443}
 _HOST = re.compile(r"[A-Za-z0-9._:-]+")
 
 
-@dataclass(frozen=True)
+@record()
 class Server:
     """Where a service is reached.
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 from pathlib import Path
 from typing import Any
 
 from checker.finding import Severity
 from checker.fingerprint import fingerprint
 from checker.package.reading import NotReadable, read_bytes
+from checker.record import record
 from checker.report.wording import shortened
 from checker.suppression.entries import REASON_LIMIT
 
@@ -20,7 +21,7 @@ SIZE_LIMIT = 5_000_000
 ENTRIES_LIMIT = 20_000
 
 
-@dataclass(frozen=True)
+@record()
 class BaselineEntry:
     """One finding as it was.
 
@@ -39,7 +40,7 @@ class BaselineEntry:
     reason: str = ""
 
 
-@dataclass(frozen=True)
+@record()
 class Baseline:
     """The content of a baseline's file.
 

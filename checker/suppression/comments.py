@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import islice
 
 from checker.finding import Place
+from checker.record import record
 from checker.report.wording import shortened
 from checker.source.text import SourceText
 from checker.suppression.entries import REASON_LIMIT
@@ -39,7 +39,7 @@ _START = re.compile(
 _CONTENT = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?(.*)", re.DOTALL)
 
 
-@dataclass(frozen=True)
+@record()
 class Comment:
     """A comment that wants findings set aside.
 

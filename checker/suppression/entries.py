@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from checker.finding import Place
+from checker.record import record
 
 ENTRIES_LIMIT = 200
 REASON_LIMIT = 1_000
@@ -16,7 +16,7 @@ _KEYS = ("rule", "file", "element", "reason")
 _LIMITS = {"file": PATTERN_LIMIT, "element": PATTERN_LIMIT, "reason": REASON_LIMIT}
 
 
-@dataclass(frozen=True)
+@record()
 class SettingsEntry:
     """Findings of a rule that shall not count.
 

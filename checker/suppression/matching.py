@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from checker.finding import Severity
+from checker.record import record
 from checker.suppression.baseline import BaselineEntry
 from checker.suppression.parts import StaleEntries
 from checker.suppression.spots import Spot, by_element, by_words
@@ -16,7 +16,7 @@ _TELLS: tuple[_Tell, ...] = (by_words, by_element)
 """What makes a place of now and one of an entry the same fault, the surer first."""
 
 
-@dataclass(frozen=True)
+@record()
 class Matched:
     """What a baseline comes to.
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.finding import Place
+from checker.record import record
 from checker.suppression.comments import Comment
 from checker.suppression.entries import SettingsEntry
 
 
-@dataclass(frozen=True)
+@record()
 class UnknownName:
     """A word of a comment that names no rule; the hint says which one may be meant."""
 
@@ -18,7 +17,7 @@ class UnknownName:
     hint: str
 
 
-@dataclass(frozen=True)
+@record()
 class UnusedComment:
     """A comment, and the id of a rule that looked and found nothing for it to set aside."""
 
@@ -26,7 +25,7 @@ class UnusedComment:
     rule: str
 
 
-@dataclass(frozen=True)
+@record()
 class UnusedEntries:
     """Entries of a settings file that set nothing aside.
 
@@ -42,7 +41,7 @@ class UnusedEntries:
     own: bool
 
 
-@dataclass(frozen=True)
+@record()
 class Suppressions:
     """What the package's comments and the settings want set aside, and what of it has no effect.
 
@@ -56,7 +55,7 @@ class Suppressions:
     unused_entries: UnusedEntries
 
 
-@dataclass(frozen=True)
+@record()
 class StaleEntries:
     """Findings of one rule that the baseline holds and that are gone.
 
@@ -73,7 +72,7 @@ class StaleEntries:
     known: bool = True
 
 
-@dataclass(frozen=True)
+@record()
 class BaselineUse:
     """What of the baseline is stale, rule by rule."""
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from checker.finding import Place
 from checker.model.suggestions import Suggestions
 from checker.package.package import Package
 from checker.package.reading import TEXT_LIMIT, NotReadable
+from checker.record import record
 from checker.report.report import IN_BASELINE, SuppressedBy
 from checker.rule import Finding, Rule
 from checker.suppression.baseline import BaselineEntry
@@ -29,7 +29,7 @@ _Line = tuple[str, int, str]
 """A file, a line of it, and the id of a rule that is not to count there."""
 
 
-@dataclass(frozen=True)
+@record()
 class Silence:
     """Why a finding does not count.
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Hashable, Iterator
-from dataclasses import dataclass
 
 from checker.finding import Place, Severity
 from checker.fingerprint import fingerprint, without_line_numbers
+from checker.record import record
 from checker.report.report import ReportedFinding
 
 NAME_LIMIT = 300
@@ -18,7 +18,7 @@ _COMPARED = 900
 """Characters; reports shorten longer messages."""
 
 
-@dataclass(frozen=True)
+@record()
 class Spot:
     """One main place of a finding.
 

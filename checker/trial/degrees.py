@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from checker.dynamics.motion import AXES, Freedom, Motion, motions_of
 from checker.model.components import Axis, Joint
 from checker.model.robot import Robot
 from checker.model.transform import Vector
 from checker.model.values import parse_number
+from checker.record import record
 from checker.trial.mjcf_text import LARGEST, bounded, numbers
 from checker.trial.repairs import Ledger
 
@@ -18,7 +18,7 @@ _ENDLESS = 1e6
 """Metres or radians that stand for no bound where a joint is bounded on one side alone."""
 
 
-@dataclass(frozen=True)
+@record()
 class Degree:
     """One joint of MuJoCo; coefficients in N, N·m and their quotients by m, rad, m/s, rad/s.
 

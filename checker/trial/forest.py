@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.dynamics.hanging import Hanging
 from checker.model.tree import WORLD, Tie
+from checker.record import record
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Forest:
     """The links of a robot, from those that hang on nothing downwards."""
 

@@ -12,6 +12,7 @@ from checker.model.robot import Robot
 from checker.model.shapes import Geometry
 from checker.model.support import support
 from checker.model.transform import Transform, Vector
+from checker.record import record
 from checker.trial.mjcf_text import FAR, numbers, placed, usable, well_placed
 from checker.trial.repairs import Ledger
 
@@ -23,7 +24,7 @@ _SERIOUS = (MeshTrouble.MISSING, MeshTrouble.UNREADABLE)
 _DOWN: Vector = (0.0, 0.0, -1.0)
 
 
-@dataclass(frozen=True)
+@record()
 class Geom:
     """A collision shape of a link.
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from checker.record import record
 from checker.trial.motion import Motion
 from checker.trial.profile import Knots, value_at
 from checker.trial.touches import Touches
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
 
 
-@dataclass(frozen=True)
+@record()
 class Footing:
     """Contact points in the robot's frame, averaged over samples.
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.components import Link, Pose
 from checker.model.robot import Robot
 from checker.model.transform import Transform, Vector
+from checker.record import record
 from checker.trial.mjcf_text import LARGEST, numbers, quaternion, usable, well_placed
 from checker.trial.repairs import Ledger
 
@@ -30,7 +30,7 @@ _FLAT = 1e-11
 """Share of the moments that a flat body is given as thickness, so that rounding cannot harm."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class BodyInertia:
     """What a body weighs.
 

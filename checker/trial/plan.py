@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 from typing import Any
 
 from checker.model.transform import Vector
+from checker.record import record
 from checker.trial.profile import Knots
 from checker.trial.trial import Leg
 
 
-@dataclass(frozen=True)
+@record()
 class DrivenWheel:
     """A wheel that a servo turns.
 
@@ -26,7 +27,7 @@ class DrivenWheel:
     radius: float
 
 
-@dataclass(frozen=True)
+@record()
 class Belt:
     """A link whose surface moves.
 
@@ -41,7 +42,7 @@ class Belt:
     speed: Knots
 
 
-@dataclass(frozen=True)
+@record()
 class PlannedRotor:
     """A rotor.
 
@@ -64,7 +65,7 @@ class PlannedRotor:
     moment: float
 
 
-@dataclass(frozen=True)
+@record()
 class Plan:
     """The commands of a trial.
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 
 from checker.model.locomotion import MotionLimits
+from checker.record import record
 from checker.source.text import Located
 
 Knots = tuple[tuple[float, float], ...]
@@ -17,7 +17,7 @@ _FASTEST = 1e4
 """rad/s or m/s at most, of whatever turns or slides: beyond it, numbers overflow in a step."""
 
 
-@dataclass(frozen=True)
+@record()
 class Limits:
     """What a velocity limiter lets through, as gz-math's SpeedLimiter.
 

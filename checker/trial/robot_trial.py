@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.model.components import Joint, Link, Part
 from checker.model.robot import Robot
+from checker.record import record
 from checker.trial.trial import Leg, Trial
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class RobotTrial:
     """A robot that was driven, and what was measured."""
 
@@ -66,7 +66,7 @@ _CREEP = 0.05
 """Share of the command below which no direction can be told."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class RepeatedTrial(RobotTrial):
     """A robot that was driven twice.
 

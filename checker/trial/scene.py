@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 from itertools import chain
 from typing import Any
 
 from checker.model.robot import Robot
 from checker.model.transform import Transform
+from checker.record import record
 from checker.trial.bodies import BodyWriter
 from checker.trial.layout import Layout
 from checker.trial.mjcf_text import numbers, quaternion
@@ -25,7 +26,7 @@ DROP = 0.01
 """Metres between the lowest collision point and the ground at the start."""
 
 
-@dataclass(frozen=True)
+@record()
 class Scene:
     """The robot as MJCF text, with the names by which its parts are found in it.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
+from checker.record import record
 from checker.trial.rig import Rig
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     Numbers = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@record()
 class Touches:
     """Contacts in a stretch of time: n samples, and k contacts in their order.
 

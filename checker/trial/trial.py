@@ -6,11 +6,13 @@ import sys
 from array import array
 from base64 import b64decode, b64encode
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, field, replace
 from typing import Any
 
+from checker.record import record
 
-@dataclass(frozen=True)
+
+@record()
 class Repair:
     """A change that was needed so that the trial could go on.
 
@@ -25,7 +27,7 @@ class Repair:
     serious: bool = False
 
 
-@dataclass(frozen=True)
+@record()
 class Leg:
     """A stretch of the course.
 
@@ -45,7 +47,7 @@ class Leg:
     angular: float = 0.0
 
 
-@dataclass(frozen=True)
+@record()
 class Measurement:
     """One figure.
 
@@ -62,7 +64,7 @@ class Measurement:
     other: str = ""
 
 
-@dataclass(frozen=True)
+@record()
 class Replay:
     """How the robot moved, to be looked at.
 
@@ -119,7 +121,7 @@ POSE_NUMBERS = 7
 """Of a pose in a replay: x, y, z, and the quaternion w, x, y, z."""
 
 
-@dataclass(frozen=True)
+@record()
 class Trial:
     """The outcome of a trial.
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from checker.model.components import Sensor
 from checker.model.sensing.camera import Camera
 from checker.model.sensing.lidar import Lidar, Scan
+from checker.record import record
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -25,7 +26,7 @@ _LEAST_STEP = 1e-9
 _ENDLESS = 1e9
 
 
-@dataclass(frozen=True)
+@record()
 class Steps:
     """Angles in the middle of equal steps, radians."""
 
@@ -49,7 +50,7 @@ class Steps:
         return self.middle - (self.number - 1) / 2.0 * self.step
 
 
-@dataclass(frozen=True)
+@record()
 class Grid:
     """Rays from a sensor, in its own frame: x ahead, y to the left, z up.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from checker.mesh.uris import MeshFile
@@ -13,6 +12,7 @@ from checker.model.mesh import MeshFault
 from checker.model.robot import Robot
 from checker.model.sensing.mounting import Mounted, mounted_sensors
 from checker.model.transform import Transform
+from checker.record import record
 from checker.source.text import Located
 from checker.view.grid import grid_of
 from checker.view.solids import SOLIDS
@@ -24,7 +24,7 @@ Content = Callable[[Located[str]], tuple[MeshFile, str] | MeshFault]
 """Finds the file behind a URI, and a hash of what is in it."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Asked:
     """A request, and what its numbers stand for.
 
@@ -72,7 +72,7 @@ def asked_of(robot: Robot, content: Content) -> Asked:
     return Asked(request, contents, seen, tuple(visuals), tuple(dict.fromkeys(scene.unseen)))
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Scene:
     """The visuals of a request, as they are collected.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +12,7 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 
 from checker.jobs.port import State
+from checker.record import record
 from checker.web.answers import Problem
 from checker.web.events import HIGHEST, event_stream
 from checker.web.files import KINDS, file_response
@@ -125,7 +125,7 @@ def _add_file(router: APIRouter, path: str, endpoint: Any, kind: str) -> None:
     )
 
 
-@dataclass(frozen=True)
+@record()
 class Api:
     """The routes. What is no coroutine runs in a thread: it waits for the engine or the disk."""
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
 from urllib.parse import urlsplit
 
 from checker.errors import InvalidSettings
 from checker.jobs.port import RETENTION_DAYS
+from checker.record import record
 from checker.store.store import DEFAULT_UPLOAD_LIMIT
 
 _YES = ("1", "true", "yes", "on")
@@ -17,7 +17,7 @@ _CENTURY = 36_500
 """Days; calendars end some day."""
 
 
-@dataclass(frozen=True)
+@record()
 class Config:
     """What a service allows.
 

@@ -13,6 +13,8 @@ from time import monotonic
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from checker.record import record
+
 LINGER_SECONDS = 10.0
 PAUSE_SECONDS = 1.0
 """A client that sends nothing for so long has read the answer, or never will."""
@@ -42,7 +44,7 @@ class _Body:
                 return
 
 
-@dataclass(frozen=True)
+@record()
 class Courtesy:
     """Ends an answer only after the request has been read, within limits."""
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
+from checker.record import record
 from checker.report.from_json import report_from_json
 from checker.report.report import ReportedFinding
 from checker.report.wording import plain, shortened
@@ -18,7 +18,7 @@ SIZE_LIMIT = 20_000_000
 _TEXT_LIMIT = 300
 
 
-@dataclass(frozen=True)
+@record()
 class FirstFinding:
     """A finding in a line.
 
@@ -35,7 +35,7 @@ class FirstFinding:
     package: str
 
 
-@dataclass(frozen=True)
+@record()
 class Glance:
     """The beginning of a report.
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from checker.record import record
 
 POLICY = "content-security-policy"
 NOTHING = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -28,7 +28,7 @@ _PRIVATE = "private, no-store"
 _HTTPS_SECONDS = 31_536_000
 
 
-@dataclass(frozen=True)
+@record()
 class SecurityHeaders:
     """Adds the headers to each answer; a policy or rule for caches that a route gives stays."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
@@ -14,6 +13,7 @@ from starlette.responses import PlainTextResponse, Response
 
 from checker.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
 from checker.loopback import is_loopback
+from checker.record import record
 from checker.web.answers import Problem
 from checker.web.gate import bearer
 from checker.web.refusal import Refused, not_found
@@ -46,7 +46,7 @@ def router(services: Services) -> APIRouter:
     return made
 
 
-@dataclass(frozen=True)
+@record()
 class Health:
     """The routes."""
 

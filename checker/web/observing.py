@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from checker.record import record
 from checker.web.answers import CAUSE, Problem
 from checker.web.logs import FIELDS, LOGGER, short
 from checker.web.metrics import Metrics
@@ -26,7 +26,7 @@ _FAULT = JSONResponse(
 _LOG = logging.getLogger(LOGGER)
 
 
-@dataclass(frozen=True)
+@record()
 class Observing:
     """Counts and logs each request by the template of its route: addresses hold ids."""
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from checker.loopback import is_loopback
+from checker.record import record
 from checker.web.answers import refusal_answer
 from checker.web.config import Config
 from checker.web.refusal import Refused
@@ -18,7 +18,7 @@ _READING = ("GET", "HEAD", "OPTIONS")
 _HOST = re.compile(r"(\[[0-9A-Fa-f:.]{2,45}\]|[A-Za-z0-9._-]{1,253})(?::\d{1,5})?")
 
 
-@dataclass(frozen=True)
+@record()
 class OwnOrigin:
     """Refuses what is meant for another host, or changes something on behalf of another site.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ from checker.package.archive import ARCHIVE_SUFFIXES
 from checker.package.archive_index import ArchiveLimits
 from checker.package.opening import SINGLE_FILE_SUFFIXES
 from checker.profiles import profile, profile_names
+from checker.record import record
 from checker.report.wording import count, plain
 from checker.web import progress, rule_book
 from checker.web.first_findings import glance
@@ -67,7 +67,7 @@ def error_page(status: int, sentence: str, advice: str) -> Response:
     return html("error.html.j2", status=status, sentence=sentence, advice=advice)
 
 
-@dataclass(frozen=True)
+@record()
 class _Pages:
     """The pages that need what the service works with.
 

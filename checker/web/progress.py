@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
 from checker.jobs.port import Event, Stage, State
+from checker.record import record
 from checker.report.wording import count, plain, shortened
 from checker.web.views import address_of
 
@@ -23,7 +23,7 @@ _AGAIN = "Send the package again; if this stays, tell whoever runs this service.
 _TEXT_LIMIT = 600
 
 
-@dataclass(frozen=True)
+@record()
 class Step:
     """One step of a check.
 
@@ -37,7 +37,7 @@ class Step:
     words: str = ""
 
 
-@dataclass(frozen=True)
+@record()
 class Headline:
     """What a check comes to.
 
@@ -54,7 +54,7 @@ class Headline:
     advice: str = ""
 
 
-@dataclass(frozen=True)
+@record()
 class PackageLine:
     """A package of a check.
 
@@ -164,7 +164,7 @@ def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> Pac
     )
 
 
-@dataclass(frozen=True)
+@record()
 class Moment:
     """A moment, for people and for programs."""
 

@@ -11,6 +11,8 @@ from time import monotonic
 
 from starlette.requests import HTTPConnection
 
+from checker.record import record
+
 CLIENTS = 10_000
 """Remembered at most; who comes new takes the place of who was away the longest."""
 _IPV6_HOME = 64
@@ -43,7 +45,7 @@ class Bucket:
     counted: float
 
 
-@dataclass(frozen=True)
+@record()
 class Rate:
     """So many a minute for each client, all of them at once if it likes.
 
@@ -71,7 +73,7 @@ class Rate:
         return 0.0 if allowed else (1 - drops) / per_second
 
 
-@dataclass(frozen=True)
+@record()
 class Slots:
     """Places for what goes on at once.
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from itertools import groupby
 from typing import TYPE_CHECKING
 
 from checker.discovery import all_rules
 from checker.page import parse_page
+from checker.record import record
 from checker.rule_pages import about, escaped, told
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
 
-@dataclass(frozen=True)
+@record()
 class RuleEntry:
     """A rule in the list.
 
@@ -31,7 +31,7 @@ class RuleEntry:
     title: Markup
 
 
-@dataclass(frozen=True)
+@record()
 class RuleGroup:
     """Rules of one group.
 
@@ -44,7 +44,7 @@ class RuleGroup:
     rules: tuple[RuleEntry, ...]
 
 
-@dataclass(frozen=True)
+@record()
 class RulePage:
     """All that is told of a rule; `body` is HTML."""
 

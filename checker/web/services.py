@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from anyio import CapacityLimiter
 
 from checker.jobs.port import Jobs
+from checker.record import record
 from checker.store.store import Store
 from checker.web.config import Config
 from checker.web.gate import Gate
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 _ORDERS_AT_ONCE = 2
 
 
-@dataclass(frozen=True)
+@record()
 class Services:
     """What the routes of the service work with.
 

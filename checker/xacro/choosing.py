@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from checker.package.kind import PackageKind
 from checker.package.package import Package
+from checker.record import record
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -19,7 +20,7 @@ FOLDER_BESIDE_SDF = "urdf/"
 CANDIDATES_LIMIT = 50
 
 
-@dataclass(frozen=True)
+@record()
 class Candidate:
     """A file that ought to hold a robot.
 

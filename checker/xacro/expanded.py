@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any
 
 from checker.finding import Place
+from checker.record import record
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText, Span
 from checker.source.xml import Element, XmlDocument, parse_xml
@@ -19,7 +20,7 @@ from checker.xacro.paths import ROOT
 _BLANKS = " \t\r\n"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class ExpandedText(SourceText):
     """What xacro made of a file: offsets and lines count in it, places lie in what was written.
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from checker.cache import Cache, code_hash, key_of
 from checker.confined import Child, Died, Limits
 from checker.model.urdf.files import XacroFault, XacroFaultKind
 from checker.package.package import Package
+from checker.record import record
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
 from checker.versions import version_of
@@ -26,7 +26,7 @@ _ROUNDS = 6
 _KIND = "xacro"
 
 
-@dataclass(frozen=True)
+@record()
 class Wanted:
     """A file to expand.
 
@@ -39,7 +39,7 @@ class Wanted:
     args: Mapping[str, str]
 
 
-@dataclass(frozen=True)
+@record()
 class Unread:
     """A file that could not be expanded for no fault of its own; the reason ends a sentence."""
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 
 from checker.model.launch.graph import LaunchGraph
 from checker.model.launch.substitution import is_known
+from checker.record import record
 from checker.xacro.paths import ROOT
 
 _FIND = re.compile(r"\$\(find\s{1,8}([\w.-]{1,200})\s{0,8}\)")
@@ -18,7 +18,7 @@ _COMMAND_LIMIT = 4_000
 """Characters of a command that is read."""
 
 
-@dataclass(frozen=True)
+@record()
 class Load:
     """A file that a launch file loads.
 

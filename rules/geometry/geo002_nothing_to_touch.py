@@ -9,11 +9,11 @@ Source: contacts come from `<collision>` elements alone, SDFormat specification.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.model.components import Link, Plugin
 from checker.model.rigid import rigid_bodies
 from checker.model.robot import Robot
+from checker.record import record
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
@@ -56,7 +56,7 @@ def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:
             )
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Part:
     kind: str
     links: tuple[Link, ...]

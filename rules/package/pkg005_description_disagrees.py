@@ -11,13 +11,13 @@ Source: model reviews: the list of sensors in model.config against model.sdf.
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from checker.model.robot import Robot
 from checker.model.specification.sensor_kinds import SensorKind, kinds_in
 from checker.model.specification.sensor_types import SUBSTITUTES, TYPES
 from checker.model.specification.sensors import stated_count
 from checker.paperwork import Paperwork
+from checker.record import record
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located, Span
 
@@ -28,7 +28,7 @@ _POINT = re.compile(r"\b(?:ceiling|cliff|distance|floor|point|range) sensors?\b"
 _LIST_MARK = re.compile(r"[\s,;:.-]*(?:(?:and|with|has|having|plus)\s+)?", re.IGNORECASE)
 
 
-@dataclass(frozen=True)
+@record()
 class _Told:
     """A kind of sensor that a clause names, and how many of it; None when it does not say."""
 

@@ -12,7 +12,6 @@ Source: reviews of SubT models; `devices.json` names others, figure by figure.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from checker.model.components import Sensor
 from checker.model.devices import Device, SensorDevice, SensorDevices
@@ -21,6 +20,7 @@ from checker.model.lidar_shape import devices_of_shape, vertical_degrees
 from checker.model.listing import either
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Lidar
+from checker.record import record
 from checker.rule import Finding, Findings, HasSpan, Severity, finding, rule
 
 _SPOKEN_OF = {
@@ -33,7 +33,7 @@ _SPOKEN_OF = {
 """What "Diversions" would say of a figure."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Difference:
     """A figure that is off: where it stands, which one, what is said, what was expected."""
 

@@ -11,17 +11,17 @@ million pixels a second.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.model.components import Sensor
 from checker.model.robot import Robot
+from checker.record import record
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _NAMED = 5
 """Sensors that the finding points at."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class _Load:
     """What a sensor renders: so many pixels or rays, so often a second."""
 

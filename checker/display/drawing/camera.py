@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
+
+from checker.record import record
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -17,7 +19,7 @@ _MARGIN = 1.12
 """What is shown may fill the picture but for this."""
 
 
-@dataclass(frozen=True)
+@record()
 class Camera:
     """A camera as MuJoCo has it.
 

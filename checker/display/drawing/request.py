@@ -12,6 +12,7 @@ from checker.display.files.wire import surface_to_json
 from checker.display.scene import DisplayScene, Item, Layer
 from checker.display.surface import Surface
 from checker.model.transform import Transform
+from checker.record import record
 from checker.trial.mjcf_text import quaternion, well_placed
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ _ITEMS = 2000
 """That are drawn of a robot."""
 
 
-@dataclass(frozen=True)
+@record()
 class Shot:
     """One picture.
 

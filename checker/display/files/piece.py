@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from checker.display.surface import GREY, Colour
+from checker.record import record
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -17,7 +17,7 @@ MOST = 32
 """Looks of one file; the triangles of all others get that of the most frequent of them."""
 
 
-@dataclass(frozen=True)
+@record()
 class Look:
     """What a material does to its triangles.
 
@@ -30,7 +30,7 @@ class Look:
     picture: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Piece:
     """Triangles of one look.
 

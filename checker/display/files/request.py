@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import posixpath
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh
 from checker.package.package import Package
 from checker.package.reading import NotReadable, read_bytes
+from checker.record import record
 from checker.versions import version_of
 
 _LIBRARIES = ("fast-simplification", "lxml", "numpy", "pillow", "pycollada", "trimesh")
@@ -25,7 +25,7 @@ _BESIDE = 40
 """Pictures, and material files, of one mesh."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Asked:
     """A file to be read.
 

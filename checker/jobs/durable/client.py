@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import sqlalchemy as sa
@@ -16,12 +15,13 @@ from checker.jobs.durable.queues import Queues, queues_of
 from checker.jobs.durable.readings import alive, events_of, state_of
 from checker.jobs.outcome import Checked
 from checker.jobs.port import RETENTION_DAYS, Alive, Event, Order, Stage, State
+from checker.record import record
 from checker.store.store import Store
 
 _DAY = 86400.0
 
 
-@dataclass(frozen=True)
+@record()
 class DurableJobs:
     """`Jobs` on a database: SQLite or PostgreSQL.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any
 
@@ -19,6 +19,7 @@ from checker.jobs.durable.database import now
 from checker.jobs.durable.tables import CHECKS, EVENTS
 from checker.jobs.outcome import UNFINISHED
 from checker.jobs.port import Order, Stage
+from checker.record import record
 from checker.report.wording import plain, shortened
 
 WORKERS_LOST = 3
@@ -31,7 +32,7 @@ Then = Callable[[sa.Connection], None]
 """What belongs into the same transaction."""
 
 
-@dataclass(frozen=True)
+@record()
 class Turn:
     """A check in the hands of a worker.
 
@@ -46,7 +47,7 @@ class Turn:
     order: Order
 
 
-@dataclass(frozen=True)
+@record()
 class Step:
     """What a check comes to.
 
@@ -67,7 +68,7 @@ class Step:
     data: Mapping[str, Any] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
+@record()
 class Ledger:
     """The book of checks."""
 

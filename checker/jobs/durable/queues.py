@@ -7,12 +7,12 @@ before the trials of older ones are through.
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sqlalchemy as sa
 
 from checker.jobs.port import Stage
+from checker.record import record
 
 if TYPE_CHECKING:
     from dbos import DBOSClient
@@ -31,7 +31,7 @@ def workflow_of(id: str, stage: Stage) -> str:
     return id if stage is Stage.STATIC else f"{id}.{stage}"
 
 
-@dataclass(frozen=True)
+@record()
 class Queues:
     """Puts checks into queues."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
 
 import sqlalchemy as sa
 
@@ -11,12 +10,13 @@ from checker.jobs.durable.database import now
 from checker.jobs.durable.ledger import forget
 from checker.jobs.durable.queues import Queues
 from checker.jobs.durable.tables import CHECKS
+from checker.record import record
 from checker.store.store import Store
 
 _AT_ONCE = 200
 
 
-@dataclass(frozen=True)
+@record()
 class Retention:
     """Deletes what has had its time; any number of workers may do so at once.
 

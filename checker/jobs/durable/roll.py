@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sqlalchemy as sa
 
 from checker.jobs.durable.database import now
 from checker.jobs.durable.tables import WORKERS
+from checker.record import record
 
 
-@dataclass(frozen=True)
+@record()
 class Roll:
     """The roll of workers."""
 

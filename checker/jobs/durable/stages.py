@@ -10,7 +10,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypeVar
 
 import sqlalchemy as sa
@@ -22,6 +22,7 @@ from checker.jobs.durable.ledger import Ledger, Step, Then, Turn
 from checker.jobs.durable.queues import Queues
 from checker.jobs.outcome import FAILED_INSIDE, Cancelled, Checked, Died, Refused
 from checker.jobs.port import JobsUnreachable, Stage
+from checker.record import record
 from checker.store.store import Store
 
 _T = TypeVar("_T")
@@ -34,7 +35,7 @@ _BEGINS = {
 _READ = "the static rules have looked; the trial waits for its turn"
 
 
-@dataclass(frozen=True)
+@record()
 class Stages:
     """Does stages of checks.
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
 
 from checker.jobs.durable.engine import holders, recover
 from checker.jobs.durable.roll import Roll
+from checker.record import record
 
 _LOG = logging.getLogger(__name__)
 _ROLL_SILENCES = 60
 """A dead worker stays on the roll for so many times the silence, for those who look at it."""
 
 
-@dataclass(frozen=True)
+@record()
 class Watchdog:
     """One in each worker; each looks after all others.
 

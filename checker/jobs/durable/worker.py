@@ -10,7 +10,7 @@ import sys
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from checker.jobs.durable.database import open_database, prepare, reachable
 from checker.jobs.durable.engine import land, launch
@@ -21,6 +21,7 @@ from checker.jobs.durable.roll import Roll
 from checker.jobs.durable.stages import Stages
 from checker.jobs.durable.watchdog import Watchdog
 from checker.jobs.port import SILENCE_SECONDS, JobsUnreachable
+from checker.record import record
 from checker.store.store import Store
 
 _LOG = logging.getLogger(__name__)
@@ -32,7 +33,7 @@ def _some_name() -> str:
     return f"worker-{secrets.token_hex(4)}"
 
 
-@dataclass(frozen=True)
+@record()
 class WorkerOptions:
     """How a worker works.
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from checker.record import record
 from checker.source.text import Located, Span
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ _DIRECTIONS = {"[": Direction.TO_ROS, "]": Direction.TO_IGN, "@": Direction.BOTH
 _PARAMETER = re.compile(r"([^@\[\]]+)@([^@\[\]]+)([@\[\]])([^@\[\]]+)\Z")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Bridge:
     """One topic that a node passes between Gazebo and ROS.
 
@@ -80,7 +80,7 @@ class Bridge:
         return SensorTopic.parse(self.ign_topic)
 
 
-@dataclass(frozen=True)
+@record()
 class SensorTopic:
     """Parts of a sensor's default topic in Gazebo.
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from checker.record import record
 
 
-@dataclass(frozen=True)
+@record()
 class LaunchCommand:
     """`roslaunch --wait P vehicle_topics.launch world_name:=w name:=n`, taken apart.
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 
 from checker.model.launch.graph import Node
 from checker.model.launch.names import resolve_name
 from checker.model.launch.substitution import is_known
+from checker.record import record
 from checker.source.text import Located, Span
 
 STATES = "joint_states"
@@ -33,7 +33,7 @@ _SPAWN_MODEL: Mapping[str, int] = MappingProxyType(
 """Options of gazebo_ros's spawn_model, each with the number of words behind it."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Spawned:
     """A controller that a spawner node of a launch file is told to start.
 
@@ -55,7 +55,7 @@ class Spawned:
         return resolve_name(self.name, self.namespace)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class StateListener:
     """A node that turns joint states into transforms.
 
@@ -70,7 +70,7 @@ class StateListener:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SpawnedModel:
     """A model that gazebo_ros's `spawn_model` puts into Gazebo.
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from checker.model.launch.graph import LaunchGraph, Param
 from checker.model.launch.include import target_of
+from checker.record import record
 from checker.source.text import Span
 from checker.source.xml import Element, XmlDocument
 
@@ -18,7 +18,7 @@ _COMPUTED = re.compile(r"\$\([^()]*\)/?|\$\{[^{}]*\}/")
 """What a name may begin with: `$(arg prefix)`, `${name}/`; `${side}_wheel` is worked out whole."""
 
 
-@dataclass(frozen=True)
+@record()
 class DescriptionFile:
     """A file that the command names.
 
@@ -31,7 +31,7 @@ class DescriptionFile:
     path: str
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class RobotDescription:
     """A parameter that holds the robot's description.
 

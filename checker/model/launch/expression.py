@@ -9,7 +9,8 @@ from __future__ import annotations
 import ast
 import operator
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+
+from checker.record import record
 
 Value = str | int | float | bool
 
@@ -18,12 +19,12 @@ MAX_DEPTH = 40
 _LARGEST = 10**100
 
 
-@dataclass(frozen=True)
+@record()
 class Unknown:
     """The expression asks for something that this reader does not evaluate."""
 
 
-@dataclass(frozen=True)
+@record()
 class ExpressionFault:
     """The expression is wrong: roslaunch stops at it.
 

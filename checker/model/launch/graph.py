@@ -9,11 +9,12 @@ from __future__ import annotations
 import enum
 import posixpath
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 from checker.model.launch.bridge import PASSES_NOTHING, Bridge
 from checker.model.launch.names import resolve_name
+from checker.record import record
 from checker.source.text import Located, Span
 
 _SIMULATOR = "gazebo_ros"
@@ -38,7 +39,7 @@ class LaunchFaultKind(enum.Enum):
     LIMIT = "the launch file is larger than this reader follows"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LaunchFault:
     """One fault of a launch file."""
 
@@ -47,7 +48,7 @@ class LaunchFault:
     message: str
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Remap:
     """A `<remap>` that is in force for a node.
 
@@ -64,7 +65,7 @@ class Remap:
     inherited: bool = False
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Node:
     """A node that the launch file starts; those that a condition leaves out are not here.
 
@@ -110,7 +111,7 @@ class Node:
         return wanted
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Param:
     """A parameter that the launch file sets.
 
@@ -129,7 +130,7 @@ class Param:
     text: Span | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class EnvironmentVariable:
     """An `<env>` tag."""
 
@@ -138,7 +139,7 @@ class EnvironmentVariable:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Include:
     """An `<include>` that was followed: its file by the path the reader knows it under."""
 
@@ -147,7 +148,7 @@ class Include:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class UnresolvedInclude:
     """An `<include>` of a file that is not at hand.
 
@@ -168,7 +169,7 @@ class UnresolvedInclude:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LaunchGraph:
     """All that a launch file starts, files that it includes among it.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import posixpath
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Protocol
 
@@ -13,6 +12,7 @@ from checker.model.launch.graph import UnresolvedInclude
 from checker.model.launch.reading import Reader, truth_of
 from checker.model.launch.scope import HERE, Scope
 from checker.model.launch.substitution import is_known
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
@@ -43,7 +43,7 @@ class ReadLaunch(Protocol):
         ...
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Inclusion:
     """An `<include>` as written, substitutions made.
 

@@ -8,17 +8,17 @@ remaps; started with the argument `depth` it does without camera_info.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from checker.model.launch.graph import Node
 from checker.model.launch.names import resolve_name
+from checker.record import record
 
 PROGRAM = "optical_frame_publisher"
 IMAGES = ("input/image", "output/image")
 INFOS = ("input/camera_info", "output/camera_info")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class OpticalFrame:
     """One optical_frame_publisher.
 

@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from checker.model.launch.graph import Remap
 from checker.model.launch.names import resolve_name
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import XmlDocument
 
@@ -16,7 +17,7 @@ HERE = "./"
 Chain = tuple[tuple[str, frozenset[tuple[str, str]]], ...]
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LaunchFile:
     """One file being expanded.
 

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from checker.model.launch.expression import ExpressionFault, Unknown, evaluate
 from checker.model.launch.graph import LaunchFaultKind
+from checker.record import record
 
 MAX_LENGTH = 20_000
 _SUBSTITUTION = re.compile(r"\$\(([^()]*)\)")
@@ -18,7 +18,7 @@ _MACHINE = {"find", "env", "optenv", "anon"}
 _EVAL = "$(eval "
 
 
-@dataclass(frozen=True)
+@record()
 class SubstitutionFault:
     """What is wrong with `text[start:end]`."""
 
@@ -28,7 +28,7 @@ class SubstitutionFault:
     message: str
 
 
-@dataclass(frozen=True)
+@record()
 class Substituted:
     """A text with its substitutions made, and the faults met."""
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 
+from checker.record import record
 from checker.resources import table
 from checker.source.text import Located, Span
 from checker.source.xml import Element
@@ -16,7 +16,7 @@ _LEFT_OUTSIDE = re.compile(
 )
 
 
-@dataclass(frozen=True)
+@record()
 class LaunchTag:
     """What roslaunch knows of one tag.
 

@@ -10,13 +10,13 @@ import posixpath
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from checker.model.components import Plugin, Sensor
 from checker.model.launch.bridge import Bridge, Direction
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
+from checker.record import record
 from checker.resources import table
 
 _PARAMETER = re.compile(r"\{(\w+)\}")
@@ -30,7 +30,7 @@ class Need(enum.StrEnum):
     OPTIONAL = "optional"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Channel:
     """A topic of a sensor or plugin.
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.model.schema import ElementType, walk
+from checker.record import record
 from checker.source.xml import Element, XmlDocument
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SdfDocument:
     """A well-formed SDF file.
 

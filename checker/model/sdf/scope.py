@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import radians
 
 from checker.model.components import Pose
@@ -10,13 +9,14 @@ from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.transform import Transform, Vector, rotation_from_quaternion
 from checker.model.values import ValueReader
+from checker.record import record
 from checker.source.text import Located
 from checker.source.xml import Element
 
 _ZEROS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True)
+@record()
 class Scope:
     """A model whose inside is being read.
 

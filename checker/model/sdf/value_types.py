@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 
 from checker.model.values import ValueReader, numbers_of_words
+from checker.record import record
 from checker.source.text import Located, Span
 
 _INTEGER = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]{1,16}|\d{1,400})\Z", re.ASCII)
@@ -22,7 +22,7 @@ _MOST = 3
 """Words of one value that are reported: a value may be as long as a file."""
 
 
-@dataclass(frozen=True)
+@record()
 class Misread:
     """A text that does not read as its type.
 

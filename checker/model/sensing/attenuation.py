@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.model.values import ValueReader
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Attenuation:
     """An `<attenuation>`: at distance d, light is divided by constant + linear·d + quadratic·d².
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import combinations
 
 from checker.model.sensing.mounting import Mounted
 from checker.model.transform import Vector
+from checker.record import record
 
 _AHEAD, _BEHIND = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
 _LEFT, _RIGHT = (0.0, 1.0, 0.0), (0.0, -1.0, 0.0)
@@ -44,7 +44,7 @@ _LONGEST = 200
 """Characters of a name that are looked at."""
 
 
-@dataclass(frozen=True)
+@record()
 class CalledDirections:
     """What a name says about where a sensor looks.
 

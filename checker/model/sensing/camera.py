@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@dataclass(frozen=True)
+@record()
 class Pinhole:
     """How a pinhole camera projects: focal lengths and principal point, pixels."""
 
@@ -34,7 +34,7 @@ DEFAULT_PINHOLE = Pinhole(277.0, 277.0, 160.0, 120.0)
 """SDFormat's own: right for 320 × 240 pixels and a horizontal field of view of 60°."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Intrinsics:
     """A `<lens><intrinsics>`: focal lengths, principal point and skew, pixels."""
 
@@ -56,7 +56,7 @@ class Intrinsics:
         return any(math.isfinite(c.value) and 2.0 * c.value % 1.0 for c in (self.cx, self.cy))
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Clip:
     """Metres from which, and up to which, a camera sees; `span` is the start tag."""
 
@@ -65,7 +65,7 @@ class Clip:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Camera:
     """A `<camera>`.
 

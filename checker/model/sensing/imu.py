@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 QUANTITIES = ("angular_velocity", "linear_acceleration")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Imu:
     """An `<imu>`.
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Scan:
     """Rays of one direction, horizontal or vertical.
 
@@ -39,7 +38,7 @@ class Scan:
         return (self.lower.value + self.upper.value) / 2.0
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Lidar:
     """A `<lidar>` or `<ray>`.
 

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from checker.model.transform import Transform, Vector
+from checker.record import record
 
 if TYPE_CHECKING:
     from checker.model.components import Joint, Link, Sensor
     from checker.model.robot import Robot
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Mounted:
     """A sensor in the robot's frame, with all joints where they start.
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from checker.model.values import ValueReader
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Noise:
     """A `<noise>`; all figures in the unit of what it is added to.
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 
+from checker.record import record
 from checker.resources import table
 
 _ELSEWHERE = frozenset({"lidar", "custom"})
 """Left out of the lost ones: a lidar of the CPU has its twin on the GPU, custom ones a plugin."""
 
 
-@dataclass(frozen=True)
+@record()
 class SensorTypes:
     """Types of sensors as they are written.
 

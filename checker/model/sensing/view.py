@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from checker.model.components import Link, Visual
 from checker.model.robot import Robot
 from checker.model.sensing.mounting import Mounted
+from checker.record import record
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class View:
     """What a camera or lidar sees of the robot that carries it, with all joints where they start.
 
@@ -37,7 +36,7 @@ class View:
         return sum(share for share, metres in self.filled if metres < distance)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class SensorViews:
     """A robot and the views of its cameras and lidars.
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from checker.record import record
 from checker.source.markdown import Markdown
 from checker.source.text import Span
 
@@ -27,7 +27,7 @@ _STRUCK = re.compile(
 )
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Leftover:
     """Something that was to be replaced or removed.
 

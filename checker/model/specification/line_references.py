@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
+from checker.record import record
 from checker.source.markdown import Passage
 from checker.source.text import Located, Span
 
@@ -18,7 +18,7 @@ CLAIM_LENGTH = 300
 _RANGE = re.compile(r"(\d+)(?:\s*(?:-|–|to)\s*(\d+))?", re.IGNORECASE)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class LineReference:
     """A claim about lines of a file.
 

@@ -6,7 +6,6 @@ import enum
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from checker.model.specification.quantities import (
     NUMBER,
@@ -19,6 +18,7 @@ from checker.model.specification.quantities import (
     resolution_of,
     sentences,
 )
+from checker.record import record
 from checker.source.markdown import Passage
 from checker.source.text import Span
 
@@ -37,7 +37,7 @@ class MotionQuantity(enum.Enum):
         return self.name.endswith("ACCELERATION")
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Limit:
     """A motion limit of the sheet.
 

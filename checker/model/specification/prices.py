@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from checker.record import record
 from checker.source.text import Span
 
 MAX_LINES = 500
@@ -29,7 +29,7 @@ _ITEM = re.compile(
 _CELL = re.compile(r"\s*\|.{0,300}\|\s*(?:~|about)?\s*$", re.IGNORECASE)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Price:
     """A price.
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from checker.record import record
 from checker.source.markdown import Passage
 from checker.source.text import Span
 
@@ -36,7 +37,7 @@ class QuantityKind(enum.Enum):
     TURNING_RADIUS = "turning radius, m"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Quantity:
     """A number of the sheet.
 
@@ -59,7 +60,7 @@ class Quantity:
     span: Span
 
 
-@dataclass(frozen=True)
+@record()
 class Sentence:
     """A sentence of a passage: `text` stands at `start` of the passage's text."""
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from checker.model.specification.quantities import WORDS, configurations_in, number_of
 from checker.model.specification.sensor_kinds import SensorKind, kinds_in
+from checker.record import record
 from checker.source.markdown import Passage, PassageKind
 from checker.source.text import Span
 
@@ -30,7 +30,7 @@ _BREADCRUMBS = re.compile(rf"\b{_NUMBER}\s+(?:communications?\s+)?breadcrumbs\b"
 _VAGUE = re.compile(r"\b(?:dual|stereo|quad|triple|pairs?|several|multiple|set|array|head)\b", re.I)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class ListedSensor:
     """One kind of sensor of one item of the list.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from bisect import bisect_left
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.model.specification.endurance import durations, endurance
@@ -21,13 +20,14 @@ from checker.model.specification.motion import (
 from checker.model.specification.quantities import Quantity
 from checker.model.specification.sensors import ListedSensor, listed_sensors
 from checker.model.specification.validation import validation_links
+from checker.record import record
 from checker.source.markdown import MAX_LENGTH, Markdown, Passage, PassageKind, read_markdown
 from checker.source.text import SourceText, Span
 
 _OTHER_SHEET = re.compile(r"\]\(([^()\s#]{1,200}\.md)[)#]", re.IGNORECASE)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Section:
     """A heading and what stands below it.
 
@@ -54,7 +54,7 @@ class Section:
         return all(passage.kind is PassageKind.HEADING for passage in self.passages)
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Specification:
     """A specification sheet.
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.model.robot import Robot
 from checker.model.urdf.reader import read_urdf
+from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class TransmissionEnd:
     """A `<joint>` or `<actuator>` of a transmission.
 
@@ -26,7 +26,7 @@ class TransmissionEnd:
     span: Span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Transmission:
     """A `<transmission>`."""
 
@@ -42,7 +42,7 @@ class Transmission:
         return self.element.span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class GazeboTag:
     """A `<gazebo>` tag; `reference` is empty for one that is meant for the whole robot."""
 
@@ -55,7 +55,7 @@ class GazeboTag:
         return self.element.span
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class UrdfDescription:
     """One URDF file, after xacro where it is one.
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
 
 from checker.model.urdf.description import UrdfDescription
+from checker.record import record
 from checker.source.text import Span
 
 
@@ -25,7 +25,7 @@ class XacroFaultKind(enum.StrEnum):
     LIMIT = "limit"
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class XacroFault:
     """Why and where a file does not expand.
 
@@ -46,7 +46,7 @@ class XacroFault:
     loaded: bool = True
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class UrdfFiles:
     """What became of the URDF files of a package.
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 from checker.model.components import Joint, Link
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.extensions import extension_flag
+from checker.record import record
 
 _KEEPING = ("preserveFixedJoint", "disableFixedJointLumping")
 """Tags below `<gazebo reference="joint">` that keep a fixed joint, or the link below it."""
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Lumping:
     """The links of a description as Gazebo Classic merges them.
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from checker.finding import Place, Severity
+from checker.record import record
 from checker.report.html.frame import Change, Frame, changes_of, frame_of
 from checker.report.report import ReportedFinding
 from checker.report.wording import plain, shortened
@@ -18,7 +18,7 @@ _PLACES_SHOWN = 8
 _TEXT_LIMIT = 600
 
 
-@dataclass(frozen=True)
+@record()
 class Spot:
     """A place, ready to be shown.
 
@@ -32,7 +32,7 @@ class Spot:
     element: str
 
 
-@dataclass(frozen=True)
+@record()
 class ShownFinding:
     """One finding.
 
@@ -53,7 +53,7 @@ class ShownFinding:
     changes: tuple[Change, ...]
 
 
-@dataclass(frozen=True)
+@record()
 class RuleGroup:
     """The findings of one rule and severity.
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from checker.finding import SNIPPET_LIMIT, Edit, Fix, Place
+from checker.record import record
 from checker.report.wording import plain, shortened
 
 WIDTH = 400
@@ -16,7 +16,7 @@ _EDITS_SHOWN = 20
 _LINES_SHOWN = 20
 
 
-@dataclass(frozen=True)
+@record()
 class Frame:
     """A line of source in three parts; the middle one is what the finding is about."""
 
@@ -26,7 +26,7 @@ class Frame:
     after: str
 
 
-@dataclass(frozen=True)
+@record()
 class Change:
     """What one edit does, line by line."""
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from checker.record import record
 from checker.report.wording import plain, shortened
 
 WIDTH, HEIGHT = 1000.0, 100.0
@@ -21,7 +21,7 @@ _MARGIN = 0.08
 Values = Sequence[float | None]
 
 
-@dataclass(frozen=True)
+@record()
 class Line:
     """One curve: its name and its points, as SVG's `points` has them, piece by piece."""
 
@@ -30,7 +30,7 @@ class Line:
     pieces: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@record()
 class Tick:
     """A value on the axis, and how far down it stands, in per cent."""
 
@@ -38,7 +38,7 @@ class Tick:
     top: float
 
 
-@dataclass(frozen=True)
+@record()
 class Plot:
     """Curves of one unit over the time of a trial.
 
@@ -55,7 +55,7 @@ class Plot:
     more: int
 
 
-@dataclass(frozen=True)
+@record()
 class Span:
     """A leg of the course: its name, where it starts and how long it is, in per cent."""
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from checker.record import record
 from checker.report.report import Cause, NotChecked, Suppressed
 from checker.report.wording import plain, shortened
 
@@ -20,7 +20,7 @@ _CAUSES = {
 """In words, what keeps a package from being ready first."""
 
 
-@dataclass(frozen=True)
+@record()
 class Reason:
     """A reason and the rules that did not look because of it."""
 
@@ -29,7 +29,7 @@ class Reason:
     rules: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@record()
 class SetAside:
     """A finding that does not count: what it says, where, and why it does not."""
 
