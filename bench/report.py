@@ -1,8 +1,9 @@
 """What a report costs: time on top of the check, size, and how long a browser takes to open it.
 
 Run with `python -m bench.report` from the top folder, as `make bench` does; SUBT_CHECK_CORPUS names
-the folder of real packages, the samples stand in where there is none. Machines differ and are
-shared: compare ratios, not milliseconds.
+the folder of real packages, the samples stand in where there is none; arguments choose some by
+name. Each figure is the median of three runs. Machines differ and are shared: compare ratios, not
+milliseconds.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from tests.browser import started
 
 SIZE_LIMIT, EXTRA_LIMIT, OPEN_LIMIT = 10.0, 2.0, 3.0
 """MB of a report, seconds on top of the check, seconds until the robot is seen."""
+REPEATS = 3
 
 
 @dataclass(frozen=True)
@@ -61,8 +63,21 @@ def opening(page: Path) -> float:
         return perf_counter() - begun
 
 
+def median(package: Path, folder: Path) -> Cost:
+    """Measure one package several times, and take the median of each figure."""
+    costs = [measured(package, folder / str(number)) for number in range(REPEATS)]
+    middle = (statistics.median(figures) for figures in zip(*map(figures_of, costs), strict=True))
+    return Cost(package.name, *middle)
+
+
+def figures_of(cost: Cost) -> tuple[float, ...]:
+    """Return what was measured, in the order of the attributes."""
+    return cost.cold, cost.warm, cost.again, cost.megabytes, cost.opening
+
+
 def measured(package: Path, folder: Path) -> Cost:
-    """Measure one package."""
+    """Measure one package once."""
+    folder.mkdir()
     target = folder / "out"
     report = ("--report", str(target))
     plain, full, before = (str(folder / name) for name in ("plain", "full", "before"))
@@ -82,12 +97,15 @@ def main() -> None:
     keep_bytecode()
     costs = []
     print(f"{'':<36} {'cold':>7} {'warm':>7} {'again':>7} {'MB':>6} {'open':>6}")
+    chosen = sys.argv[1:]
     for package in real_packages():
+        if chosen and package.name not in chosen:
+            continue
         with tempfile.TemporaryDirectory() as folder:
-            cost = measured(package, Path(folder))
+            cost = median(package, Path(folder))
         costs.append(cost)
         times = f"{cost.cold:7.2f} {cost.warm:7.2f} {cost.again:7.2f}"
-        print(f"{cost.name:<36} {times} {cost.megabytes:6.2f} {cost.opening:6.2f}")
+        print(f"{cost.name:<36} {times} {cost.megabytes:6.2f} {cost.opening:6.2f}", flush=True)
     for name, values, limit in (
         ("time on top, cold, s", [each.cold for each in costs], EXTRA_LIMIT),
         ("time on top, warm, s", [each.warm for each in costs], EXTRA_LIMIT),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import field, replace
@@ -134,8 +135,11 @@ def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:
     started = perf_counter()
     with open_input(task.path) as opened:
         opening = perf_counter() - started
-        for package in opened.packages:
+        for number, package in enumerate(opened.packages):
             if task.only in ("", package.name):
+                if number:
+                    # The packages before have left what nothing but the collection finds.
+                    gc.collect()
                 report = _checked(package, task)
                 if isinstance(report, PackageReport):
                     report = replace(report, timings={"open": opening, **report.timings})

@@ -11,6 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from checker.check import check_paths, settings_of
+from checker.collection import collection_put_off
 from checker.discovery import all_rules
 from checker.errors import CheckerError, InvalidSettings, UnreadableInput
 from checker.finding import Safety, Severity
@@ -40,6 +41,7 @@ from checker.suppression.baseline import DEFAULT_FILE, Baseline, read_baseline
 from checker.suppression.writing import baseline_to_renew, write_baseline
 
 
+@collection_put_off()
 def check(options: argparse.Namespace) -> int:
     """Check packages and print the report."""
     _refuse_together(options)

@@ -6,6 +6,7 @@ a module or a package of rule modules.
 
 from __future__ import annotations
 
+import gc
 import importlib
 import pkgutil
 from collections.abc import Iterator
@@ -33,6 +34,8 @@ def all_rules() -> tuple[Rule, ...]:
         if found.setdefault(rule.id, rule) is not rule:
             modules = f"{found[rule.id].check.__module__} and {rule.check.__module__}"
             raise CheckerError(f"two rules have the id {rule.id}: {modules}")
+    # Modules live as long as the process: the collection need not look through them ever again.
+    gc.freeze()
     return tuple(found[id] for id in sorted(found))
 
 

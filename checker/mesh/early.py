@@ -18,19 +18,22 @@ from checker.package.reading import read_bytes
 
 _SUFFIXES = (".dae", ".stl", ".obj")
 _LOOKED_AT = 20
-"""Files; where these are known, the others are as well, or worth waiting for."""
+"""Files; where none of these is known, the package is taken for one that is new."""
 
 
 def early_child(package: Package, cache: Cache) -> Child | None:
-    """Start the child if the package holds a mesh of which nothing is known; else return None."""
-    files = islice(package.index.with_suffix(*_SUFFIXES), _LOOKED_AT)
-    if not any(_is_new(file, cache) for file in files):
+    """Start the child if nothing is known of the meshes that a package holds; else return None.
+
+    One known mesh will do: those that the robot does not name stay unknown for ever.
+    """
+    files = list(islice(package.index.with_suffix(*_SUFFIXES), _LOOKED_AT))
+    if not files or any(_is_known(file, cache) for file in files):
         return None
     return Child("checker.mesh.worker", None, Limits(SECONDS_FOR_ALL, MEMORY))
 
 
-def _is_new(file: FileEntry, cache: Cache) -> bool:
+def _is_known(file: FileEntry, cache: Cache) -> bool:
     data = read_bytes(file.location, file.path, SIZE_LIMIT)
     if not isinstance(data, bytes):
         return False
-    return cache.get(KIND, mesh_key(data, posixpath.splitext(file.path)[1])) is None
+    return cache.get(KIND, mesh_key(data, posixpath.splitext(file.path)[1])) is not None

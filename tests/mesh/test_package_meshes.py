@@ -236,7 +236,8 @@ def test_a_child_that_waits_reads_what_it_is_given(
 ) -> None:
     cache = Cache(tmp_path / "cache")
     changes = {"@fragment": f'<link name="a">{fragment("meshes/a.stl")}</link>'}
-    with open_input(write_example({**changes, "meshes/a.stl": CUBE}, tmp_path)) as opened:
+    package = write_example({**changes, "meshes/a.stl": CUBE}, tmp_path)
+    with open_input(package) as opened:
         child = early_child(opened.packages[0], cache)
         assert child is not None
         monkeypatch.setattr(package_meshes, "Child", None)  # no other is started
@@ -245,6 +246,10 @@ def test_a_child_that_waits_reads_what_it_is_given(
         (use,) = robots[0].mesh_uses
         assert isinstance(use.file, Mesh)
         assert early_child(opened.packages[0], cache) is None
+        # One that no robot names stays unknown, and is no reason to start the child each time.
+        (package / "meshes" / "unused.stl").write_bytes(CUBE[:-1])
+    with open_input(package) as again:
+        assert early_child(again.packages[0], cache) is None
 
 
 def test_a_child_that_waits_in_vain_is_ended(tmp_path: Path) -> None:
