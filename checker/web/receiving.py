@@ -7,6 +7,7 @@ import errno
 import os
 import shutil
 from collections.abc import AsyncIterator
+from contextlib import ExitStack
 from dataclasses import dataclass
 from time import monotonic
 
@@ -57,24 +58,31 @@ async def receive(request: Request, services: Services) -> Order:
     """
     config, store = services.config, services.store
     _refuse_announced(request, config)
-    await run_in_threadpool(_refuse_without_room, store, config)
     try:
-        with store.incoming(config.upload_limit) as incoming:
+        with ExitStack() as opened:
+            incoming = await run_in_threadpool(_open, opened, store, config)
             admit = services.gate.needs_token(request)
             form = UploadForm(request.headers.get("content-type", ""), incoming, admit)
             async for piece in _pieces(request, config):
                 await run_in_threadpool(form.feed, piece)
             form.end()
             profile = _profile(form.fields.get("profile", ""))
-            return await run_in_threadpool(_kept, store, incoming, form.name, profile)
+            return await run_in_threadpool(_kept, opened, store, incoming, form.name, profile)
     except TooLarge:
         raise too_large(config.upload_limit) from None
     except OSError as error:
         raise _no_room(error) from None
 
 
-def _kept(store: Store, incoming: Incoming, name: str, profile: str) -> Order:
+def _open(opened: ExitStack, store: Store, config: Config) -> Incoming:
+    """Open a place for an upload, which goes with `opened`; the disk may have one wait for it."""
+    _refuse_without_room(store, config)
+    return opened.enter_context(store.incoming(config.upload_limit))
+
+
+def _kept(opened: ExitStack, store: Store, incoming: Incoming, name: str, profile: str) -> Order:
     order = Order(incoming.finish(), name, profile)
+    opened.close()
     _check_index(store, order)
     return order
 
