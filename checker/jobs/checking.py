@@ -9,14 +9,14 @@ from __future__ import annotations
 import json
 import logging
 import secrets
-import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from checker.cache import key_of
+from checker.jobs.children import Children
 from checker.jobs.isolation import StageLimits
-from checker.jobs.layout import ANSWER, GIVEN, MADE, OUT_OF_MEMORY, SAID, environment, lay_out
+from checker.jobs.layout import ANSWER, MADE, OUT_OF_MEMORY, SAID, lay_out
 from checker.jobs.outcome import (
     FAILED_INSIDE,
     UNFINISHED,
@@ -28,7 +28,7 @@ from checker.jobs.outcome import (
 )
 from checker.jobs.port import Order, Stage
 from checker.jobs.summary import read_summary
-from checker.jobs.supervised import Ended, run_supervised
+from checker.jobs.supervised import Ended
 from checker.recall import program_parts
 from checker.report.wording import plain
 from checker.store.store import SUMMARY, Store
@@ -45,6 +45,7 @@ _LOG = logging.getLogger(__name__)
 
 def check_upload(
     store: Store,
+    children: Children,
     order: Order,
     stage: Stage,
     cancelled: Callable[[], bool],
@@ -52,50 +53,39 @@ def check_upload(
 ) -> Outcome:
     """Check an upload; a result that is in the store already is not made again.
 
-    The calling thread has to live until it returns: the child ends with it.
-
     Args:
         store: Holds the upload, takes the result.
+        children: One of them checks.
         order: What to check.
         stage: `STATIC` for the rules alone and the JSON report, `TRIAL` for all.
         cancelled: Whether to stop; asked a few times a second.
         limits: Of the child; those of the stage when None.
     """
     try:
-        return _checked(store, order, stage, cancelled, limits or LIMITS[stage])
+        known = stored_result(store, order, stage)
+        return known or _checked(store, children, order, stage, cancelled, limits or LIMITS[stage])
     except OSError as error:
         _LOG.exception("the disk or the system failed")
         return Died(f"{UNFINISHED}: {error.strerror or 'the system failed'}")
 
 
 def _checked(
-    store: Store, order: Order, stage: Stage, cancelled: Callable[[], bool], limits: StageLimits
+    store: Store,
+    children: Children,
+    order: Order,
+    stage: Stage,
+    cancelled: Callable[[], bool],
+    limits: StageLimits,
 ) -> Outcome:
-    known = stored_result(store, order, stage)
-    if known is not None:
-        return known
     upload = store.upload(order.upload)
     if upload is None:
         return Refused("the upload is no longer there; upload it again")
     with store.workplace() as place:
         lay_out(place, upload, order, stage, limits)
-        ended = _run_child(store, place, limits, cancelled)
+        ended = children.check(place, limits.seconds, cancelled)
         if ended.cancelled:
             return Cancelled()
         return _outcome(store, result_key(order, stage), place, ended, limits)
-
-
-def _run_child(
-    store: Store, place: Path, limits: StageLimits, cancelled: Callable[[], bool]
-) -> Ended:
-    return run_supervised(
-        (sys.executable, "-P", "-m", "checker.jobs.checking_child", str(place)),
-        place / GIVEN,
-        environment(place, store.cache),
-        place / SAID,
-        limits.seconds,
-        cancelled,
-    )
 
 
 def result_key(order: Order, stage: Stage) -> str:

@@ -1,6 +1,7 @@
-"""The process that reads an upload: `python -m checker.jobs.checking_child FOLDER`.
+"""The process that reads an upload: `python -m checker.jobs.checking_child PARENT`.
 
-The folder is laid out by `checker.jobs.layout`; `checker.jobs.checking` runs it.
+It loads what a check needs, then waits on its standard input for the folder to work in, which
+`checker.jobs.layout` lays out. `checker.jobs.children` starts it.
 """
 
 from __future__ import annotations
@@ -10,19 +11,52 @@ import os
 import shlex
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from checker.jobs.isolation import StageLimits, isolate
-from checker.jobs.layout import ANSWER, MADE, OUT_OF_MEMORY, REQUEST
+from checker.jobs.isolation import StageLimits, isolate, limit
+from checker.jobs.layout import ANSWER, MADE, OUT_OF_MEMORY, REQUEST, settle
 from checker.jobs.port import Stage
 from checker.report.report import Report
 
+_NEEDED = ("checker.judging", "checker.report.artefacts", "markdown_it", "pinocchio")
+"""What nearly every check loads; some of it starts threads."""
 
-def main(place: Path) -> None:
+
+def main(parent: int) -> None:
+    """Get ready for a check, and do it when it comes; the standard input may end without one."""
+    try:
+        isolate(parent)
+    except ProcessLookupError:
+        return
+    _load()
+    if place := sys.stdin.readline():
+        check(Path(json.loads(place)))
+
+
+def _load() -> None:
+    """Load what a check needs; what cannot be loaded is told by the check that misses it."""
+    from importlib import import_module
+
+    from checker.discovery import all_rules
+    from checker.errors import CheckerError
+    from checker.recall import program_parts
+
+    for name in _NEEDED:
+        with suppress(ImportError):
+            import_module(name)
+    with suppress(CheckerError):
+        all_rules()
+    # Reports are remembered as those of the program that is loaded, not of a newer one on the disk.
+    program_parts()
+
+
+def check(place: Path) -> None:
     """Check what lies in the working folder; leave artefacts and an answer."""
     request = json.loads((place / REQUEST).read_text(encoding="utf-8"))
-    isolate(StageLimits(**request["limits"]), request["parent"])
+    settle(place)
+    limit(StageLimits(**request["limits"]))
     (place / ANSWER).write_text(json.dumps(_answer(request, place)), encoding="utf-8")
 
 
@@ -75,6 +109,6 @@ def _write(report: Report, stage: Stage, request: Mapping[str, Any], made: Path)
 
 if __name__ == "__main__":
     try:
-        main(Path(sys.argv[1]))
+        main(int(sys.argv[1]))
     except MemoryError:
         os._exit(OUT_OF_MEMORY)

@@ -30,24 +30,30 @@ class StageLimits:
     open_files: int = 512
 
 
-def isolate(limits: StageLimits, parent: int) -> None:
-    """Take the network and too much of everything away from this process and its children.
+def isolate(parent: int) -> None:
+    """Take network and precedence away from this process and its children; it ends with its parent.
+
+    Call it before a library starts threads: a process of several threads cannot leave the network
+    (unshare(2)), and those that there are keep their niceness (setpriority(2)).
 
     Args:
-        limits: What it may use.
         parent: Process id of the parent, without which it shall not live.
 
     Raises:
         ProcessLookupError: The parent has ended meanwhile.
     """
-    import resource
-
     _leave_the_network()
     end_with_parent()
     if os.getppid() != parent:
         raise ProcessLookupError(f"process {parent} has ended")
     # What people wait for at this very moment comes first: uploads, pages.
     os.nice(_NICENESS)
+
+
+def limit(limits: StageLimits) -> None:
+    """Take too much of everything away from this process and its children."""
+    import resource
+
     seconds = max(1, int(limits.seconds))
     for kind, most in (
         (resource.RLIMIT_CPU, seconds),

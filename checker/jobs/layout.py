@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import tempfile
 from dataclasses import asdict
 from pathlib import Path
 
@@ -25,6 +26,7 @@ OUT_OF_MEMORY = 71
 def lay_out(place: Path, upload: Path, order: Order, stage: Stage, limits: StageLimits) -> None:
     """Lay out what the child works with in an empty folder."""
     given = place / GIVEN
+    (place / SAID).touch()
     for folder in (given, place / MADE, place / TEMPORARY):
         folder.mkdir(parents=True)
     # The search for settings ends at the root of a repository: none of this machine's shall judge.
@@ -37,7 +39,6 @@ def lay_out(place: Path, upload: Path, order: Order, stage: Stage, limits: Stage
         "name": order.name,
         "profile": order.profile,
         "stage": stage,
-        "parent": os.getpid(),
         "limits": asdict(limits),
     }
     (place / REQUEST).write_text(json.dumps(request), encoding="utf-8")
@@ -47,11 +48,10 @@ _PASSED_ON = {"HOME", "LANG", "LD_LIBRARY_PATH", "MUJOCO_GL", "PATH", "SUBT_CHEC
 _FAMILIES = ("EGL_", "GALLIUM_", "LC_", "LIBGL_", "LP_", "MESA_", "PYTHON", "__EGL_")
 
 
-def environment(place: Path, cache: Path) -> dict[str, str]:
+def environment(cache: Path) -> dict[str, str]:
     """Return what the child shall know of our environment: no token, no password, no address.
 
     Args:
-        place: The shared folder.
         cache: Where results of parts are kept, for all children.
     """
     known = {
@@ -59,5 +59,14 @@ def environment(place: Path, cache: Path) -> dict[str, str]:
         for name, value in os.environ.items()
         if name in _PASSED_ON or name.startswith(_FAMILIES)
     }
-    own = {"SUBT_CHECK_CACHE": str(cache), "TMPDIR": str(place / TEMPORARY)}
-    return {**known, **own, "PYTHONPATH": module_path()}
+    return {**known, "SUBT_CHECK_CACHE": str(cache), "PYTHONPATH": module_path()}
+
+
+def settle(place: Path) -> None:
+    """Have this process work in a folder that is laid out, and speak into it."""
+    os.chdir(place / GIVEN)
+    os.environ["TMPDIR"] = str(place / TEMPORARY)
+    tempfile.tempdir = None  # a library may have asked for it before
+    with (place / SAID).open("wb") as said:
+        for stream in (1, 2):
+            os.dup2(said.fileno(), stream)

@@ -5,9 +5,8 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
 from time import monotonic, sleep
 
 from checker.record import record
@@ -31,36 +30,16 @@ class Ended:
     cancelled: bool = False
 
 
-def run_supervised(
-    command: Sequence[str],
-    folder: Path,
-    environment: Mapping[str, str],
-    log: Path,
-    seconds: float,
-    cancelled: Callable[[], bool],
+def supervised(
+    process: subprocess.Popen[bytes], seconds: float, cancelled: Callable[[], bool]
 ) -> Ended:
-    """Run a command in a session of its own; at the end none of its processes is left.
-
-    The thread that calls this has to live as long: the child ends with it.
+    """Watch a process that began a session of its own; at the end none of its processes is left.
 
     Args:
-        command: What to run.
-        folder: Where it runs.
-        environment: All that it knows of ours.
-        log: Takes what it says.
+        process: What to watch.
         seconds: By the clock, before it is stopped.
         cancelled: Whether it is no longer wanted; asked a few times a second.
     """
-    with log.open("wb") as said:
-        process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-            command,
-            stdin=subprocess.DEVNULL,
-            stdout=said,
-            stderr=said,
-            cwd=folder,
-            env=dict(environment),
-            start_new_session=True,
-        )
     overdue = unwanted = False
     try:
         overdue, unwanted = _watch(process.pid, seconds, cancelled)

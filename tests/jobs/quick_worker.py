@@ -18,6 +18,7 @@ from time import monotonic, sleep
 from typing import Any
 
 from checker.jobs.checking import result_key
+from checker.jobs.children import Children
 from checker.jobs.durable import stages
 from checker.jobs.durable.worker import WorkerOptions, work
 from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
@@ -38,7 +39,12 @@ DEATH = "the checker could not finish: it was killed"
 
 
 def quick_check(
-    log: Path, store: Store, order: Order, stage: Stage, cancelled: Callable[[], bool]
+    log: Path,
+    store: Store,
+    _children: Children,
+    order: Order,
+    stage: Stage,
+    cancelled: Callable[[], bool],
 ) -> Outcome:
     """Stand for `check_upload`: as long, as deadly and as repeatable, without a robot."""
     key = result_key(order, stage)
@@ -85,7 +91,7 @@ def _passed(seconds: float, cancelled: Callable[[], bool]) -> bool:
 def main() -> None:
     options: dict[str, Any] = json.loads(sys.argv[1])
     stages.check_upload = partial(quick_check, Path(sys.argv[2]))
-    work(WorkerOptions(**options | {"store": Store(Path(options["store"]))}))
+    work(WorkerOptions(**options | {"store": Store(Path(options["store"])), "ahead": False}))
 
 
 if __name__ == "__main__":

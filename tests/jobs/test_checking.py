@@ -11,13 +11,14 @@ import subprocess
 import sys
 import zipfile
 from collections.abc import Callable, Iterable
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 from time import monotonic, sleep
 
 import pytest
 
 from checker.jobs.checking import check_upload, stored_result
+from checker.jobs.children import Children
 from checker.jobs.isolation import StageLimits
 from checker.jobs.layout import environment
 from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
@@ -26,6 +27,7 @@ from checker.store.store import SUMMARY, Store
 
 BUGGY = "subtcheck_buggy_sensor_config_1"
 GURDY = "broken_gurdy_description"
+LARGE = b"<sdf version='1.6'>" + b"<model name='one'/>" * 60_000 + b"</sdf>"
 
 
 @pytest.fixture
@@ -55,7 +57,8 @@ def check(
     limits: StageLimits | None = None,
 ) -> Outcome:
     """Check, and see that nothing temporary is left."""
-    outcome = check_upload(store, order, stage, cancelled, limits)
+    with closing(Children(store.cache, ahead=False)) as children:
+        outcome = check_upload(store, children, order, stage, cancelled, limits)
     assert not list((store.folder / "incoming").iterdir())
     return outcome
 
@@ -280,18 +283,25 @@ def test_the_child_is_killed(
 
 
 @pytest.mark.parametrize(
-    ("limits", "reason"),
+    ("limits", "model", "reason"),
     [
-        (StageLimits(seconds=0.1), "it took longer than 0.1 s and was stopped"),
-        (StageLimits(seconds=60.0, memory=60_000_000), "it "),
-        (StageLimits(seconds=60.0, file_bytes=2_000), "it failed inside"),
+        (StageLimits(seconds=0.1), b"<sdf/>", "it took longer than 0.1 s and was stopped"),
+        # A small model is checked in the memory that was taken before there was a limit.
+        (StageLimits(seconds=60.0, memory=60_000_000), LARGE, "it "),
+        (StageLimits(seconds=60.0, file_bytes=2_000), b"<sdf/>", "it failed inside"),
     ],
 )
-def test_a_limit_is_reached(limits: StageLimits, reason: str, store: Store) -> None:
-    outcome = check(store, given(store, "model.sdf", b"<sdf/>"), limits=limits)
+def test_a_limit_is_reached(limits: StageLimits, model: bytes, reason: str, store: Store) -> None:
+    outcome = check(store, given(store, "model.sdf", model), limits=limits)
     assert isinstance(outcome, Died)
     assert outcome.reason.startswith(f"the checker could not finish: {reason}")
     assert "Traceback" not in outcome.reason
+
+
+def test_last_words_are_logged(store: Store, caplog: pytest.LogCaptureFixture) -> None:
+    limits = StageLimits(seconds=60.0, file_bytes=2_000)
+    check(store, given(store, "model.sdf", b"<sdf/>"), limits=limits)
+    assert "Traceback (most recent call last)" in caplog.text
 
 
 def test_reports_show_nothing_of_this_machine(
@@ -316,7 +326,7 @@ def test_the_child_knows_no_secret(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     for name in ("SUBT_CHECK_TOKENS", "SUBT_CHECK_DATABASE_URL", "PGPASSWORD", "SOME_CLOUD_KEY"):
         monkeypatch.setenv(name, "hunter2")
     monkeypatch.setenv("MUJOCO_GL", "egl")
-    known = environment(tmp_path, tmp_path / "cache")
+    known = environment(tmp_path / "cache")
     assert "hunter2" not in known.values()
     assert known["MUJOCO_GL"] == "egl"
     assert known["SUBT_CHECK_CACHE"] == str(tmp_path / "cache")

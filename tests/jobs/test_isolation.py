@@ -10,9 +10,10 @@ import pytest
 
 BEGIN = """
 import os, socket, sys
-from checker.jobs.isolation import StageLimits, isolate
+from checker.jobs.isolation import StageLimits, isolate, limit
 was = os.getuid(), os.getgid()
-isolate(StageLimits(seconds=7.5, memory=2_000_000_000, file_bytes=1000, open_files=64), PARENT)
+isolate(PARENT)
+limit(StageLimits(seconds=7.5, memory=2_000_000_000, file_bytes=1000, open_files=64))
 """
 CAN_LEAVE = "import ctypes; raise SystemExit(ctypes.CDLL(None).unshare(0x50000000))"
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from time import sleep
 
 from checker.jobs.checking import result_key
+from checker.jobs.children import Children
 from checker.jobs.durable import stages
 from checker.jobs.durable.worker import WorkerOptions, work
 from checker.jobs.outcome import Checked, Outcome
@@ -27,7 +28,12 @@ SILENCE_SECONDS = 3.0
 
 
 def steady_check(
-    log: Path, store: Store, order: Order, stage: Stage, _cancelled: Callable[[], bool]
+    log: Path,
+    store: Store,
+    _children: Children,
+    order: Order,
+    stage: Stage,
+    _cancelled: Callable[[], bool],
 ) -> Outcome:
     """Stand for `check_upload`."""
     key = result_key(order, stage)
@@ -42,7 +48,8 @@ def steady_check(
 def main() -> None:
     stages.check_upload = partial(steady_check, Path(sys.argv[1]))
     store = Store(data_folder())
-    work(WorkerOptions(database_url(), store, beat_seconds=0.2, silence_seconds=SILENCE_SECONDS))
+    quick = {"beat_seconds": 0.2, "silence_seconds": SILENCE_SECONDS}
+    work(WorkerOptions(database_url(), store, ahead=False, **quick))
 
 
 if __name__ == "__main__":

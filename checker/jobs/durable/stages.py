@@ -16,6 +16,7 @@ from typing import TypeVar
 import sqlalchemy as sa
 
 from checker.jobs.checking import check_upload
+from checker.jobs.children import Children
 from checker.jobs.durable.client import finished
 from checker.jobs.durable.database import reachable
 from checker.jobs.durable.ledger import Ledger, Step, Then, Turn
@@ -44,6 +45,7 @@ class Stages:
         queues: Of the same database.
         store: Uploads and results.
         worker: Name of this process.
+        children: Do the work.
         hand_back: Set when there is no more time to finish what is in hand.
     """
 
@@ -51,6 +53,7 @@ class Stages:
     queues: Queues
     store: Store
     worker: str
+    children: Children
     hand_back: threading.Event = field(default_factory=threading.Event)
 
     def run(self, id: str, stage: Stage) -> None:
@@ -66,7 +69,9 @@ class Stages:
             _patiently(lambda: self.ledger.settle(turn, Step("end", Stage.FAILED, FAILED_INSIDE)))
 
     def _do(self, turn: Turn, stage: Stage) -> None:
-        outcome = check_upload(self.store, turn.order, stage, lambda: self._unwanted(turn))
+        outcome = check_upload(
+            self.store, self.children, turn.order, stage, lambda: self._unwanted(turn)
+        )
         if isinstance(outcome, Cancelled):
             if self.hand_back.is_set() and _patiently(lambda: self.ledger.release(turn)):
                 _patiently(lambda: self.queues.put_back(turn.id, stage))

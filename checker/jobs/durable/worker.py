@@ -12,6 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import field
 
+from checker.jobs.children import Children
 from checker.jobs.durable.database import open_database, prepare, reachable
 from checker.jobs.durable.engine import land, launch
 from checker.jobs.durable.ledger import Ledger
@@ -48,6 +49,7 @@ class WorkerOptions:
         silence_seconds: After which other workers take this one for dead.
         cleaning_seconds: Between two rounds that delete what has had its time.
         unused_seconds: That files stay which no check refers to.
+        ahead: Whether the process of the next check is started before there is one; it has 0.1 GB.
     """
 
     database_url: str
@@ -59,6 +61,7 @@ class WorkerOptions:
     silence_seconds: float = SILENCE_SECONDS
     cleaning_seconds: float = 3600.0
     unused_seconds: float = 3600.0
+    ahead: bool = True
 
 
 def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
@@ -73,13 +76,15 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     engine = open_database(options.database_url)
     prepare(engine)
     queues, roll = queues_of(engine), Roll(engine)
-    stages = Stages(Ledger(engine), queues, options.store, options.name)
+    children = Children(options.store.cache, options.ahead)
+    stages = Stages(Ledger(engine), queues, options.store, options.name, children)
     watchdog = Watchdog(roll, options.name, options.silence_seconds)
     retention = Retention(engine, queues, options.store, options.unused_seconds)
     with reachable():
         queues.declare(options.trials)
         roll.beat(options.name)
         launch(engine, options.name, stages.run)
+    children.get_ready()
     landed = threading.Event()
     _in_background(watchdog.look, options.beat_seconds, landed)
     _in_background(retention.delete, options.cleaning_seconds, stop)
@@ -87,6 +92,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     stop.wait()
     _LOG.info("%s stops; it has %g s for what is in hand", options.name, options.grace_seconds)
     _land(stages, options.grace_seconds)
+    children.close()
     landed.set()
     with suppress(JobsUnreachable), reachable():
         roll.strike(options.name)

@@ -1,0 +1,159 @@
+"""The process of the next check is there before the check, and serves that one alone."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import closing
+from pathlib import Path
+from time import monotonic, sleep
+
+import pytest
+
+from checker.jobs.checking import check_upload
+from checker.jobs.children import Children
+from checker.jobs.outcome import Checked, Outcome
+from checker.jobs.port import Order, Stage
+from checker.store.store import Store
+
+pytestmark = pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="the system has no /proc")
+
+WAITS = """
+import sys, time
+from pathlib import Path
+from checker.jobs.children import Children
+children = Children(Path(sys.argv[1]))
+children.get_ready()
+time.sleep(600)
+"""
+MAY_LEAVE = "import ctypes; raise SystemExit(ctypes.CDLL(None).unshare(0x50000000))"
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Store:
+    return Store(tmp_path / "data")
+
+
+@pytest.fixture
+def children(store: Store) -> Iterator[Children]:
+    with closing(Children(store.cache)) as made:
+        yield made
+
+
+def started_by(parent: int) -> list[int]:
+    """Return the checking children of a process that are not dead."""
+    found = []
+    for each in Path("/proc").glob("[0-9]*"):
+        try:
+            state, its_parent = (each / "stat").read_text().rpartition(")")[2].split()[:2]
+            ours = b"checker.jobs.checking_child" in (each / "cmdline").read_bytes()
+        except OSError:
+            continue
+        if ours and int(its_parent) == parent and state != "Z":
+            found.append(int(each.name))
+    return found
+
+
+def the_one(parent: int) -> int:
+    """Wait until a process has one child, and return it."""
+    deadline = monotonic() + 20
+    while len(started_by(parent)) != 1 and monotonic() < deadline:
+        sleep(0.02)
+    (child,) = started_by(parent)
+    return child
+
+
+def check(store: Store, children: Children, look: Callable[[], object]) -> Outcome:
+    """Check a model that was not there before; look around meanwhile."""
+    with store.incoming() as incoming:
+        incoming.write(b"<sdf version='1.6'>" + os.urandom(8).hex().encode() + b"</sdf>")
+        order = Order(incoming.finish(), "model.sdf", "sdf")
+
+    def never() -> bool:
+        look()
+        return False
+
+    return check_upload(store, children, order, Stage.STATIC, never)
+
+
+def children_in(store: Store, children: Children) -> set[int]:
+    """Check, and return the children that were seen meanwhile."""
+    seen: set[int] = set()
+    outcome = check(store, children, lambda: seen.update(started_by(os.getpid())))
+    assert isinstance(outcome, Checked)
+    return seen
+
+
+def nicenesses(process: int) -> set[int]:
+    """Return how nice the threads of a process are."""
+    tasks = Path(f"/proc/{process}/task").iterdir()
+    fields = [(task / "stat").read_text().rpartition(")")[2].split() for task in tasks]
+    return {int(field[16]) for field in fields}
+
+
+def test_one_that_waits_takes_the_next_check(store: Store, children: Children) -> None:
+    children.get_ready()
+    first = the_one(os.getpid())
+    assert children_in(store, children) == {first}
+    second = the_one(os.getpid())
+    assert first != second
+    assert children_in(store, children) == {second}
+
+
+def test_one_that_died_is_not_missed(store: Store, children: Children) -> None:
+    children.get_ready()
+    first = the_one(os.getpid())
+    os.kill(first, signal.SIGKILL)
+    seen = children_in(store, children)
+    assert seen
+    assert first not in seen
+
+
+def test_all_of_its_threads_stand_back_behind_the_service(store: Store, children: Children) -> None:
+    seen: list[set[int]] = []
+    outcome = check(store, children, lambda: seen.extend(map(nicenesses, started_by(os.getpid()))))
+    assert isinstance(outcome, Checked)
+    assert seen[-1] == {min(os.getpriority(os.PRIO_PROCESS, 0) + 10, 19)}
+
+
+def test_one_that_waits_knows_no_secret_and_has_no_network(
+    children: Children, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if subprocess.run([sys.executable, "-c", MAY_LEAVE], check=False).returncode != 0:
+        pytest.skip("this system does not let processes leave the network")
+    monkeypatch.setenv("SUBT_CHECK_TOKENS", "hunter2")
+    children.get_ready()
+    child, deadline = Path(f"/proc/{the_one(os.getpid())}"), monotonic() + 20
+    own = Path("/proc/self/ns/net").readlink()
+    while (child / "ns/net").readlink() == own and monotonic() < deadline:
+        sleep(0.02)
+    assert (child / "ns/net").readlink() != own
+    assert b"hunter2" not in (child / "environ").read_bytes()
+
+
+def test_none_waits_after_the_end_and_a_check_goes_on(store: Store, children: Children) -> None:
+    children.get_ready()
+    the_one(os.getpid())
+    assert isinstance(check(store, children, children.close), Checked)
+    children.close()
+    assert not started_by(os.getpid())
+
+
+def test_one_that_waits_ends_with_the_service(children: Children) -> None:
+    children.get_ready()
+    the_one(os.getpid())
+    children.close()
+    assert not started_by(os.getpid())
+
+
+def test_one_that_waits_ends_with_its_worker(tmp_path: Path) -> None:
+    with subprocess.Popen([sys.executable, "-c", WAITS, str(tmp_path)]) as worker:
+        child = Path(f"/proc/{the_one(worker.pid)}")
+        worker.kill()
+    deadline = monotonic() + 20
+    while child.exists() and monotonic() < deadline:
+        sleep(0.02)
+    assert not child.exists()
