@@ -11,15 +11,19 @@ from __future__ import annotations
 import os
 import statistics
 import tempfile
+from functools import partial
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, sleep
 
+from bench.machine import pace, undisturbed
 from bench.service import Client, show
 from bench.static import ROOT, keep_bytecode, real_packages
 from tests.web.service import service, zip_of
 
 LIMIT = 2.0
 """Seconds."""
+READY_SECONDS = 3.0
+"""In which a service that has just started gets ready for its first check."""
 OF_CORPUS = 5
 
 
@@ -30,26 +34,29 @@ def packages() -> list[Path]:
     return samples + real[:: max(1, len(real) // OF_CORPUS)][:OF_CORPUS]
 
 
-def delay(client: Client, name: str, content: bytes) -> float:
-    """Upload a package, return how long its first findings take, and wait until it is over."""
-    id = client.upload(name, content).id
-    answered, seen = perf_counter(), 0.0
-    for event in client.events(id):
-        if event["data"].get("result") and not seen:
-            seen = perf_counter() - answered
-    return seen
+def delay(package: Path) -> float:
+    """Upload a package to a new service, and return how long its first findings take."""
+    with tempfile.TemporaryDirectory() as folder, service(Path(folder) / "data") as address:
+        client, archive = Client(address), zip_of([package], Path(folder) / "made.zip")
+        sleep(READY_SECONDS)
+        id = client.upload(f"{package.name}.zip", archive.read_bytes()).id
+        answered = perf_counter()
+        for event in client.events(id):
+            if event["data"].get("result"):
+                return perf_counter() - answered
+    raise AssertionError(f"no findings of {package.name}")
 
 
 def main() -> None:
     """Measure and print everything."""
     keep_bytecode()
     show("load before", os.getloadavg()[0], "")
+    show("pace before", pace(), "ms")
     delays = []
-    with tempfile.TemporaryDirectory() as folder, service(Path(folder) / "data") as address:
-        for package in packages():
-            archive = zip_of([package], Path(folder) / "made.zip")
-            delays.append(delay(Client(address), f"{package.name}.zip", archive.read_bytes()))
-            show(package.name, delays[-1], "s")
+    for package in packages():
+        delays.append(undisturbed(partial(delay, package)))
+        show(package.name, delays[-1], "s")
+    show("pace after", pace(), "ms")
     show("median", statistics.median(delays), "s", LIMIT)
     show("slowest", max(delays), "s", LIMIT)
 

@@ -17,7 +17,9 @@ from checker.jobs.port import Event, Jobs, JobsUnreachable
 from checker.report.wording import plain
 from checker.web.services import Services
 
-POLL_SECONDS = 0.3
+POLL_SECONDS, EAGER_POLL_SECONDS = 0.3, 0.1
+EAGER_SECONDS = 10.0
+"""After the start of a stream, in which first findings are waited for and polled for eagerly."""
 QUIET_SECONDS = 15.0
 """After which a comment shows that the stream lives; proxies close what is silent."""
 STREAM_SECONDS = 600.0
@@ -81,7 +83,8 @@ async def _lines(jobs: Jobs, id: str, after: int) -> AsyncIterator[str]:
             yield ": still there\n\n"
         if events or silent:
             after, spoken = events[-1].number if events else after, monotonic()
-        await anyio.sleep(POLL_SECONDS)
+        eager = monotonic() - started < EAGER_SECONDS
+        await anyio.sleep(EAGER_POLL_SECONDS if eager else POLL_SECONDS)
 
 
 def _message(event: Event) -> str:
