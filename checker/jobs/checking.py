@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import logging
+import os
 import secrets
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -29,6 +30,7 @@ from checker.jobs.outcome import (
 from checker.jobs.port import Order, Stage
 from checker.jobs.summary import read_summary
 from checker.jobs.supervised import Ended
+from checker.package.reading import NotReadable, read_bytes
 from checker.recall import program_parts
 from checker.report.wording import plain
 from checker.store.store import SUMMARY, Store
@@ -127,10 +129,10 @@ def _kept(store: Store, checked: Checked, place: Path) -> Outcome:
 
 def _read(path: Path) -> Any:
     """Return the JSON that the child has written; None if there is none."""
+    data = read_bytes(path, path.name, _ANSWER_LIMIT)
     try:
-        with path.open("rb") as file:
-            return json.loads(file.read(_ANSWER_LIMIT))
-    except (OSError, ValueError, RecursionError):
+        return None if isinstance(data, NotReadable) else json.loads(data)
+    except (ValueError, RecursionError):
         return None
 
 
@@ -147,6 +149,11 @@ def _cause(ended: Ended, limits: StageLimits) -> str:
 
 def _last_words(said: Path) -> str:
     """Return the end of what the child has said, on one line of a log."""
-    with said.open("rb") as file:
-        file.seek(max(0, said.stat().st_size - _SHOWN))
-        return repr(file.read(_SHOWN).decode(errors="replace"))
+    # The child may have put a link or a pipe in its place, which would have us wait.
+    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK
+    try:
+        with open(os.open(said, flags), "rb") as file:  # noqa: PTH123 - a descriptor, not a path
+            file.seek(max(0, os.fstat(file.fileno()).st_size - _SHOWN))
+            return repr(file.read(_SHOWN).decode(errors="replace"))
+    except OSError as error:
+        return f"nothing that can be read: {error.strerror}"

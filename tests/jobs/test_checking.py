@@ -17,10 +17,11 @@ from time import monotonic, sleep
 
 import pytest
 
+from checker.jobs import checking
 from checker.jobs.checking import check_upload, stored_result
 from checker.jobs.children import Children
 from checker.jobs.isolation import StageLimits
-from checker.jobs.layout import environment
+from checker.jobs.layout import ANSWER, SAID, environment
 from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
 from checker.jobs.port import Order, Stage
 from checker.store.store import SUMMARY, Store
@@ -302,6 +303,13 @@ def test_last_words_are_logged(store: Store, caplog: pytest.LogCaptureFixture) -
     limits = StageLimits(seconds=60.0, file_bytes=2_000)
     check(store, given(store, "model.sdf", b"<sdf/>"), limits=limits)
     assert "Traceback (most recent call last)" in caplog.text
+
+
+def test_a_pipe_in_place_of_a_file_keeps_nobody_waiting(tmp_path: Path) -> None:
+    for name in (ANSWER, SAID):
+        os.mkfifo(tmp_path / name)
+    assert checking._read(tmp_path / ANSWER) is None
+    assert "nothing that can be read" in checking._last_words(tmp_path / SAID)
 
 
 def test_reports_show_nothing_of_this_machine(
