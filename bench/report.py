@@ -14,9 +14,11 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
+from bench.machine import pace, undisturbed
 from bench.static import ROOT, keep_bytecode, real_packages
 from tests.browser import started
 
@@ -43,12 +45,12 @@ class Cost:
     opening: float
 
 
-def seconds(package: Path, cache: str, *more: str) -> float:
+def seconds(package: Path, cache: Path, *more: str) -> float:
     """Return how long the command takes in a process of its own."""
     begun = perf_counter()
     subprocess.run(
         [sys.executable, "-m", "checker.cli", str(package), *more],
-        cwd=ROOT, capture_output=True, check=False, env={**os.environ, "SUBT_CHECK_CACHE": cache},
+        cwd=ROOT, capture_output=True, check=False, env={**os.environ, "SUBT_CHECK_CACHE": str(cache)},
     )  # fmt: skip
     return perf_counter() - begun
 
@@ -63,9 +65,9 @@ def opening(page: Path) -> float:
         return perf_counter() - begun
 
 
-def median(package: Path, folder: Path) -> Cost:
+def median(package: Path) -> Cost:
     """Measure one package several times, and take the median of each figure."""
-    costs = [measured(package, folder / str(number)) for number in range(REPEATS)]
+    costs = [undisturbed(partial(measured, package)) for _ in range(REPEATS)]
     middle = (statistics.median(figures) for figures in zip(*map(figures_of, costs), strict=True))
     return Cost(package.name, *middle)
 
@@ -75,34 +77,35 @@ def figures_of(cost: Cost) -> tuple[float, ...]:
     return cost.cold, cost.warm, cost.again, cost.megabytes, cost.opening
 
 
-def measured(package: Path, folder: Path) -> Cost:
+def measured(package: Path) -> Cost:
     """Measure one package once."""
-    folder.mkdir()
-    target = folder / "out"
-    report = ("--report", str(target))
-    plain, full, before = (str(folder / name) for name in ("plain", "full", "before"))
-    check = seconds(package, plain)
-    cold = seconds(package, full, *report) - check
-    seconds(package, before)
-    # Other settings, so that no whole report is recalled.
-    checked = seconds(package, before, "--fail-on", "warning")
-    warm = seconds(package, before, "--fail-on", "warning", *report) - checked
-    again = seconds(package, before, "--ignore", "PKG001", *report) - checked
-    page = target / "report.html"
-    return Cost(package.name, cold, warm, again, page.stat().st_size / 1e6, opening(page))
+    with tempfile.TemporaryDirectory() as made:
+        folder = Path(made)
+        target = folder / "out"
+        report = ("--report", str(target))
+        plain, full, before = folder / "plain", folder / "full", folder / "before"
+        check = seconds(package, plain)
+        cold = seconds(package, full, *report) - check
+        seconds(package, before)
+        # Other settings, so that no whole report is recalled.
+        checked = seconds(package, before, "--fail-on", "warning")
+        warm = seconds(package, before, "--fail-on", "warning", *report) - checked
+        again = seconds(package, before, "--ignore", "PKG001", *report) - checked
+        page = target / "report.html"
+        return Cost(package.name, cold, warm, again, page.stat().st_size / 1e6, opening(page))
 
 
 def main() -> None:
     """Measure and print everything."""
     keep_bytecode()
     costs = []
+    print(f"pace {pace():.0f} ms")
     print(f"{'':<36} {'cold':>7} {'warm':>7} {'again':>7} {'MB':>6} {'open':>6}")
     chosen = sys.argv[1:]
     for package in real_packages():
         if chosen and package.name not in chosen:
             continue
-        with tempfile.TemporaryDirectory() as folder:
-            cost = median(package, Path(folder))
+        cost = median(package)
         costs.append(cost)
         times = f"{cost.cold:7.2f} {cost.warm:7.2f} {cost.again:7.2f}"
         print(f"{cost.name:<36} {times} {cost.megabytes:6.2f} {cost.opening:6.2f}", flush=True)
