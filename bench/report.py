@@ -50,7 +50,8 @@ def seconds(package: Path, cache: Path, *more: str) -> float:
     begun = perf_counter()
     subprocess.run(
         [sys.executable, "-m", "checker.cli", str(package), *more],
-        cwd=ROOT, capture_output=True, check=False, env={**os.environ, "SUBT_CHECK_CACHE": str(cache)},
+        cwd=ROOT, capture_output=True, check=False,
+        env={**os.environ, "SUBT_CHECK_CACHE": str(cache)},
     )  # fmt: skip
     return perf_counter() - begun
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 from contextlib import suppress
+from pathlib import Path
 
 from checker.confined import end_with_parent
 from checker.record import record
 
 _NICENESS = 10
 """Below that of the processes of the service, as `nice` counts it."""
+_AUTOGROUP = Path("/proc/self/autogroup")
 
 
 @record()
@@ -46,8 +48,15 @@ def isolate(parent: int) -> None:
     end_with_parent()
     if os.getppid() != parent:
         raise ProcessLookupError(f"process {parent} has ended")
-    # What people wait for at this very moment comes first: uploads, pages.
+    _stand_back()
+
+
+def _stand_back() -> None:
+    """Let come first what people wait for at this very moment: uploads, pages."""
     os.nice(_NICENESS)
+    # A session of its own may be a group of its own, within which alone niceness counts (sched(7)).
+    with suppress(OSError):
+        _AUTOGROUP.write_text(str(_NICENESS), encoding="ascii")
 
 
 def limit(limits: StageLimits) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -163,7 +164,9 @@ def problem_of_match(match: str) -> str:
     if len(_CHOICE.findall(bare.replace("(?:", "("))) > MAX_CHOICES:
         return f"has more than {MAX_CHOICES} of '?' and '|' in its match"
     try:
-        re.compile(match, re.IGNORECASE)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of what it might mean one day
+            re.compile(match, re.IGNORECASE)
     except (re.error, OverflowError, RecursionError) as error:
         return f"has the match {match!r}, which is no regular expression: {error}"
     return ""
