@@ -344,9 +344,8 @@ class Subject:
     @cached_property
     def control(self) -> ControlSystem | NotAtHand:
         """What controls the joints of a URDF package."""
-        if self.package.kind is not PackageKind.URDF_DESCRIPTION and (
-            not self.package.only or not self.describing.applicable
-        ):
+        alone = self.package.only and self.describing.applicable
+        if self.package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
             return NotAtHand("the package is no URDF package", applicable=False)
         return control_system(self.package, self.launch_entries, self.robots, self.descriptions)
 
@@ -370,16 +369,15 @@ class Subject:
             return self.robots
         sheet = None if isinstance(self.specification, NotAtHand) else self.specification
         path = self.package.model_path
-        holders = (self.package, *(() if isinstance(path, Missing) else (path.package,)))
-        numbers = {configuration_number(package) for package in holders}
+        numbers = {configuration_number(self.package)}
+        if not isinstance(path, Missing):
+            numbers.add(configuration_number(path.package))
         found = [find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots]
         known = tuple(each for devices in found for each in devices.known)
         return SensorDevices(known, found[0].diversions)
 
 
-_Provider = Callable[[Subject], object]
-
-_PROVIDERS: dict[type, _Provider] = {
+_PROVIDERS: dict[type, Callable[[Subject], object]] = {
     Package: lambda subject: subject.package,
     Paperwork: lambda subject: subject.paperwork,
     SdfDocument: lambda subject: subject.sdf,

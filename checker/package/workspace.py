@@ -128,5 +128,8 @@ def _declared_name(folder: Path) -> str:
     parser = etree.XMLParser(
         encoding="utf-8", resolve_entities=False, no_network=True, load_dtd=False, recover=True
     )
-    tree = etree.fromstring(source.text.encode(), parser)
-    return (tree.findtext("name") or "").strip() if tree is not None else ""
+    try:
+        tree = etree.fromstring(source.text.encode(), parser)
+    except etree.XMLSyntaxError:  # there is nothing at all in it
+        return ""
+    return str(tree.xpath("string(name)")).strip() if tree is not None else ""
