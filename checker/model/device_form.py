@@ -6,6 +6,7 @@ import math
 import re
 import warnings
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any
 
 MAX_MATCH = 200
@@ -164,9 +165,18 @@ def problem_of_match(match: str) -> str:
     if len(_CHOICE.findall(bare.replace("(?:", "("))) > MAX_CHOICES:
         return f"has more than {MAX_CHOICES} of '?' and '|' in its match"
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of what it might mean one day
-            re.compile(match, re.IGNORECASE)
+        expression(match)
     except (re.error, OverflowError, RecursionError) as error:
         return f"has the match {match!r}, which is no regular expression: {error}"
     return ""
+
+
+@lru_cache(512)
+def expression(match: str) -> re.Pattern[str]:
+    """Return the expression by which a device is found in a text.
+
+    Python warns of what some characters might mean one day; that is nothing for who runs a check.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FutureWarning)
+        return re.compile(match, re.IGNORECASE)

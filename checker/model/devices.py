@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from checker.model.components import Sensor
+from checker.model.device_form import expression
 from checker.record import record
 from checker.source.text import Located
 
@@ -114,7 +115,7 @@ class SensorDevices:
             device: Its own name, or the word for its kind, is looked for.
             figure: Regular expression for words that mean the figure, ignoring case.
         """
-        names = re.compile(f"{device.match}|{_WORDS.get(device.kind, '(?!)')}", re.IGNORECASE)
+        names = expression(f"{device.match}|{_WORDS.get(device.kind, '(?!)')}")
         meant = re.compile(figure, re.IGNORECASE)
         return any(
             names.search(each[:_TEXT_LIMIT]) and meant.search(each[:_TEXT_LIMIT])

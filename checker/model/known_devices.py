@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import Any
 
+from checker.model.device_form import expression
 from checker.model.devices import Device
 from checker.record import record
 from checker.resources import table
@@ -38,7 +39,7 @@ class KnownDevices:
         for device in self.devices:
             if wanted is not None and not wanted & device.sdf_types:
                 continue
-            match = re.search(device.match, text[:TEXT_LIMIT], re.IGNORECASE)
+            match = expression(device.match).search(text[:TEXT_LIMIT])
             if match is None:
                 continue
             start, end = match.span()

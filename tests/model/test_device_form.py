@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.device_form import problem_of_device, problem_of_match
+from checker.model.device_form import expression, problem_of_device, problem_of_match
 from checker.resources import table
 
 DEVICE: dict[str, Any] = {
@@ -93,3 +93,8 @@ def test_an_expression_that_is_taken_is_fast(match: str) -> None:
         started = time.perf_counter()
         re.search(match, "ab" * 250, re.IGNORECASE)
         assert time.perf_counter() - started < 1
+
+
+@pytest.mark.filterwarnings("error")
+def test_python_warns_nobody_of_what_an_expression_may_mean_one_day() -> None:
+    assert expression("lidar[[]").search("a LIDAR[")
