@@ -13,7 +13,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import partial
 from pathlib import Path
 from time import perf_counter
@@ -69,13 +69,8 @@ def opening(page: Path) -> float:
 def median(package: Path) -> Cost:
     """Measure one package several times, and take the median of each figure."""
     costs = [undisturbed(partial(measured, package)) for _ in range(REPEATS)]
-    middle = (statistics.median(figures) for figures in zip(*map(figures_of, costs), strict=True))
-    return Cost(package.name, *middle)
-
-
-def figures_of(cost: Cost) -> tuple[float, ...]:
-    """Return what was measured, in the order of the attributes."""
-    return cost.cold, cost.warm, cost.again, cost.megabytes, cost.opening
+    _, *figures = zip(*map(astuple, costs), strict=True)
+    return Cost(package.name, *map(statistics.median, figures))
 
 
 def measured(package: Path) -> Cost:

@@ -30,7 +30,7 @@ from checker.jobs.outcome import (
 from checker.jobs.port import Order, Stage
 from checker.jobs.summary import read_summary
 from checker.jobs.supervised import Ended
-from checker.package.reading import NotReadable, read_bytes
+from checker.package.reading import NotReadable, open_file, read_bytes
 from checker.recall import program_parts
 from checker.report.wording import plain
 from checker.store.store import SUMMARY, Store
@@ -150,9 +150,8 @@ def _cause(ended: Ended, limits: StageLimits) -> str:
 def _last_words(said: Path) -> str:
     """Return the end of what the child has said, on one line of a log."""
     # The child may have put a link or a pipe in its place, which would have us wait.
-    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK
     try:
-        with open(os.open(said, flags), "rb") as file:  # noqa: PTH123 - a descriptor, not a path
+        with open_file(said) as file:
             file.seek(max(0, os.fstat(file.fileno()).st_size - _SHOWN))
             return repr(file.read(_SHOWN).decode(errors="replace"))
     except OSError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 from pathlib import Path
+from typing import BinaryIO
 
 from checker.record import record
 from checker.source.decode import NotText, decode, encoding_of
@@ -35,9 +36,8 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
         path: What to call it.
         limit: In bytes.
     """
-    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
     try:
-        with open(os.open(location, flags | getattr(os, "O_BINARY", 0)), "rb") as file:  # noqa: PTH123 - a descriptor, not a path
+        with open_file(location) as file:
             status = os.fstat(file.fileno())
             if not stat.S_ISREG(status.st_mode):
                 return NotReadable(path, "is no regular file")
@@ -50,6 +50,17 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
     except (OSError, ValueError) as error:
         return NotReadable(path, f"cannot be read: {getattr(error, 'strerror', None) or error}")
     return data if len(data) <= limit else NotReadable(path, _too_large(len(data), limit))
+
+
+def open_file(location: Path) -> BinaryIO:
+    """Open a file to be read; a link is refused, and a pipe keeps nobody waiting.
+
+    Raises:
+        OSError: It is a link, or cannot be opened.
+        ValueError: No file has such a name.
+    """
+    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+    return open(os.open(location, flags | getattr(os, "O_BINARY", 0)), "rb")  # noqa: PTH123 - a descriptor, not a path
 
 
 def _too_large(size: int, limit: int) -> str:
