@@ -134,10 +134,12 @@ class Memory:
         all: The most that all processes below this one had at once; pages that they share count
             for each of them.
         web: The most that the web process ever had.
+        clerk: The most that its clerk ever had.
     """
 
     all: float = 0.0
     web: float = 0.0
+    clerk: float = 0.0
     _over: threading.Event = field(default_factory=threading.Event)
 
     def look(self) -> None:
@@ -145,8 +147,8 @@ class Memory:
         while not self._over.wait(0.5):
             pids = below(os.getpid())
             self.all = max(self.all, sum(_status(pid, "VmRSS") for pid in pids))
-            webs = [pid for pid in pids if b"\0web\0" in _read(pid, "cmdline")]
-            self.web = max([self.web, *(_status(pid, "VmHWM") for pid in webs)])
+            self.web = max(self.web, _most(pids, b"\0web\0"))
+            self.clerk = max(self.clerk, _most(pids, b"\0clerk\0"))
 
     def stop(self) -> None:
         """Look no more."""
@@ -174,6 +176,12 @@ def below(pid: int) -> list[int]:
     for one in found:
         found += [each for each, parent in parents.items() if parent == one]
     return found[1:]
+
+
+def _most(pids: Iterable[int], word: bytes) -> float:
+    """Return the most memory that a process with a word in its command ever had."""
+    chosen = (pid for pid in pids if word in _read(pid, "cmdline"))
+    return max((_status(pid, "VmHWM") for pid in chosen), default=0.0)
 
 
 def _parent(pid: int) -> int:

@@ -1,6 +1,7 @@
-"""A process of the service: the web server or a worker. It ends with the one that started it.
+"""A process of the service, which ends with the one that started it.
 
-`python -P -m checker.serving.child PARENT web DESCRIPTOR PROXIES` or `… PARENT worker NAME`.
+`python -P -m checker.serving.child PARENT web DESCRIPTOR PROXIES`, `… PARENT clerk DESCRIPTOR` or
+`… PARENT worker NAME`.
 """
 
 from __future__ import annotations
@@ -61,6 +62,15 @@ def _allow_open_files() -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (allowed, hard))
 
 
+def clerk(descriptor: int) -> None:
+    """Take uploads until the web process ends; see `checker.web.clerk.child`."""
+    from checker.web.clerk.child import work
+
+    # Meant for the web process, which finishes what it has begun.
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    work(descriptor)
+
+
 def worker(name: str) -> None:
     """Take checks from the queues until SIGTERM; see `checker.jobs.durable.worker`."""
     from checker.jobs.durable.worker import WorkerOptions, work
@@ -80,6 +90,8 @@ def main(arguments: Sequence[str]) -> int:
     try:
         if kind == "web":
             web(int(rest[0]), rest[1])
+        elif kind == "clerk":
+            clerk(int(rest[0]))
         else:
             worker(rest[0])
     except CheckerError as error:

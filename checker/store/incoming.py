@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -24,21 +23,23 @@ class Incoming:
     """Takes an upload piece by piece; used by one thread at a time.
 
     Attributes:
+        path: Where the bytes lie meanwhile.
         size: Bytes so far.
     """
 
-    def __init__(self, file: Path, limit: int, admit: Callable[[Path, str], None]) -> None:
+    def __init__(
+        self, path: Path, descriptor: int, limit: int, admit: Callable[[Path], str]
+    ) -> None:
         """Begin.
 
         Args:
-            file: Where the bytes go meanwhile; it is not there yet.
+            path: Of an empty file.
+            descriptor: To write it; its owner closes it.
             limit: Bytes.
-            admit: Takes the finished file and its hash.
+            admit: Takes the finished file, and returns its hash.
         """
-        self.size = 0
-        self._path, self._limit, self._admit = file, limit, admit
-        self._file = file.open("xb")
-        self._digest = hashlib.sha256()
+        self.path, self.size = path, 0
+        self._descriptor, self._limit, self._admit = descriptor, limit, admit
 
     def write(self, chunk: bytes) -> None:
         """Take the next bytes.
@@ -49,22 +50,10 @@ class Incoming:
         if self.size + len(chunk) > self._limit:
             raise TooLarge(self._limit)
         self.size += len(chunk)
-        self._digest.update(chunk)
-        self._file.write(chunk)
+        left = memoryview(chunk)
+        while left:  # a disk that is nearly full takes a part of it
+            left = left[os.write(self._descriptor, left) :]
 
     def finish(self) -> str:
-        """Put the upload into the store, safe from a power failure, and return its hash.
-
-        Returns:
-            SHA-256 of the content, hexadecimal.
-        """
-        self._file.flush()
-        os.fsync(self._file.fileno())
-        self._file.close()
-        hash = self._digest.hexdigest()
-        self._admit(self._path, hash)
-        return hash
-
-    def close(self) -> None:
-        """Take no more; nothing happens after `finish`."""
-        self._file.close()
+        """Put the upload into the store, and return its hash; see `Store.admit`."""
+        return self._admit(self.path)

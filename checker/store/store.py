@@ -2,7 +2,7 @@
 
     uploads/ab/<hash>          what was uploaded, once however often
     results/ab/<key>/…         reports; a key depends on all that a report depends on
-    incoming/<random>/…        work in progress
+    incoming/<random>…         work in progress
     cache/                     what checks have worked out (`checker.cache`)
 
 Many processes use it at once, on several machines where they share the folder.
@@ -11,19 +11,20 @@ Many processes use it at once, on several machines where they share the folder.
 from __future__ import annotations
 
 import fcntl
+import hashlib
 import os
 import re
 import shutil
 import stat
 from collections.abc import Collection, Iterator
-from contextlib import closing, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from checker.record import record
 from checker.report.artefacts import ARTEFACT_NAME
 from checker.store.durable import move, rename, settle_below, settle_name
 from checker.store.incoming import Incoming, TooLarge
-from checker.store.workplace import sweep, workplace
+from checker.store.workplace import sweep, work_file, workplace
 
 __all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge"]
 
@@ -52,11 +53,27 @@ class Store:
     @contextmanager
     def incoming(self, limit: int = DEFAULT_UPLOAD_LIMIT) -> Iterator[Incoming]:
         """Take an upload of at most `limit` bytes; without its `finish`, nothing of it is left."""
-        with (
-            self.workplace() as place,
-            closing(Incoming(place / "upload", limit, self._admit)) as it,
-        ):
-            yield it
+        self._make()
+        with work_file(self.folder / "incoming") as (path, descriptor):
+            yield Incoming(path, descriptor, limit, self.admit)
+
+    def admit(self, file: Path) -> str:
+        """Keep an upload that has come whole, safe from a power failure.
+
+        Args:
+            file: Of `Incoming`; it is gone after.
+
+        Returns:
+            SHA-256 of its content, hexadecimal.
+        """
+        with file.open("rb") as opened:
+            hash = hashlib.file_digest(opened, "sha256").hexdigest()
+            os.fsync(opened.fileno())
+        place = self.folder / "uploads" / hash[:2] / hash
+        with self._alone():
+            rename(file, place)
+        settle_name(place)
+        return hash
 
     @contextmanager
     def workplace(self) -> Iterator[Path]:
@@ -78,8 +95,10 @@ class Store:
     def has(self, key: str) -> bool:
         """Whether a result is there; it counts as used now, so that it does not expire soon."""
         place = self._place("results", key)
+        if place is None or not place.exists():
+            return False
         with self._alone():
-            return place is not None and _touched(place)
+            return _touched(place)
 
     def keep(self, key: str, folder: Path) -> None:
         """Move a finished folder of artefacts into place; the first one of a key wins.
@@ -123,13 +142,6 @@ class Store:
             return ()
         return tuple(sorted(name for name in names if ARTEFACT_NAME.fullmatch(name)))
 
-    def forget_upload(self, hash: str) -> None:
-        """Remove an upload that nothing was ordered for."""
-        place = self._place("uploads", hash)
-        if place is not None:
-            with self._alone():
-                place.unlink(missing_ok=True)
-
     def expire(self, before: float, still_used: Collection[str]) -> None:
         """Remove what nobody has come back to.
 
@@ -156,12 +168,6 @@ class Store:
             if path.stat().st_mtime < before:
                 # A folder goes at once; its files go when the workplace does.
                 path.rename(place / path.name)
-
-    def _admit(self, file: Path, hash: str) -> None:
-        place = self.folder / "uploads" / hash[:2] / hash
-        with self._alone():
-            rename(file, place)
-        settle_name(place)
 
     def _place(self, kind: str, key: str) -> Path | None:
         return self.folder / kind / key[:2] / key if _KEY.fullmatch(key) else None

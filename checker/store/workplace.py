@@ -1,4 +1,9 @@
-"""Folders for work in progress, which go with the process that works in them."""
+"""Folders and files for work in progress, which go with the process that works in them.
+
+Its owner holds a lock on a file: that of an upload itself, or one beside the folder. The system
+drops the lock when the owner ends, however it ends: a process id would be given again, and means
+nothing in another container.
+"""
 
 from __future__ import annotations
 
@@ -10,46 +15,57 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-_LOCK = ".lock"
+_LOCK, _FILE = ".lock", ".part"
 
 
 @contextmanager
 def workplace(home: Path) -> Iterator[Path]:
-    """Make an empty folder below `home`, and remove it at the end with all that it holds.
-
-    Its owner holds a lock on the file beside it. The system drops the lock when the owner ends,
-    however it ends: a process id would be given again, and means nothing in another container.
-    """
-    home.mkdir(mode=0o700, parents=True, exist_ok=True)
-    place, lock = _claimed(home)
+    """Make an empty folder below `home`, and remove it at the end with all that it holds."""
+    file, lock = _claimed(home, _LOCK)
+    place = file.with_suffix("")
     try:
         place.mkdir(mode=0o700)
         yield place
     finally:
-        _remove(place)
+        _remove(file)
         os.close(lock)
 
 
-def _claimed(home: Path) -> tuple[Path, int]:
-    """Return a new place and the descriptor that holds its lock."""
+@contextmanager
+def work_file(home: Path) -> Iterator[tuple[Path, int]]:
+    """Make an empty file below `home`, and remove it at the end unless it has been moved away.
+
+    Yields:
+        The file, and a descriptor to write it, which is closed at the end.
+    """
+    file, descriptor = _claimed(home, _FILE)
+    try:
+        yield file, descriptor
+    finally:
+        file.unlink(missing_ok=True)
+        os.close(descriptor)
+
+
+def _claimed(home: Path, suffix: str) -> tuple[Path, int]:
+    """Return a new file and the descriptor that holds its lock."""
+    home.mkdir(mode=0o700, parents=True, exist_ok=True)
     while True:
-        place = home / secrets.token_hex(16)
-        file = _lock_of(place)
+        file = home / (secrets.token_hex(16) + suffix)
         lock = os.open(file, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
         # Between these two lines the sweep may have taken it for one of the dead.
-        if _locks(lock) and file.exists():
-            return place, lock
+        if _locks(lock) and os.fstat(lock).st_nlink:
+            return file, lock
         os.close(lock)
 
 
 def sweep(home: Path) -> None:
-    """Remove the folders whose owners have ended without doing so."""
-    for file in home.glob(f"*{_LOCK}"):
+    """Remove the work whose owners have ended without doing so."""
+    for file in (*home.glob(f"*{_LOCK}"), *home.glob(f"*{_FILE}")):
         with suppress(OSError):
             lock = os.open(file, os.O_RDWR)
             try:
                 if _locks(lock):
-                    _remove(file.with_suffix(""))
+                    _remove(file)
             finally:
                 os.close(lock)
 
@@ -62,12 +78,9 @@ def _locks(descriptor: int) -> bool:
     return True
 
 
-def _remove(place: Path) -> None:
+def _remove(file: Path) -> None:
     """Remove a folder, then the file of its lock: what has no lock has no folder either."""
+    place = file.with_suffix("")
     shutil.rmtree(place, ignore_errors=True)
     if not place.exists():
-        _lock_of(place).unlink(missing_ok=True)
-
-
-def _lock_of(place: Path) -> Path:
-    return place.with_name(place.name + _LOCK)
+        file.unlink(missing_ok=True)

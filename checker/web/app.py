@@ -9,6 +9,8 @@ from checker.store.store import Store
 from checker.versions import version_of
 from checker.web import api, health, pages
 from checker.web.answers import say_no_by
+from checker.web.clerk.port import Clerk
+from checker.web.clerk.threads import ThreadClerk
 from checker.web.config import Config
 from checker.web.courtesy import Courtesy
 from checker.web.gate import Gate
@@ -32,18 +34,20 @@ _NO_TELEMETRY: TelemetryConfig = {
 """The framework's own would send addresses, which hold ids, to whom the environment names."""
 
 
-def create_app(jobs: Jobs, store: Store, config: Config) -> FastAPI:
+def create_app(jobs: Jobs, store: Store, config: Config, clerk: Clerk | None = None) -> FastAPI:
     """Return the application.
 
     Args:
         jobs: The engine that checks.
         store: Uploads and results.
         config: What is allowed.
+        clerk: Takes uploads that have come whole; None for one within this process.
     """
     from fastapi import FastAPI
 
     metrics = Metrics()
-    services = Services(jobs, store, config, Gate(config), metrics)
+    clerk = clerk or ThreadClerk(store, jobs)
+    services = Services(jobs, store, clerk, config, Gate(config), metrics)
     app = FastAPI(
         title="subt-check",
         version=version_of("subt-check"),

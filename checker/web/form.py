@@ -1,4 +1,4 @@
-"""An upload form while it comes in: its file goes straight to the store."""
+"""An upload form while it comes in: its file is passed on as it comes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 
 from multipart import MultipartError, MultipartSegment, PushMultipartParser, parse_options_header
 
-from checker.store.incoming import Incoming
 from checker.store.naming import UnknownKind, safe_name
 from checker.web.refusal import Refused, sentence
 from checker.web.sniffing import HEAD, misfit
@@ -30,13 +29,16 @@ class UploadForm:
     """
 
     def __init__(
-        self, content_type: str, incoming: Incoming, admit: Callable[[Mapping[str, str]], None]
+        self,
+        content_type: str,
+        write: Callable[[bytes], object],
+        admit: Callable[[Mapping[str, str]], None],
     ) -> None:
         """Begin.
 
         Args:
             content_type: Of the request.
-            incoming: Takes the bytes of the file.
+            write: Takes the next bytes of the file.
             admit: Called with the fields so far when the file begins; refuses those who may not.
 
         Raises:
@@ -44,7 +46,7 @@ class UploadForm:
         """
         self.name = ""
         self.fields: dict[str, str] = {}
-        self._incoming, self._admit = incoming, admit
+        self._write_file, self._admit = write, admit
         self._parser = _parser(content_type)
         self._field: str | None = None
         self._text = bytearray()
@@ -55,8 +57,7 @@ class UploadForm:
 
         Raises:
             Refused: The form is damaged, or holds what is not taken.
-            TooLarge: The file is.
-            OSError: It cannot be written.
+            Exception: What `write` raises.
         """
         try:
             if not self._parser.closed:
@@ -115,7 +116,7 @@ class UploadForm:
             if len(self._head) < HEAD:
                 return
             piece = self._checked_head()
-        self._incoming.write(piece)
+        self._write_file(piece)
 
     def _checked_head(self) -> bytes:
         head, self._head = bytes(self._head or b""), None
@@ -129,7 +130,7 @@ class UploadForm:
     def _finish(self) -> None:
         if self._field == FILE:
             if self._head is not None:
-                self._incoming.write(self._checked_head())
+                self._write_file(self._checked_head())
         elif self._field is not None:
             self.fields[self._field[:FIELD_LIMIT]] = self._text.decode("utf-8", "replace")
         self._field = None

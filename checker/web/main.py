@@ -9,6 +9,7 @@ from checker.jobs.place import database_url
 from checker.store.place import data_folder
 from checker.store.store import Store
 from checker.web.app import create_app
+from checker.web.clerk.process import ProcessClerk
 from checker.web.config import config_from
 from checker.web.logs import log_to_stderr
 
@@ -27,5 +28,7 @@ def app_from_environment() -> FastAPI:
     store = Store(data_folder())
     store.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     store.sweep()
+    clerk = ProcessClerk()
+    clerk.start()
     jobs = durable_jobs(database_url(), store, config.retention_days)
-    return create_app(jobs, store, config)
+    return create_app(jobs, store, config, clerk)

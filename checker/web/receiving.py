@@ -3,29 +3,26 @@
 from __future__ import annotations
 
 import asyncio
-import errno
-import os
-import shutil
 from collections.abc import AsyncIterator
-from contextlib import ExitStack
+from contextlib import closing
 from dataclasses import dataclass
 from time import monotonic
 
-from anyio import to_thread
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
-from checker.errors import UnreadableInput
-from checker.jobs.port import Order
-from checker.package.archive import ARCHIVE_SUFFIXES, check_archive
 from checker.profiles import profile_names
-from checker.report.wording import plain
-from checker.store.incoming import Incoming, TooLarge
-from checker.store.store import Store
+from checker.store.incoming import TooLarge
 from checker.web.config import Config
 from checker.web.form import ROOM, UploadForm
-from checker.web.refusal import Refused, sentence
+from checker.web.intake import Intake, no_room
+from checker.web.refusal import Refused
 from checker.web.services import Services
+
+AT_ONCE = 1_048_576
+"""Bytes of each upload that the event loop writes itself. The system takes them into its memory in
+less time than it takes to change to a thread and back; more of them may have to wait for the disk.
+"""
 
 
 async def new_check(request: Request, services: Services) -> str:
@@ -43,48 +40,32 @@ async def new_check(request: Request, services: Services) -> str:
         Refused: The upload is not taken; nothing of it is left.
         JobsUnreachable: The order cannot be taken now.
     """
+    config = services.config
     with services.gate.upload(request):
-        order = await receive(request, services)
-        id = await to_thread.run_sync(services.jobs.submit, order, limiter=services.ordering)
+        _refuse_announced(request, config)
+        try:
+            with closing(Intake(services.store, config)) as intake:
+                id = await _received(request, services, intake)
+        except TooLarge:
+            raise too_large(config.upload_limit) from None
+        except OSError as error:
+            raise no_room(error) from None
     services.metrics.uploads += 1
     return id
 
 
-async def receive(request: Request, services: Services) -> Order:
-    """Take the upload form of a request into the store.
-
-    Raises:
-        Refused: The upload is not taken; nothing of it is left.
-    """
-    config, store = services.config, services.store
-    _refuse_announced(request, config)
-    try:
-        with ExitStack() as opened:
-            incoming = await run_in_threadpool(_open, opened, store, config)
-            admit = services.gate.needs_token(request)
-            form = UploadForm(request.headers.get("content-type", ""), incoming, admit)
-            async for piece in _pieces(request, config):
-                await run_in_threadpool(form.feed, piece)
-            form.end()
-            profile = _profile(form.fields.get("profile", ""))
-            return await run_in_threadpool(_kept, opened, store, incoming, form.name, profile)
-    except TooLarge:
-        raise too_large(config.upload_limit) from None
-    except OSError as error:
-        raise _no_room(error) from None
-
-
-def _open(opened: ExitStack, store: Store, config: Config) -> Incoming:
-    """Open a place for an upload, which goes with `opened`; the disk may have one wait for it."""
-    _refuse_without_room(store, config)
-    return opened.enter_context(store.incoming(config.upload_limit))
-
-
-def _kept(opened: ExitStack, store: Store, incoming: Incoming, name: str, profile: str) -> Order:
-    order = Order(incoming.finish(), name, profile)
-    opened.close()
-    _check_index(store, order)
-    return order
+async def _received(request: Request, services: Services, intake: Intake) -> str:
+    """Read the form, and have a check of its file ordered; see `new_check`."""
+    admit = services.gate.needs_token(request)
+    form = UploadForm(request.headers.get("content-type", ""), intake.write, admit)
+    async for piece in _pieces(request, services.config):
+        if intake.size < AT_ONCE:
+            form.feed(piece)
+        else:
+            await run_in_threadpool(form.feed, piece)
+    form.end()
+    profile = _profile(form.fields.get("profile", ""))
+    return await services.clerk.take(intake.slip(form.name, profile))
 
 
 def too_large(limit: int) -> Refused:
@@ -102,16 +83,6 @@ def _refuse_announced(request: Request, config: Config) -> None:
     length = request.headers.get("content-length", "")
     if length.isdecimal() and len(length) <= 20 and int(length) > config.upload_limit + ROOM:
         raise too_large(config.upload_limit)
-
-
-def _refuse_without_room(store: Store, config: Config) -> None:
-    """Refuse all uploads before the disk is so full that no check can be finished."""
-    try:
-        free = shutil.disk_usage(store.folder).free
-    except OSError:  # writing will tell
-        return
-    if free < config.room:
-        raise _no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
 
 
 @dataclass
@@ -176,32 +147,3 @@ def _profile(name: str) -> str:
         shown = ", ".join(known)
         raise Refused(422, "There is no such profile.", f"Choose one of {shown}.", "profile")
     return name
-
-
-def _no_room(error: OSError) -> Refused:
-    reason = error.strerror or "the disk does not answer"
-    return Refused(
-        503,
-        f"The service cannot keep the upload: {reason}.",
-        "Try again later.",
-        "disk",
-        {"Retry-After": "60"},
-    )
-
-
-def _check_index(store: Store, order: Order) -> None:
-    """Refuse an archive by what its index says.
-
-    Raises:
-        Refused: It could do harm, or is damaged; it is removed from the store, as no check can
-            be of use with it.
-    """
-    place = store.upload(order.upload)
-    if place is None or not order.name.lower().endswith(ARCHIVE_SUFFIXES):
-        return
-    try:
-        check_archive(place, order.name)
-    except UnreadableInput as error:
-        store.forget_upload(order.upload)
-        reason = plain(f"{order.name} {error.reason}.")
-        raise Refused(422, reason, sentence(error.advice), "archive") from None

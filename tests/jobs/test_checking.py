@@ -170,9 +170,15 @@ def test_settings_of_this_machine_do_not_judge(store: Store, samples: Path) -> N
     assert isinstance(check(store, order), Checked)
 
 
+def forget(store: Store, order: Order) -> None:
+    path = store.upload(order.upload)
+    assert path is not None
+    path.unlink()
+
+
 def test_an_upload_that_is_gone(store: Store) -> None:
     order = given(store, "model.sdf", b"<sdf/>")
-    store.forget_upload(order.upload)
+    forget(store, order)
     assert check(store, order) == Refused("the upload is no longer there; upload it again")
 
 
@@ -180,7 +186,7 @@ def test_the_same_upload_is_checked_once(store: Store, samples: Path) -> None:
     order = given(store, "model.sdf", (samples / BUGGY / "model.sdf").read_bytes())
     outcome = check(store, order)
     # What had to be opened again would now be refused.
-    store.forget_upload(order.upload)
+    forget(store, order)
     assert check(store, order) == outcome
     assert isinstance(check(store, order, Stage.TRIAL), Refused)
     assert isinstance(check(store, Order(order.upload, "robot.sdf")), Refused)
@@ -198,7 +204,7 @@ def test_a_result_with_a_damaged_summary_is_made_again(
     assert summary is not None
     summary.write_text(said, "utf-8")
     assert stored_result(store, order, Stage.STATIC) is None
-    store.forget_upload(order.upload)
+    forget(store, order)
     assert isinstance(check(store, order), Refused), "it would be opened again"
 
 

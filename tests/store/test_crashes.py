@@ -99,9 +99,9 @@ def test_the_living_are_not_swept_and_the_dead_are(tmp_path: Path) -> None:
     store = Store(tmp_path)
     living, dead = start(HALF, store), start(HALF, store)
     kill(dead)
-    assert len([path for path in in_progress(store) if path.is_dir()]) == 2
+    assert len(in_progress(store)) == 2
     store.sweep()
-    assert len([path for path in in_progress(store) if path.is_dir()]) == 1
+    assert len(in_progress(store)) == 1
     living.communicate(b"")
     assert living.returncode == 0
     assert store.upload(hashlib.sha256(b"half").hexdigest()) is not None
@@ -110,7 +110,9 @@ def test_the_living_are_not_swept_and_the_dead_are(tmp_path: Path) -> None:
 
 def test_our_own_work_is_not_swept(tmp_path: Path) -> None:
     store = Store(tmp_path)
-    with store.workplace() as place:
+    with store.workplace() as place, store.incoming() as incoming:
         (place / "file").touch()
         store.sweep()
         assert (place / "file").exists()
+        assert incoming.path.exists()
+    assert not in_progress(store)

@@ -83,20 +83,12 @@ def test_the_same_upload_again_lies_there_once(store: Store) -> None:
     assert len(list((store.folder / "uploads").glob("*/*"))) == 1
 
 
-def test_an_upload_that_is_forgotten(store: Store) -> None:
-    hash = uploaded(store, b"a bomb")
-    store.forget_upload(hash)
-    store.forget_upload(hash)
-    assert store.upload(hash) is None
-
-
 @given(st.text(max_size=80) | st.sampled_from(["../lock", "..", "", KEY[:-1], KEY.upper()]))
 def test_what_is_no_key_names_nothing(key: str) -> None:
     store = Store(Path("/nowhere/that/could/be"))
     assert store.upload(key) is None
     assert store.file(key, "report.json") is None
     assert store.names(key) == ()
-    store.forget_upload(key)
 
 
 def test_a_result_of_one_package(store: Store) -> None:

@@ -32,7 +32,7 @@ def sent(store: Store, body: bytes, cuts: list[int], kind: str = TYPE) -> tuple[
     """Return the hash of the file in a form that comes in pieces, and the form."""
     ends = sorted({min(cut, len(body)) for cut in cuts} | {len(body)})
     with store.incoming(1_000_000) as incoming:
-        taken = UploadForm(kind, incoming, lambda _: None)
+        taken = UploadForm(kind, incoming.write, lambda _: None)
         for start, end in zip([0, *ends], ends, strict=False):
             if body[start:end]:
                 taken.feed(body[start:end])
@@ -63,7 +63,7 @@ NOISE = st.binary(max_size=300) | st.sampled_from(
 def test_noise_is_refused_in_words(store: Store, pieces: list[bytes], kind: str) -> None:
     before = len(left_behind(store))
     with suppress(Refused), store.incoming(1_000_000) as incoming:
-        taken = UploadForm(kind, incoming, lambda _: None)
+        taken = UploadForm(kind, incoming.write, lambda _: None)
         for piece in filter(None, pieces):
             taken.feed(piece)
         taken.end()
@@ -130,15 +130,15 @@ def test_who_may_not_send_is_refused_before_the_first_byte_of_the_file(store: St
     body = form("rover.zip", ZIP)
     with store.incoming(1_000_000) as incoming:
         with pytest.raises(Refused):
-            UploadForm(TYPE, incoming, nobody).feed(body)
+            UploadForm(TYPE, incoming.write, nobody).feed(body)
         assert incoming.size == 0
 
 
 def test_the_limit_is_the_files(store: Store) -> None:
     with store.incoming(len(ZIP)) as incoming:
-        UploadForm(TYPE, incoming, lambda _: None).feed(form("rover.zip", ZIP))
+        UploadForm(TYPE, incoming.write, lambda _: None).feed(form("rover.zip", ZIP))
     with store.incoming(len(ZIP) - 1) as incoming, pytest.raises(TooLarge):
-        UploadForm(TYPE, incoming, lambda _: None).feed(form("rover.zip", ZIP))
+        UploadForm(TYPE, incoming.write, lambda _: None).feed(form("rover.zip", ZIP))
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,60 @@
+"""What is done with an upload once all of it has come, and who can be asked to do it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Protocol
+
+from checker.errors import UnreadableInput
+from checker.jobs.port import Jobs, Order
+from checker.package.archive import ARCHIVE_SUFFIXES, check_archive
+from checker.record import record
+from checker.report.wording import plain
+from checker.store.store import Store
+from checker.web.refusal import Refused, sentence
+
+
+@record()
+class Slip:
+    """An upload that has come whole.
+
+    Attributes:
+        path: Where it lies meanwhile, in the store's file system.
+        name: Of the file, made safe.
+        profile: Of the check; empty for what suits.
+    """
+
+    path: str
+    name: str
+    profile: str
+
+
+class Clerk(Protocol):
+    """Takes uploads."""
+
+    async def take(self, slip: Slip) -> str:
+        """Look at an upload, keep it, order its check, and return the id of the check.
+
+        Raises:
+            Refused: It is an archive that could do harm, or damaged: no check can be of use.
+            JobsUnreachable: The order cannot be taken now.
+            OSError: The upload cannot be kept.
+        """
+        ...
+
+
+def taken(slip: Slip, store: Store, jobs: Jobs) -> str:
+    """Do what `Clerk.take` says, in the thread that calls."""
+    _check_index(slip)
+    hash = store.admit(Path(slip.path))
+    return jobs.submit(Order(hash, slip.name, slip.profile))
+
+
+def _check_index(slip: Slip) -> None:
+    if not slip.name.lower().endswith(ARCHIVE_SUFFIXES):
+        return
+    try:
+        check_archive(Path(slip.path), slip.name)
+    except UnreadableInput as error:
+        reason = plain(f"{slip.name} {error.reason}.")
+        raise Refused(422, reason, sentence(error.advice), "archive") from None

@@ -1,0 +1,139 @@
+"""A clerk in a process of its own: what an interpreter does for others is not waited for.
+
+To read the index of an archive, to have it written and to order its check takes as long as to
+receive it; a second processor can do the one while the first does the other.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import count
+from typing import Any
+
+from checker.confined import module_path
+from checker.web.clerk.port import Slip
+from checker.web.clerk.wire import answer_from_line, id_in, slip_to_line
+from checker.web.refusal import Refused
+
+_PIECE = 65_536
+
+
+@dataclass(eq=False)
+class _Running:
+    """A process that takes uploads.
+
+    Attributes:
+        wire: Where it is told of them, and answers.
+        waiting: For answers, by the number of the upload.
+        heard: The beginning of an answer.
+        begun: Whether answers are listened for.
+    """
+
+    process: subprocess.Popen[bytes]
+    wire: socket.socket
+    waiting: dict[int, asyncio.Future[Mapping[str, Any]]] = field(default_factory=dict)
+    numbers: Iterator[int] = field(default_factory=count)
+    heard: bytes = b""
+    begun: bool = False
+
+
+class ProcessClerk:
+    """Has a process take uploads: a `Clerk`, used by one event loop. It starts anew if it dies."""
+
+    def __init__(self) -> None:
+        """Start no process yet."""
+        self._running: _Running | None = None
+
+    def start(self) -> None:
+        """Start the process, if there is none: it loads what it needs while nothing has come."""
+        self._running = self._running or _started()
+
+    @property
+    def pid(self) -> int | None:
+        """Of the process; None if there is none."""
+        return self._running.process.pid if self._running is not None else None
+
+    def stop(self) -> None:
+        """End the process."""
+        if self._running is not None:
+            self._lose(self._running)
+
+    async def take(self, slip: Slip) -> str:
+        """See `Clerk.take`.
+
+        Raises:
+            Refused: Also where the process dies: nobody knows whether the check is ordered.
+        """
+        running = self._running = self._running or _started()
+        loop = asyncio.get_running_loop()
+        if not running.begun:
+            running.begun = True
+            loop.add_reader(running.wire, self._listen, running)
+        answer: asyncio.Future[Mapping[str, Any]] = loop.create_future()
+        number = next(running.numbers)
+        running.waiting[number] = answer
+        try:
+            # Slips are short and few: the system holds them until they are read.
+            running.wire.sendall(slip_to_line(number, slip))
+        except OSError:
+            self._lose(running)
+        return id_in(await answer)
+
+    def _listen(self, running: _Running) -> None:
+        """Give answers to those who wait for them."""
+        try:
+            heard = running.wire.recv(_PIECE)
+        except OSError:
+            heard = b""
+        if not heard:
+            self._lose(running)
+            return
+        *lines, running.heard = (running.heard + heard).split(b"\n")
+        for line in lines:
+            number, said = answer_from_line(line)
+            answer = running.waiting.pop(number)
+            if not answer.done():  # who asked may have gone
+                answer.set_result(said)
+
+    def _lose(self, running: _Running) -> None:
+        """Know nothing more of a process, and tell those who wait for it."""
+        if self._running is running:
+            self._running = None
+        if running.begun:
+            asyncio.get_running_loop().remove_reader(running.wire)
+        running.wire.close()
+        running.process.kill()
+        running.process.wait()
+        for answer in running.waiting.values():
+            if not answer.done():
+                answer.set_exception(_lost())
+        running.waiting.clear()
+
+
+def _started() -> _Running:
+    ours, theirs = socket.socketpair()
+    with theirs:
+        command = [sys.executable, "-P", "-m", "checker.serving.child", str(os.getpid())]
+        process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
+            [*command, "clerk", str(theirs.fileno())],
+            stdin=subprocess.DEVNULL,
+            pass_fds=[theirs.fileno()],
+            env={**os.environ, "PYTHONPATH": module_path()},
+        )
+    return _Running(process, ours)
+
+
+def _lost() -> Refused:
+    return Refused(
+        503,
+        "The service was interrupted while it took the upload.",
+        "Send it again.",
+        "clerk",
+        {"Retry-After": "5"},
+    )

@@ -1,0 +1,34 @@
+"""A clerk within the web process, for few uploads at once."""
+
+from __future__ import annotations
+
+from dataclasses import field
+
+from anyio import CapacityLimiter, to_thread
+
+from checker.jobs.port import Jobs
+from checker.record import record
+from checker.store.store import Store
+from checker.web.clerk.port import Slip, taken
+
+_AT_ONCE = 2
+
+
+@record()
+class ThreadClerk:
+    """Takes uploads in threads: a `Clerk`.
+
+    Attributes:
+        store: Keeps uploads.
+        jobs: Take orders.
+        limiter: Lets few order at once. A database that takes one change at a time, such as
+            SQLite, has the others look again and again, the longer the later they came.
+    """
+
+    store: Store
+    jobs: Jobs
+    limiter: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
+
+    async def take(self, slip: Slip) -> str:
+        """See `Clerk.take`."""
+        return await to_thread.run_sync(taken, slip, self.store, self.jobs, limiter=self.limiter)

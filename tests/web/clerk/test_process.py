@@ -1,0 +1,146 @@
+"""A clerk in a process of its own: what it takes is kept and ordered, whatever becomes of it."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import os
+import signal
+import zipfile
+from collections.abc import Coroutine, Iterator
+from pathlib import Path
+from typing import Any, TypeVar
+
+import pytest
+
+from checker.jobs.durable.client import durable_jobs
+from checker.jobs.place import database_url
+from checker.jobs.port import JobsUnreachable, Stage
+from checker.store.store import Store
+from checker.web.clerk.port import Slip
+from checker.web.clerk.process import ProcessClerk
+from checker.web.clerk.wire import ClerkFailed
+from checker.web.refusal import Refused
+from tests.web.server import left_behind
+
+T = TypeVar("T")
+
+
+@pytest.fixture
+def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Store:
+    monkeypatch.setenv("SUBT_CHECK_DATA", str(tmp_path / "data"))
+    return Store(tmp_path / "data")
+
+
+@pytest.fixture
+def clerk() -> Iterator[ProcessClerk]:
+    clerk = ProcessClerk()
+    yield clerk
+    assert clerk.pid is None, "each test stops it in its loop"
+
+
+def run(clerk: ProcessClerk, work: Coroutine[Any, Any, T]) -> T:
+    """Run work in an event loop, and stop the clerk in it."""
+
+    async def all_of_it() -> T:
+        try:
+            return await work
+        finally:
+            clerk.stop()
+
+    return asyncio.run(all_of_it())
+
+
+async def taken(clerk: ProcessClerk, store: Store, content: bytes, name: str = "a.sdf") -> str:
+    with store.incoming() as incoming:
+        incoming.write(content)
+        return await clerk.take(Slip(str(incoming.path), name, "sdf"))
+
+
+def test_what_it_takes_is_kept_and_ordered(store: Store, clerk: ProcessClerk) -> None:
+    async def work() -> list[str]:
+        contents = [b"<sdf/>%d" % number for number in range(30)]
+        return await asyncio.gather(*(taken(clerk, store, each) for each in contents))
+
+    ids = run(clerk, work())
+    assert len(set(ids)) == 30
+    jobs = durable_jobs(database_url(), store)
+    for number, id in enumerate(ids):
+        state = jobs.status(id)
+        assert state is not None
+        assert (state.stage, state.order.name, state.order.profile) == (
+            Stage.QUEUED,
+            "a.sdf",
+            "sdf",
+        )
+        assert state.order.upload == hashlib.sha256(b"<sdf/>%d" % number).hexdigest()
+        assert store.upload(state.order.upload) is not None
+    assert not list((store.folder / "incoming").iterdir())
+
+
+def test_an_archive_that_may_do_harm_is_refused(store: Store, clerk: ProcessClerk) -> None:
+    bad = store.folder.parent / "bad.zip"
+    with zipfile.ZipFile(bad, "w") as archive:
+        archive.writestr("../../etc/cron.d/x", "x")
+    with pytest.raises(Refused) as refused:
+        run(clerk, taken(clerk, store, bad.read_bytes(), "bad.zip"))
+    assert refused.value.status == 422
+    assert "leads out of the archive" in refused.value.error
+    assert not [path for path in left_behind(store) if path.parent.name != "data"]
+
+
+def test_a_database_that_is_away_is_said(
+    store: Store, clerk: ProcessClerk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SUBT_CHECK_DATABASE_URL", "postgresql://127.0.0.1:9/none")
+    with pytest.raises(JobsUnreachable):
+        run(clerk, taken(clerk, store, b"<sdf/>"))
+
+
+def test_an_upload_that_is_gone_and_a_fault_of_ours_end_no_clerk(
+    store: Store, clerk: ProcessClerk
+) -> None:
+    async def work() -> str:
+        clerk.start()
+        first = clerk.pid
+        with pytest.raises(OSError, match="No such file"):
+            await clerk.take(Slip("/nowhere/a.part", "a.sdf", ""))
+        with pytest.raises(ClerkFailed):
+            await clerk.take(Slip("", None, ""))  # type: ignore[arg-type]
+        id = await taken(clerk, store, b"<sdf/>")
+        assert clerk.pid == first
+        return id
+
+    assert run(clerk, work())
+
+
+def test_one_that_dies_is_replaced_and_who_waited_is_told(
+    store: Store, clerk: ProcessClerk
+) -> None:
+    async def work() -> str:
+        await taken(clerk, store, b"<sdf/>")
+        assert clerk.pid is not None
+        os.kill(clerk.pid, signal.SIGSTOP)
+        waiting = asyncio.ensure_future(taken(clerk, store, b"<sdf>1</sdf>"))
+        await asyncio.sleep(0.1)
+        assert not waiting.done()
+        os.kill(clerk.pid, signal.SIGKILL)
+        with pytest.raises(Refused) as refused:
+            await waiting
+        assert refused.value.status == 503
+        assert int(refused.value.headers["Retry-After"]) > 0
+        return await taken(clerk, store, b"<sdf>1</sdf>")
+
+    assert run(clerk, work())
+    assert not list((store.folder / "incoming").iterdir())
+
+
+def test_who_leaves_while_it_works_harms_nobody(store: Store, clerk: ProcessClerk) -> None:
+    async def work() -> str:
+        clerk.start()
+        leaving = asyncio.ensure_future(taken(clerk, store, b"<sdf/>"))
+        await asyncio.sleep(0)
+        leaving.cancel()
+        return await taken(clerk, store, b"<sdf>1</sdf>")
+
+    assert run(clerk, work())
