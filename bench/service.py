@@ -9,7 +9,7 @@ import random
 import re
 import sys
 import threading
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -54,7 +54,7 @@ class Client:
             f'--{_BORDER}\r\nContent-Disposition: form-data; name="file"; filename="{name}"\r\n'
             "Content-Type: application/octet-stream\r\n\r\n"
         )
-        body = head.encode() + content + f"\r\n--{_BORDER}--\r\n".encode()
+        body = (head.encode(), content, f"\r\n--{_BORDER}--\r\n".encode())
         begun = perf_counter()
         status, said = self._ask("POST", "/api/checks", body)
         return Upload(status, json.loads(said).get("id", ""), perf_counter() - begun)
@@ -91,8 +91,10 @@ class Client:
         told: Mapping[str, Any] = json.loads(said)
         return told
 
-    def _ask(self, method: str, path: str, body: bytes | None = None) -> tuple[int, bytes]:
-        headers = {"Content-Type": f"multipart/form-data; boundary={_BORDER}"} if body else {}
+    def _ask(self, method: str, path: str, body: Sequence[bytes] = ()) -> tuple[int, bytes]:
+        headers = {"Content-Length": str(sum(map(len, body)))}
+        if body:
+            headers["Content-Type"] = f"multipart/form-data; boundary={_BORDER}"
         with closing(self._connection()) as connection:
             connection.request(method, path, body, headers)
             answer = connection.getresponse()

@@ -11,6 +11,8 @@ from checker.errors import RefusedArchive
 from checker.record import record
 
 _DRIVE = re.compile(r"[A-Za-z]:")
+_UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
+"""Control characters and surrogates: the Unicode categories Cc and Cs."""
 _MAX_SHOWN = 80
 
 
@@ -114,7 +116,7 @@ class ArchiveIndex:
         )
 
     def _checked_path(self, name: str) -> str:
-        if any(unicodedata.category(c) in ("Cc", "Cs") for c in name):
+        if _UNPRINTABLE.search(name):
             raise self.refusal(name, "has control characters, or bytes outside UTF-8, in its name")
         if "\\" in name or _DRIVE.match(name):
             raise self.refusal(name, "has a backslash or a drive letter in its name")

@@ -66,7 +66,7 @@ class Store:
         Returns:
             SHA-256 of its content, hexadecimal.
         """
-        with file.open("rb") as opened:
+        with file.open("rb", buffering=0) as opened:
             hash = hashlib.file_digest(opened, "sha256").hexdigest()
             os.fsync(opened.fileno())
         place = self.folder / "uploads" / hash[:2] / hash

@@ -17,6 +17,7 @@ import sqlalchemy as sa
 
 from checker.jobs.durable.database import now
 from checker.jobs.durable.tables import CHECKS, EVENTS
+from checker.jobs.durable.together import Together
 from checker.jobs.outcome import UNFINISHED
 from checker.jobs.port import Order, Stage
 from checker.record import record
@@ -92,10 +93,13 @@ class Ledger:
             "keep_seconds": keep_seconds,
             **_values(step),
         }
-        with self.engine.begin() as connection:
+
+        def enter(connection: sa.Connection) -> None:
             connection.execute(self._entering, entry)
             self._tell(connection, id, step)
             then(connection)
+
+        self._together.make(enter)
 
     def take(self, id: str, worker: str, step: Step) -> Turn | None:
         """Give a check to a worker.
@@ -190,6 +194,10 @@ class Ledger:
             "its_data": dict(step.data),
         }
         connection.execute(self._telling, event)
+
+    @cached_property
+    def _together(self) -> Together:
+        return Together(self.engine)
 
     @cached_property
     def _entering(self) -> sa.Insert:

@@ -15,7 +15,7 @@ from checker.jobs.port import JobsUnreachable
 from checker.record import record
 from checker.store.place import data_folder
 from checker.store.store import Store
-from checker.web.clerk.port import Slip, taken
+from checker.web.clerk.port import Slip, kept
 from checker.web.clerk.wire import answer_line, slip_from_line
 from checker.web.config import Config, config_from
 from checker.web.logs import LOGGER, log_to_stderr
@@ -33,7 +33,7 @@ class _Desk:
     config: Config
 
     def take(self, slip: Slip) -> str:
-        return taken(slip, self.store, self.jobs)
+        return self.jobs.submit(kept(slip, self.store))
 
     @cached_property
     def jobs(self) -> DurableJobs:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Protocol
 
 from checker.errors import UnreadableInput
-from checker.jobs.port import Jobs, Order
+from checker.jobs.port import Order
 from checker.package.archive import ARCHIVE_SUFFIXES, check_archive
 from checker.record import record
 from checker.report.wording import plain
@@ -43,11 +43,10 @@ class Clerk(Protocol):
         ...
 
 
-def taken(slip: Slip, store: Store, jobs: Jobs) -> str:
-    """Do what `Clerk.take` says, in the thread that calls."""
+def kept(slip: Slip, store: Store) -> Order:
+    """Look at an upload, keep it, and return what is to be ordered; raises as `Clerk.take` does."""
     _check_index(slip)
-    hash = store.admit(Path(slip.path))
-    return jobs.submit(Order(hash, slip.name, slip.profile))
+    return Order(store.admit(Path(slip.path)), slip.name, slip.profile)
 
 
 def _check_index(slip: Slip) -> None:

@@ -9,7 +9,7 @@ from anyio import CapacityLimiter, to_thread
 from checker.jobs.port import Jobs
 from checker.record import record
 from checker.store.store import Store
-from checker.web.clerk.port import Slip, taken
+from checker.web.clerk.port import Slip, kept
 
 _AT_ONCE = 2
 
@@ -21,8 +21,7 @@ class ThreadClerk:
     Attributes:
         store: Keeps uploads.
         jobs: Take orders.
-        limiter: Lets few order at once. A database that takes one change at a time, such as
-            SQLite, has the others look again and again, the longer the later they came.
+        limiter: Lets few work at once.
     """
 
     store: Store
@@ -31,4 +30,7 @@ class ThreadClerk:
 
     async def take(self, slip: Slip) -> str:
         """See `Clerk.take`."""
-        return await to_thread.run_sync(taken, slip, self.store, self.jobs, limiter=self.limiter)
+        return await to_thread.run_sync(self._taken, slip, limiter=self.limiter)
+
+    def _taken(self, slip: Slip) -> str:
+        return self.jobs.submit(kept(slip, self.store))
