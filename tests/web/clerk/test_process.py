@@ -8,6 +8,7 @@ import os
 import signal
 import zipfile
 from collections.abc import Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -40,7 +41,10 @@ def clerk() -> Iterator[ProcessClerk]:
 
 
 def run(clerk: ProcessClerk, work: Coroutine[Any, Any, T]) -> T:
-    """Run work in an event loop, and stop the clerk in it."""
+    """Run work in an event loop, and stop the clerk in it.
+
+    In a thread of its own: a browser of other tests may have a loop in this one.
+    """
 
     async def all_of_it() -> T:
         try:
@@ -48,7 +52,8 @@ def run(clerk: ProcessClerk, work: Coroutine[Any, Any, T]) -> T:
         finally:
             clerk.stop()
 
-    return asyncio.run(all_of_it())
+    with ThreadPoolExecutor(1) as threads:
+        return threads.submit(asyncio.run, all_of_it()).result()
 
 
 async def taken(clerk: ProcessClerk, store: Store, content: bytes, name: str = "a.sdf") -> str:
