@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -13,6 +12,7 @@ import sqlalchemy as sa
 
 from checker.jobs.durable.database import open_database
 from checker.jobs.durable.together import Together
+from tests.web.server import eventually
 
 NUMBERS = sa.Table("numbers", sa.MetaData(), sa.Column("number", sa.Integer, primary_key=True))
 
@@ -34,7 +34,7 @@ class Book:
     """Writes numbers, in few transactions; the first one waits until `go`."""
 
     def __init__(self, engine: sa.Engine) -> None:
-        self.together, self.go = Together(engine), Event()
+        self.together, self.begun, self.go = Together(engine), Event(), Event()
         self.transactions = 0
         sa.event.listen(engine, "commit", self._count)
 
@@ -44,7 +44,8 @@ class Book:
     def enter(self, number: int, wait: bool = False) -> None:
         def change(connection: sa.Connection) -> None:
             if wait:
-                self.go.wait(20)
+                self.begun.set()
+                assert self.go.wait(20)
             connection.execute(sa.insert(NUMBERS).values(number=number))
 
         self.together.make(change)
@@ -53,9 +54,9 @@ class Book:
         """Enter numbers while a first one, 0, is being entered; return what each came to."""
         with ThreadPoolExecutor(len(numbers) + 1) as pool:
             first = pool.submit(self.enter, 0, wait=True)
-            time.sleep(0.1)
+            assert self.begun.wait(20)
             others = [pool.submit(self.enter, number) for number in numbers]
-            time.sleep(0.3)
+            assert eventually(lambda: len(self.together._waiting) == len(numbers))
             self.go.set()
             first.result()
             return [each.exception() for each in others]
