@@ -95,7 +95,7 @@ class Store:
     def has(self, key: str) -> bool:
         """Whether a result is there; it counts as used now, so that it does not expire soon."""
         place = self._place("results", key)
-        if place is None or not place.exists():
+        if place is None or not place.exists():  # most are new: nobody waits for these
             return False
         with self._alone():
             return _touched(place)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import errno
+import os
+import shutil
 from collections.abc import AsyncIterator
-from contextlib import closing
 from dataclasses import dataclass
 from time import monotonic
 
@@ -12,10 +14,11 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
 from checker.profiles import profile_names
-from checker.store.incoming import TooLarge
+from checker.store.incoming import Incoming, TooLarge
+from checker.store.store import Store
+from checker.web.clerk.port import Slip
 from checker.web.config import Config
 from checker.web.form import ROOM, UploadForm
-from checker.web.intake import Intake, no_room
 from checker.web.refusal import Refused
 from checker.web.services import Services
 
@@ -44,28 +47,30 @@ async def new_check(request: Request, services: Services) -> str:
     with services.gate.upload(request):
         _refuse_announced(request, config)
         try:
-            with closing(Intake(services.store, config)) as intake:
-                id = await _received(request, services, intake)
+            _refuse_without_room(services.store, config)
+            # Unless the clerk has taken it by then, nothing of it is left behind this.
+            with services.store.incoming(config.upload_limit) as incoming:
+                id = await _received(request, services, incoming)
         except TooLarge:
             raise too_large(config.upload_limit) from None
         except OSError as error:
-            raise no_room(error) from None
+            raise _no_room(error) from None
     services.metrics.uploads += 1
     return id
 
 
-async def _received(request: Request, services: Services, intake: Intake) -> str:
+async def _received(request: Request, services: Services, incoming: Incoming) -> str:
     """Read the form, and have a check of its file ordered; see `new_check`."""
     admit = services.gate.needs_token(request)
-    form = UploadForm(request.headers.get("content-type", ""), intake.write, admit)
+    form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
     async for piece in _pieces(request, services.config):
-        if intake.size < AT_ONCE:
+        if incoming.size < AT_ONCE:
             form.feed(piece)
         else:
             await run_in_threadpool(form.feed, piece)
     form.end()
     profile = _profile(form.fields.get("profile", ""))
-    return await services.clerk.take(intake.slip(form.name, profile))
+    return await services.clerk.take(Slip(str(incoming.path), form.name, profile))
 
 
 def too_large(limit: int) -> Refused:
@@ -83,6 +88,16 @@ def _refuse_announced(request: Request, config: Config) -> None:
     length = request.headers.get("content-length", "")
     if length.isdecimal() and len(length) <= 20 and int(length) > config.upload_limit + ROOM:
         raise too_large(config.upload_limit)
+
+
+def _refuse_without_room(store: Store, config: Config) -> None:
+    """Refuse all uploads before the disk is so full that no check can be finished."""
+    try:
+        free = shutil.disk_usage(store.folder).free
+    except OSError:  # writing will tell
+        return
+    if free < config.room:
+        raise _no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
 
 
 @dataclass
@@ -147,3 +162,14 @@ def _profile(name: str) -> str:
         shown = ", ".join(known)
         raise Refused(422, "There is no such profile.", f"Choose one of {shown}.", "profile")
     return name
+
+
+def _no_room(error: OSError) -> Refused:
+    reason = error.strerror or "the disk does not answer"
+    return Refused(
+        503,
+        f"The service cannot keep the upload: {reason}.",
+        "Try again later.",
+        "disk",
+        {"Retry-After": "60"},
+    )
