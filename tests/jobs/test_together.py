@@ -92,3 +92,21 @@ def test_after_a_failure_all_goes_on(engine: sa.Engine) -> None:
             book.enter(1)
     book.enter(2)
     assert written(engine) == [1, 2]
+
+
+def test_a_database_that_is_away_is_asked_once_for_all_who_wait(engine: sa.Engine) -> None:
+    book, tries = Book(engine), []
+
+    def away(_: sa.Connection) -> None:
+        tries.append(1)
+        raise sa.exc.OperationalError("", None, Exception("it does not answer"))
+
+    with ThreadPoolExecutor(5) as pool:
+        first = pool.submit(book.enter, 0, wait=True)
+        assert book.begun.wait(20)
+        others = [pool.submit(book.together.make, away) for _ in range(4)]
+        assert eventually(lambda: len(book.together._waiting) == 4)
+        book.go.set()
+        first.result()
+        assert all(isinstance(each.exception(), sa.exc.OperationalError) for each in others)
+    assert tries == [1]

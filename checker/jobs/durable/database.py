@@ -34,7 +34,7 @@ _NO_ADDRESS = (
     "sqlite:///FILE or postgresql://…"
 )
 """Said without the address: it may hold a password."""
-_AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
+AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
 _MIGRATION_LOCK = 7_302_815_601
 """Of PostgreSQL's advisory locks; any number that others do not use."""
@@ -74,7 +74,7 @@ def reachable() -> Iterator[None]:
     """
     try:
         yield
-    except _AWAY as error:
+    except AWAY as error:
         raise JobsUnreachable(f"the database does not answer: {_cause(error)}") from error
     except sa.exc.DatabaseError as error:
         if type(error) is not sa.exc.DatabaseError:

@@ -8,7 +8,7 @@ written.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 from typing import Any
@@ -17,7 +17,7 @@ import sqlalchemy as sa
 
 from checker.jobs.durable.database import now
 from checker.jobs.durable.tables import CHECKS, EVENTS
-from checker.jobs.durable.together import Together
+from checker.jobs.durable.together import Change, Together
 from checker.jobs.outcome import UNFINISHED
 from checker.jobs.port import Order, Stage
 from checker.record import record
@@ -29,8 +29,6 @@ WAITS = "waits for its turn"
 GIVEN_UP = f"{UNFINISHED}: its worker died three times"
 _WORDS_LIMIT = 2000
 _FINAL = [stage.value for stage in Stage if stage.is_final]
-Then = Callable[[sa.Connection], None]
-"""What belongs into the same transaction."""
 
 
 @record()
@@ -75,7 +73,7 @@ class Ledger:
 
     engine: sa.Engine
 
-    def enter(self, id: str, order: Order, keep_seconds: float, step: Step, then: Then) -> None:
+    def enter(self, id: str, order: Order, keep_seconds: float, step: Step, then: Change) -> None:
         """Write a new check into the book.
 
         Args:
@@ -134,7 +132,7 @@ class Ledger:
         order = Order(found.upload, found.name, found.profile)
         return Turn(id, found.turn + 1, order)
 
-    def settle(self, turn: Turn, step: Step, then: Then | None = None) -> bool:
+    def settle(self, turn: Turn, step: Step, then: Change | None = None) -> bool:
         """Write what became of a turn, which is over; False if it was lost before.
 
         Args:

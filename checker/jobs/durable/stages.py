@@ -19,8 +19,9 @@ from checker.jobs.checking import check_upload
 from checker.jobs.children import Children
 from checker.jobs.durable.client import finished
 from checker.jobs.durable.database import reachable
-from checker.jobs.durable.ledger import Ledger, Step, Then, Turn
+from checker.jobs.durable.ledger import Ledger, Step, Turn
 from checker.jobs.durable.queues import Queues
+from checker.jobs.durable.together import Change
 from checker.jobs.outcome import FAILED_INSIDE, Cancelled, Checked, Died, Refused
 from checker.jobs.port import JobsUnreachable, Stage
 from checker.record import record
@@ -87,7 +88,7 @@ class Stages:
         except JobsUnreachable:
             return False
 
-    def _next(self, turn: Turn, step: Step) -> Then:
+    def _next(self, turn: Turn, step: Step) -> Change:
         """Return what follows a step, in the same transaction: the trial, or nothing."""
 
         def then(connection: sa.Connection) -> None:

@@ -12,9 +12,11 @@ from threading import Lock
 
 import sqlalchemy as sa
 
+from checker.jobs.durable.database import AWAY
 from checker.record import record
 
 Change = Callable[[sa.Connection], None]
+"""What holds as a part of a transaction, or not at all."""
 
 
 @dataclass(eq=False)
@@ -60,8 +62,9 @@ class Together:
                 for each in waiting:
                     each.change(connection)
         except Exception as error:  # noqa: BLE001 - it belongs to who asked for the change
-            if len(waiting) == 1:
-                waiting[0].failed = error
+            if len(waiting) == 1 or isinstance(error, AWAY):
+                for each in waiting:
+                    each.failed = error
                 return
             # One of them may be at fault for all.
             for each in waiting:
