@@ -17,6 +17,8 @@ from checker.errors import CheckerError
 from checker.jobs.port import JobsUnreachable
 from checker.output import EXIT_CRASH, EXIT_USAGE, say_progress
 
+CHILD = (sys.executable, "-P", "-m", "checker.serving.child")
+"""Starts such a process; what follows says whose child it is, and which."""
 _CONNECTIONS = 1_000
 """At once; further ones are told that the service is busy."""
 _OPEN_FILES = 4 * _CONNECTIONS
@@ -34,11 +36,14 @@ def web(descriptor: int, proxies: str) -> None:
     import uvicorn
 
     from checker.serving.connection import Connection, ProxyConnection
+    from checker.web.clerk.process import ProcessClerk
     from checker.web.main import app_from_environment
 
     _allow_open_files()
+    clerk = ProcessClerk((*CHILD, str(os.getpid()), "clerk"))
+    clerk.start()
     config = uvicorn.Config(
-        app_from_environment(),  # it asks the database, which an event loop must not wait for
+        app_from_environment(clerk),  # it asks the database, which an event loop must not wait for
         http=ProxyConnection if proxies else Connection,
         ws="none",
         log_config=None,

@@ -7,7 +7,6 @@ import os
 import secrets
 import signal
 import socket
-import sys
 import threading
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
@@ -16,12 +15,12 @@ from pathlib import Path
 from checker.confined import module_path
 from checker.errors import CheckerError
 from checker.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
+from checker.serving.child import CHILD
 from checker.serving.exposure import address_of, listening, warning_of
 from checker.serving.supervisor import Pace, Process, keep_running, stop_all
 from checker.store.place import data_folder
 
 _NEEDED = ("dbos", "fastapi", "uvicorn")
-_CHILD = (sys.executable, "-P", "-m", "checker.serving.child")
 _MOST_WORKERS = 2
 """Unless more are asked for: a trial keeps a core busy."""
 
@@ -132,7 +131,7 @@ def _processes(
     number = options.workers
     if number is None:
         number = min(_MOST_WORKERS, os.cpu_count() or 1)
-    child = (*_CHILD, str(os.getpid()))
+    child = (*CHILD, str(os.getpid()))
     descriptor, group = bound.fileno(), secrets.token_hex(4)
     web = (*child, "web", str(descriptor), options.behind_proxy)
     workers = [

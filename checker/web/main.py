@@ -9,7 +9,7 @@ from checker.jobs.place import database_url
 from checker.store.place import data_folder
 from checker.store.store import Store
 from checker.web.app import create_app
-from checker.web.clerk.process import ProcessClerk
+from checker.web.clerk.port import Clerk
 from checker.web.config import config_from
 from checker.web.logs import log_to_stderr
 
@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     from fastapi import FastAPI
 
 
-def app_from_environment() -> FastAPI:
+def app_from_environment(clerk: Clerk | None = None) -> FastAPI:
     """Return the application as the environment wants it.
+
+    Args:
+        clerk: Takes uploads that have come whole; None for one within this process.
 
     Raises:
         CheckerError: A variable has a value that makes no sense, or there is no place for data.
@@ -28,7 +31,5 @@ def app_from_environment() -> FastAPI:
     store = Store(data_folder())
     store.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     store.sweep()
-    clerk = ProcessClerk()
-    clerk.start()
     jobs = durable_jobs(database_url(), store, config.retention_days)
     return create_app(jobs, store, config, clerk)

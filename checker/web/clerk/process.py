@@ -7,16 +7,13 @@ receive it; a second processor can do the one while the first does the other.
 from __future__ import annotations
 
 import asyncio
-import os
 import socket
 import subprocess
-import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import count
 from typing import Any
 
-from checker.confined import module_path
 from checker.web.clerk.port import Slip
 from checker.web.clerk.wire import answer_from_line, id_in, slip_to_line
 from checker.web.refusal import Refused
@@ -46,13 +43,18 @@ class _Running:
 class ProcessClerk:
     """Has a process take uploads: a `Clerk`, used by one event loop. It starts anew if it dies."""
 
-    def __init__(self) -> None:
-        """Start no process yet."""
+    def __init__(self, command: Sequence[str]) -> None:
+        """Start no process yet.
+
+        Args:
+            command: Starts it; the descriptor of its socket is added.
+        """
+        self._command = command
         self._running: _Running | None = None
 
     def start(self) -> None:
         """Start the process, if there is none: it loads what it needs while nothing has come."""
-        self._running = self._running or _started()
+        self._ready()
 
     @property
     def pid(self) -> int | None:
@@ -70,7 +72,7 @@ class ProcessClerk:
         Raises:
             Refused: Also where the process dies: nobody knows whether the check is ordered.
         """
-        running = self._running = self._running or _started()
+        running = self._ready()
         loop = asyncio.get_running_loop()
         if not running.begun:
             running.begun = True
@@ -84,6 +86,18 @@ class ProcessClerk:
         except OSError:
             self._lose(running)
         return id_in(await answer)
+
+    def _ready(self) -> _Running:
+        if self._running is None:
+            ours, theirs = socket.socketpair()
+            with theirs:
+                process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
+                    [*self._command, str(theirs.fileno())],
+                    stdin=subprocess.DEVNULL,
+                    pass_fds=[theirs.fileno()],
+                )
+            self._running = _Running(process, ours)
+        return self._running
 
     def _listen(self, running: _Running) -> None:
         """Give answers to those who wait for them."""
@@ -114,19 +128,6 @@ class ProcessClerk:
             if not answer.done():
                 answer.set_exception(_lost())
         running.waiting.clear()
-
-
-def _started() -> _Running:
-    ours, theirs = socket.socketpair()
-    with theirs:
-        command = [sys.executable, "-P", "-m", "checker.serving.child", str(os.getpid())]
-        process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-            [*command, "clerk", str(theirs.fileno())],
-            stdin=subprocess.DEVNULL,
-            pass_fds=[theirs.fileno()],
-            env={**os.environ, "PYTHONPATH": module_path()},
-        )
-    return _Running(process, ours)
 
 
 def _lost() -> Refused:

@@ -17,6 +17,7 @@ import pytest
 from checker.jobs.durable.client import durable_jobs
 from checker.jobs.place import database_url
 from checker.jobs.port import JobsUnreachable, Stage
+from checker.serving.child import CHILD
 from checker.store.store import Store
 from checker.web.clerk.port import Slip
 from checker.web.clerk.process import ProcessClerk
@@ -35,7 +36,7 @@ def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Store:
 
 @pytest.fixture
 def clerk() -> Iterator[ProcessClerk]:
-    clerk = ProcessClerk()
+    clerk = ProcessClerk((*CHILD, str(os.getpid()), "clerk"))
     yield clerk
     assert clerk.pid is None, "each test stops it in its loop"
 
