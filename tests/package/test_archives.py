@@ -5,7 +5,9 @@ from __future__ import annotations
 import gzip
 import io
 import struct
+import sys
 import tarfile
+import unicodedata
 import zipfile
 import zlib
 from collections.abc import Callable
@@ -15,7 +17,7 @@ import pytest
 
 from checker.errors import RefusedArchive, UnreadableInput
 from checker.package.archive import unpack_archive
-from checker.package.archive_index import ArchiveLimits
+from checker.package.archive_index import _UNPRINTABLE, ArchiveLimits
 from checker.package.opening import open_input
 from checker.source.text import SourceText
 
@@ -61,6 +63,13 @@ def test_name_as_the_user_knows_it(pack: Pack, tmp_path: Path) -> None:
     stored = archive.rename(tmp_path / "0f3a")
     with open_input(stored, name=archive.name) as opened:
         assert opened.packages[0].name == "rover_sensor_config_1"
+
+
+def test_every_control_character_and_surrogate_is_refused_and_nothing_else() -> None:
+    for number in range(sys.maxunicode + 1):
+        character = chr(number)
+        refused = unicodedata.category(character) in ("Cc", "Cs")
+        assert bool(_UNPRINTABLE.search(character)) is refused, f"U+{number:04X}"
 
 
 @pytest.mark.parametrize(
