@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import field, replace
 from itertools import chain
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from checker.cache import NO_CACHE, Cache, cache_folder
 from checker.collection import collection_put_off
@@ -28,6 +28,9 @@ from checker.saying import Say, say_nothing
 from checker.settings import Settings, find_settings, folders_above
 from checker.versions import versions
 
+if TYPE_CHECKING:
+    from checker.confined import Child
+
 
 def check_package(path: Path, settings: Settings | None = None) -> Report:
     """Check a package, an archive, a folder of packages or a model file.
@@ -45,7 +48,11 @@ def check_package(path: Path, settings: Settings | None = None) -> Report:
 
 
 def check_paths(
-    paths: Sequence[Path], wishes: Mapping[str, Any], jobs: int = 1, say: Say = say_nothing
+    paths: Sequence[Path],
+    wishes: Mapping[str, Any],
+    jobs: int = 1,
+    say: Say = say_nothing,
+    mesh_child: Callable[[], Child] | None = None,
 ) -> Report:
     """Check several inputs; one that cannot be opened does not keep the others from it.
 
@@ -54,12 +61,14 @@ def check_paths(
         wishes: Fields of `Settings` that the command line sets; None leaves them.
         jobs: Processes.
         say: Told what takes long when it begins; called in each of the processes.
+        mesh_child: See `Task`; called in each of the processes.
 
     Raises:
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
             own folder, which the report tells among what was not opened.
     """
-    tasks = [task for path in paths for task in _tasks(path, wishes, jobs, say)]
+    inputs = [Task(path, wishes=wishes, say=say, mesh_child=mesh_child) for path in paths]
+    tasks = [task for each in inputs for task in _parts(each, jobs)]
     if jobs > 1 and len(tasks) > 1:
         from concurrent.futures import ProcessPoolExecutor
 
@@ -78,6 +87,7 @@ class Task:
         settings: To judge by, instead of those beside the package.
         wishes: Fields of the settings to replace.
         say: Told what takes long.
+        mesh_child: Starts what reads the meshes of a package, if it is not to be started as usual.
     """
 
     path: Path
@@ -85,6 +95,7 @@ class Task:
     settings: Settings | None = None
     wishes: Mapping[str, Any] = field(default_factory=dict)
     say: Say = say_nothing
+    mesh_child: Callable[[], Child] | None = None
 
     def settings_for(self, package: Package) -> Settings:
         """Return the settings that judge a package; no search leaves an unpacked archive."""
@@ -107,16 +118,15 @@ class Task:
         return str(self.path / package.name)
 
 
-def _tasks(path: Path, wishes: Mapping[str, Any], jobs: int, say: Say) -> list[Task]:
-    """Part a folder into its packages, so that processes can share them."""
+def _parts(task: Task, jobs: int) -> list[Task]:
+    """Part the check of a folder into those of its packages, so that processes can share them."""
     try:
-        if jobs > 1 and path.is_dir():
-            with open_input(path) as opened:
-                names = [each.name for each in opened.packages]
-            return [Task(path, name, wishes=wishes, say=say) for name in names]
+        if jobs > 1 and task.path.is_dir():
+            with open_input(task.path) as opened:
+                return [replace(task, only=each.name) for each in opened.packages]
     except (UnreadableInput, OSError):
         pass  # the task that meets it again says so
-    return [Task(path, wishes=wishes, say=say)]
+    return [task]
 
 
 _Checked = list[PackageReport | NotOpened]
@@ -192,8 +202,8 @@ def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     from checker.display.early import early_children
     from checker.mesh.early import early_child
 
-    mesh_child = None if settings.select else early_child(package, cache)
-    early = early_children(mesh_child, display=settings.display)
+    meshes = None if settings.select else early_child(package, cache, task.mesh_child)
+    early = early_children(meshes, display=settings.display)
     with collection_put_off():
         from checker.judging import judged
 

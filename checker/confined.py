@@ -1,7 +1,8 @@
 """Work on hostile or heavy input in a child process with limits; it may die, its parent goes on.
 
 The child runs one function of one module: `answer(request: bytes) -> bytes`. Requests and answers
-are bytes (JSON, say), never pickles: a child that was taken over must not take its parent.
+are bytes (JSON, say), never pickles: a child that was taken over must not take its parent. They lie
+in a folder of which the child is told when there is a request.
 """
 
 from __future__ import annotations
@@ -14,9 +15,12 @@ from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 
+from checker.package.reading import NotReadable, read_bytes
 from checker.record import record
 
 _OWN_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+_REQUEST, _ANSWER = "request", "answer"
+"""Files in the folder of a child."""
 ANSWER_LIMIT = 200_000_000
 """Bytes; an answer has at least one."""
 _STARTUP_SECONDS = 10.0
@@ -66,47 +70,57 @@ class Child:
         """
         self.limits = limits
         self.deadline = monotonic() + limits.clock_seconds
-        # It lives in a folder of its own: libraries write logs, and import what lies around.
-        self._folder = tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True)
-        self._answer = Path(self._folder.name) / "answer"
-        request_file = Path(self._folder.name) / "request"
-        request_file.write_bytes(request or b"")
-        # Files, not pipes: neither side waits for the other to read.
-        with request_file.open("rb") as given, self._answer.open("wb") as taken:
-            self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-                [*_COMMAND, module, str(int(limits.seconds)), str(limits.memory)],
-                stdin=subprocess.PIPE if request is None else given,
-                stdout=taken,
-                stderr=subprocess.DEVNULL,
-                cwd=self._folder.name,
-                env=_environment(),
-            )
+        self._folder: tempfile.TemporaryDirectory[str] | None = None
+        self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
+            [*_COMMAND, module, str(int(limits.seconds)), str(limits.memory)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            # While it waits it has no folder, so that one that is killed leaves none.
+            cwd="/",
+            env=_environment(),
+        )
+        if request is not None:
+            self.give(request)
+
+    @property
+    def pid(self) -> int:
+        """Its process id."""
+        return self._process.pid
 
     def give(self, request: bytes) -> None:
         """Bring the request to a child that was started without one; its time begins now."""
         self.deadline = monotonic() + self.limits.clock_seconds
+        # It works in a folder of its own: libraries write logs, and import what lies around.
+        self._folder = tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True)
+        # In files, not through pipes: neither side waits for the other to read.
+        for name, content in ((_REQUEST, request), (_ANSWER, b"")):
+            Path(self._folder.name, name).write_bytes(content)
         # One that has died says why when it is asked for its answer.
         with suppress(OSError):
             if self._process.stdin is not None:
-                self._process.stdin.write(request)
+                self._process.stdin.write(os.fsencode(self._folder.name))
                 self._process.stdin.close()
 
     def answer(self) -> bytes | Died:
         """Wait for the answer."""
         try:
             code = self._process.wait(max(self.deadline - monotonic(), 0.0))
-            if code != 0:
-                return Died(_cause(code, self.limits))
-            with self._answer.open("rb") as file:
-                answer = file.read(ANSWER_LIMIT + 1)
-            if len(answer) > ANSWER_LIMIT:
-                return Died(f"answered with more than {ANSWER_LIMIT / 1e6:.0f} MB")
-            # A library may end the process with exit code 0 before anything is said.
-            return answer or Died("ended without an answer")
+            return self._answered() if code == 0 else Died(_cause(code, self.limits))
         except subprocess.TimeoutExpired:
             return Died(f"took longer than {self.limits.clock_seconds:g} s and was stopped")
         finally:
             self.stop()
+
+    def _answered(self) -> bytes | Died:
+        """Return what the child has left in its folder."""
+        if self._folder is None:
+            return Died("was given nothing")
+        answer = read_bytes(Path(self._folder.name, _ANSWER), _ANSWER, ANSWER_LIMIT)
+        if isinstance(answer, NotReadable):
+            return Died(f"left an answer that {answer.reason}")
+        # A library may end the process with exit code 0 before anything is said.
+        return answer or Died("ended without an answer")
 
     def stop(self) -> None:
         """End the child, whatever it does; nothing happens if it has ended."""
@@ -115,7 +129,8 @@ class Child:
         if self._process.stdin is not None:
             with suppress(OSError):
                 self._process.stdin.close()
-        self._folder.cleanup()
+        if self._folder is not None:
+            self._folder.cleanup()
 
 
 # `-P` keeps the folder that it runs in out of the search for modules.
@@ -169,33 +184,41 @@ def end_with_parent() -> None:
 _PR_SET_PDEATHSIG = 1
 
 
-def _work(module: str, seconds: int, memory: int) -> int:
-    """Be the child: set the limits, then answer what stands on the standard input."""
-    import resource
+def _work(module: str, seconds: int, memory: int) -> None:
+    """Be the child: set the limits, then answer what lies in the folder that the parent names."""
     from importlib import import_module
 
     end_with_parent()
-    resource.setrlimit(resource.RLIMIT_CPU, (max(seconds, 1), max(seconds, 1) + 1))
-    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    # Whatever a library prints must not stand in the answer.
-    answer_to = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    try:
-        work = import_module(module)
-        if hasattr(work, "prepare"):
-            work.prepare()
-        answer = work.answer(sys.stdin.buffer.read())
-        answer_to.write(answer)
-        answer_to.close()
-    except MemoryError:
-        return _OUT_OF_MEMORY
-    return 0
+    _hold_to(seconds, memory)
+    work = import_module(module)
+    if hasattr(work, "prepare"):
+        work.prepare()
+    folder = sys.stdin.buffer.read()
+    if folder:
+        os.chdir(folder)
+        Path(_ANSWER).write_bytes(work.answer(Path(_REQUEST).read_bytes()))
+
+
+def _hold_to(seconds: int, memory: int) -> None:
+    """Take from this process what it shall not use; no limit that it has already is raised."""
+    import resource
+
+    for kind, soft, hard in (
+        (resource.RLIMIT_CPU, max(seconds, 1), max(seconds, 1) + 1),
+        (resource.RLIMIT_AS, memory, memory),
+        (resource.RLIMIT_CORE, 0, 0),
+    ):
+        given = resource.getrlimit(kind)[1]
+        most = hard if given == resource.RLIM_INFINITY else min(hard, given)
+        resource.setrlimit(kind, (min(soft, most), most))
 
 
 if __name__ == "__main__":
+    code = 0
     try:
-        code = _work(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))
+        _work(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))
+    except MemoryError:
+        code = _OUT_OF_MEMORY
     except Exception:  # the parent says that the child failed
         code = _FAILED
         if os.environ.get("SUBT_CHECK_DEBUG"):

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -61,3 +64,63 @@ def test_a_child_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     child = Child("some_work", b"", LIMITS)
     child.deadline = 0.0
     assert isinstance(child.answer(), Died)
+
+
+def test_a_child_that_waits_has_nothing_on_the_disk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "some_work.py").write_text(
+        "import os\ndef answer(r):\n    return r + os.getcwd().encode()\n"
+    )
+    (tmp_path / "temporary").mkdir()
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
+    child = Child("some_work", None, LIMITS)
+    assert not list((tmp_path / "temporary").iterdir())
+    child.give(b"in ")
+    (folder,) = (tmp_path / "temporary").iterdir()
+    assert child.answer() == f"in {folder}".encode()
+    assert not list((tmp_path / "temporary").iterdir())
+
+
+def test_a_child_that_is_given_nothing_ends(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "some_work.py").write_text("def answer(r):\n    raise ValueError\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    script = f"""
+from checker.confined import Child, Limits
+child = Child("some_work", None, {LIMITS})
+child._process.stdin.close()
+print(child._process.wait(20), child.answer())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "0 Died(reason='was given nothing')\n"
+
+
+def test_an_answer_is_a_file_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A child that was taken over makes its parent read no other, and wait for none."""
+    for swap in ("os.symlink('/etc/hostname', 'answer')", "os.mkfifo('answer')"):
+        body = f"import os; os.unlink('answer'); {swap}; os._exit(0)"
+        died = ask_for(body, tmp_path, monkeypatch, LIMITS)
+        assert isinstance(died, Died)
+        assert died.reason.startswith("left an answer that ")
+
+
+def test_tighter_limits_that_there_are_hold(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    body = "import resource; return str(resource.getrlimit(resource.RLIMIT_CPU)).encode()"
+    assert ask_for(body, tmp_path, monkeypatch, LIMITS) == b"(5, 6)"
+    script = f"""
+import resource
+from checker.confined import ask, Limits
+resource.setrlimit(resource.RLIMIT_CPU, (3, 3))
+print(ask("some_work", b"", {LIMITS}))
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "b'(3, 3)'\n"

@@ -14,10 +14,11 @@ ROOT = Path(__file__).parent.parent
 
 LAYERS = (
     {"record"},
-    {"cache", "collection", "confined", "errors", "finding", "fingerprint", "loopback"},
+    {"cache", "collection", "errors", "finding", "fingerprint", "loopback"},
     {"page", "parts", "resources", "saying", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
+    {"confined"},
     {"checklist", "discovery", "dynamics", "flattening"}
     | {"mesh", "paperwork", "profiles", "spawning", "suppression"},
     {"rule_pages", "stages", "store", "trial", "xacro"},

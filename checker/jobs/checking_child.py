@@ -1,7 +1,8 @@
 """The process that reads an upload: `python -m checker.jobs.checking_child PARENT`.
 
 It loads what a check needs, then waits on its standard input for the folder to work in, which
-`checker.jobs.layout` lays out. `checker.jobs.children` starts it.
+`checker.jobs.layout` lays out. `checker.jobs.children` starts it. When there is nothing to do for a
+while, a process that reads meshes waits beside it.
 """
 
 from __future__ import annotations
@@ -10,18 +11,24 @@ import json
 import os
 import shlex
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
+from select import select
 from typing import Any
 
+from checker.confined import Child
 from checker.jobs.isolation import StageLimits, isolate, limit
 from checker.jobs.layout import ANSWER, MADE, OUT_OF_MEMORY, REQUEST, settle
 from checker.jobs.port import Stage
+from checker.mesh.early import mesh_child
 from checker.report.report import Report
 
 _NEEDED = ("checker.judging", "checker.report.artefacts", "markdown_it", "pinocchio")
 """What nearly every check loads; some of it starts threads."""
+_IDLE = 0.5
+"""Seconds without a check, after which the next one is taken for that of a new upload: of one that
+has waited, and of the second stage, the meshes are mostly known."""
 
 
 def main(parent: int) -> None:
@@ -31,8 +38,9 @@ def main(parent: int) -> None:
     except ProcessLookupError:
         return
     _load()
+    meshes = None if select([sys.stdin], [], [], _IDLE)[0] else mesh_child()
     if place := sys.stdin.readline():
-        check(Path(json.loads(place)))
+        check(Path(json.loads(place)), meshes)
 
 
 def _load() -> None:
@@ -52,15 +60,29 @@ def _load() -> None:
     program_parts()
 
 
-def check(place: Path) -> None:
-    """Check what lies in the working folder; leave artefacts and an answer."""
+def check(place: Path, meshes: Child | None = None) -> None:
+    """Check what lies in the working folder; leave artefacts and an answer.
+
+    Args:
+        place: The folder.
+        meshes: A child that waits for the meshes of the first package; who checks ends it.
+    """
     request = json.loads((place / REQUEST).read_text(encoding="utf-8"))
     settle(place)
-    limit(StageLimits(**request["limits"]))
-    (place / ANSWER).write_text(json.dumps(_answer(request, place)), encoding="utf-8")
+    limits = StageLimits(**request["limits"])
+    limit(limits)
+    waiting = []
+    with suppress(ProcessLookupError):
+        if meshes is not None:
+            limit(limits, meshes.pid)
+            waiting.append(meshes)
+    answer = _answer(request, place, lambda: waiting.pop() if waiting else mesh_child())
+    (place / ANSWER).write_text(json.dumps(answer), encoding="utf-8")
 
 
-def _answer(request: Mapping[str, Any], place: Path) -> dict[str, Any]:
+def _answer(
+    request: Mapping[str, Any], place: Path, mesh_child: Callable[[], Child]
+) -> dict[str, Any]:
     """Return why the upload is refused, or the summary of the result that was written."""
     from checker.check import check_paths
     from checker.errors import InvalidSettings, UnreadableInput
@@ -80,7 +102,7 @@ def _answer(request: Mapping[str, Any], place: Path) -> dict[str, Any]:
     }
     try:
         # Relative, so that no report shows where this machine keeps it.
-        report = without_folder(check_paths([Path(name)], wishes), place)
+        report = without_folder(check_paths([Path(name)], wishes, mesh_child=mesh_child), place)
     except (InvalidSettings, UnreadableInput) as error:
         return {"refused": shortened(str(error), 1_000)}
     if not report.packages:

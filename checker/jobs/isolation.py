@@ -59,8 +59,16 @@ def _stand_back() -> None:
         _AUTOGROUP.write_text(str(_NICENESS), encoding="ascii")
 
 
-def limit(limits: StageLimits) -> None:
-    """Take too much of everything away from this process and its children."""
+def limit(limits: StageLimits, process: int = 0) -> None:
+    """Take too much of everything away from a process and the children that it will have.
+
+    Args:
+        limits: What it may use; nothing that is held tighter already is loosened.
+        process: Its id; 0 for this one.
+
+    Raises:
+        ProcessLookupError: It has ended.
+    """
     import resource
 
     seconds = max(1, int(limits.seconds))
@@ -71,9 +79,9 @@ def limit(limits: StageLimits) -> None:
         (resource.RLIMIT_NOFILE, limits.open_files),
         (resource.RLIMIT_CORE, 0),
     ):
-        hard = resource.getrlimit(kind)[1]
+        hard = resource.prlimit(process, kind)[1]
         allowed = most if hard == resource.RLIM_INFINITY else min(most, hard)
-        resource.setrlimit(kind, (allowed, allowed))
+        resource.prlimit(process, kind, (allowed, allowed))
 
 
 _NEW_USER, _NEW_NET = 0x10000000, 0x40000000

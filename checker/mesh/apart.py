@@ -1,18 +1,23 @@
-"""Work in a forked process that may die: quicker than a new interpreter for each file."""
+"""Work in a forked process that may die: quicker than a new interpreter."""
 
 from __future__ import annotations
 
+import math
 import os
 import resource
 import signal
-from collections.abc import Callable
-from time import monotonic
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+from time import monotonic, process_time
+from typing import BinaryIO
 
 from checker.confined import end_with_parent
 from checker.record import record
 
 _OUT_OF_MEMORY, _FAILED = 71, 70
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
+_HEAD = 8
+"""Bytes of a result's length."""
 
 
 @record()
@@ -29,48 +34,84 @@ def apart(work: Callable[[], bytes], seconds: int) -> bytes | Ended:
         work: Called in the fork. This process must have no threads.
         seconds: Of processor time.
     """
-    result_from, result_to = os.pipe()
-    process = os.fork()
-    if process == 0:
-        os.close(result_from)
-        os._exit(_work(work, seconds, result_to))
-    os.close(result_to)
-    with os.fdopen(result_from, "rb") as pipe:
-        result = pipe.read()
-    code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
-    return result if code == 0 else Ended(_cause(code, seconds))
+    read, code = _forked([work], seconds, math.inf)
+    return read[0] if read and code == 0 else Ended(_cause(code, seconds))
 
 
-def apart_until(
-    work: Callable[[], bytes], seconds: int, until: float, for_all: float
-) -> bytes | Ended:
-    """Return what `work` returns in a fork, while there is time for one more of its kind.
+def all_apart(
+    works: Sequence[Callable[[], bytes]], seconds: int, until: float, late: str
+) -> list[bytes | Ended]:
+    """Return what each of several works returns in a fork; one that dies takes no other with it.
+
+    They share a fork, since a new one takes as long as a small file. Where it ends, the work at
+    which it did is tried once more, the first in a fork of its own.
 
     Args:
-        work: See `apart`.
-        seconds: Of processor time, at most.
-        until: When the time for all ends, by `time.monotonic`.
-        for_all: Seconds that all together had, for the reason.
+        works: See `apart`.
+        seconds: Of processor time, for each.
+        until: When the time for all ends, by `time.monotonic`; none is begun after it.
+        late: Why those that are left then have no result.
     """
-    left = min(seconds, int(until - monotonic()))
-    if left < 1:
-        return Ended(f"was not read: the others took {for_all:g} s")
-    return apart(work, left)
+    results: list[bytes | Ended] = []
+    while len(results) < len(works):
+        if until - monotonic() < 1.0:
+            return results + [Ended(late)] * (len(works) - len(results))
+        read, code = _forked(works[len(results) :], seconds, until)
+        results += read or [Ended(_cause(code, seconds))]
+    return results
 
 
-def _work(work: Callable[[], bytes], seconds: int, result_to: int) -> int:
+def _forked(
+    works: Sequence[Callable[[], bytes]], seconds: int, until: float
+) -> tuple[list[bytes], int]:
+    """Do works in one fork; return the results of those that it finished, and its exit code."""
+    results_from, results_to = os.pipe()
+    process = os.fork()
+    if process == 0:
+        os.close(results_from)
+        os._exit(_work(works, seconds, until, results_to))
+    os.close(results_to)
+    with os.fdopen(results_from, "rb") as pipe:
+        results = list(islice(_whole(pipe), len(works)))
+        pipe.read()  # what nobody expects
+    return results, os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+
+
+def _whole(pipe: BinaryIO) -> Iterator[bytes]:
+    """Yield results as `_work` writes them, but for the one that the fork did not finish."""
+    while len(head := pipe.read(_HEAD)) == _HEAD:
+        length = int.from_bytes(head, "big")
+        result = pipe.read(length)
+        if len(result) < length:
+            return
+        yield result
+
+
+def _work(works: Sequence[Callable[[], bytes]], seconds: int, until: float, to: int) -> int:
     """Be the fork; return its exit code."""
     end_with_parent()
     try:
-        hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, hard))
-        with os.fdopen(result_to, "wb") as pipe:
-            pipe.write(work())
+        with os.fdopen(to, "wb") as pipe:
+            for number, work in enumerate(works):
+                if number and until - monotonic() < 1.0:
+                    break
+                _allow(seconds, until)
+                result = work()
+                pipe.write(len(result).to_bytes(_HEAD, "big") + result)
+                pipe.flush()
     except MemoryError:
         return _OUT_OF_MEMORY
     except BaseException:  # noqa: BLE001 - whatever it is, the fork must not go on as its parent
         return _FAILED
     return 0
+
+
+def _allow(seconds: int, until: float) -> None:
+    """Let this process go on for so many seconds of processor time, or until it is too late."""
+    left = min(float(seconds), until - monotonic())
+    soft, hard = int(process_time() + left), resource.getrlimit(resource.RLIMIT_CPU)[1]
+    allowed = max(soft, 1) if hard == resource.RLIM_INFINITY else min(max(soft, 1), hard)
+    resource.setrlimit(resource.RLIMIT_CPU, (allowed, hard))
 
 
 def _cause(code: int, seconds: int) -> str:

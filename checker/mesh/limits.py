@@ -9,5 +9,8 @@ SECONDS_FOR_ONE = 20
 SECONDS_FOR_ALL = 90
 """By the clock, for the files of one robot; those left then are not looked at."""
 
+LATE = f"was not read: the others took {SECONDS_FOR_ALL} s"
+"""Why a file was not looked at when the time was over: the end of a sentence."""
+
 MEMORY = 1_000_000_000
 """Bytes of address space: the libraries take 0.6 GB of it, and a million triangles fit in."""

@@ -7,10 +7,9 @@ from functools import partial
 from importlib import import_module
 from pathlib import Path
 from time import monotonic
-from typing import Any
 
-from checker.mesh.apart import Ended, apart_until
-from checker.mesh.limits import SECONDS_FOR_ALL, SIZE_LIMIT
+from checker.mesh.apart import Ended, all_apart
+from checker.mesh.limits import LATE, SECONDS_FOR_ALL, SIZE_LIMIT
 from checker.mesh.reader import load_libraries, read_mesh
 from checker.mesh.wire import to_json
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
@@ -34,18 +33,15 @@ def answer(request: bytes) -> bytes:
     """
     asked = json.loads(request)
     load_libraries(name for _, name in asked["files"])
-    seconds, until = asked["seconds"], monotonic() + SECONDS_FOR_ALL
-    read = [_read_apart(Path(at), name, seconds, until) for at, name in asked["files"]]
-    return json.dumps(read).encode()
+    works = [partial(_as_bytes, Path(at), name) for at, name in asked["files"]]
+    read = all_apart(works, asked["seconds"], monotonic() + SECONDS_FOR_ALL, LATE)
+    return b"[" + b",".join(map(_said, read)) + b"]"
 
 
-def _read_apart(location: Path, name: str, seconds: int, until: float) -> Any:
-    """Read one file in a process of its own: it takes no other file with it."""
-    work = partial(_as_bytes, location, name)
-    read = apart_until(work, seconds, until, SECONDS_FOR_ALL)
+def _said(read: bytes | Ended) -> bytes:
     if isinstance(read, Ended):
-        return to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, read.reason))
-    return json.loads(read)
+        return json.dumps(to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, read.reason))).encode()
+    return read
 
 
 def _as_bytes(location: Path, name: str) -> bytes:

@@ -1,8 +1,8 @@
 """Where rays meet the outer sides of triangles.
 
-Each triangle lies in a cone around the direction of its middle, and so within a range of azimuth
-and of elevation: only the rays of the grid within that range are tried. Small triangles have none
-or one, so that the work grows with their number and not with that of the rays.
+Each triangle lies in a ball, and so in a cone around the direction of its middle, and so within a
+range of azimuth and of elevation: only the rays of the grid within that range are tried. Small
+triangles have none or one, so that the work grows with their number and not with that of the rays.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[float64]
     Whole = NDArray[int64]
+    Range = tuple[Whole, Whole]
 
 _AT_ONCE = 300_000
 """Pairs of triangle and ray that are tried in one go: 50 MB."""
@@ -55,6 +56,30 @@ def met(corners: Array, grid: Grid) -> tuple[Array, NDArray[bool_]]:
     return first, cut
 
 
+def ball_around(corners: Array) -> tuple[Array, float]:
+    """Return middle (3) and radius of the ball around the box around triangles (n × 3 × 3)."""
+    points = corners.reshape(-1, 3)
+    low, high = points.min(axis=0), points.max(axis=0)
+    return (low + high) / 2.0, math.dist(low, high) / 2.0
+
+
+def in_view(middle: Array, radius: float, grid: Grid) -> bool:
+    """Say whether a ray of a grid may meet what lies within a ball.
+
+    Args:
+        middle: Of the ball (3), metres, in the sensor's frame.
+        radius: Metres.
+        grid: The sensor's rays.
+    """
+    import numpy as np
+
+    if not np.isfinite([*middle, radius]).all():
+        return True
+    with np.errstate(all="ignore"):
+        rows, columns = _within(*_cones(middle[None, :], np.array([radius])), grid)
+    return bool(rows[1][0]) and any(each[1][0] for each in columns)
+
+
 def _reach(corners: Array, rays: Array) -> Array:
     """Return the metres along each ray to its triangle, which faces the origin; NaN beside it."""
     import numpy as np
@@ -73,23 +98,35 @@ def _candidates(corners: Array, grid: Grid) -> Iterator[tuple[Whole, Whole]]:
     """Yield numbers of triangles and of rays that may meet, pair by pair."""
     import numpy as np
 
-    azimuth, elevation, wide, high = _cones(corners)
+    middles = corners.mean(axis=1)
+    radii = np.sqrt(((corners - middles[:, None, :]) ** 2).sum(axis=2).max(axis=1))
+    rows, turns = _within(*_cones(middles, radii), grid)
+    for columns in turns:
+        yield from _pairs(rows, columns, grid.across.number)
+
+
+def _within(
+    azimuth: Array, elevation: Array, wide: Array, high: Array, grid: Grid
+) -> tuple[Range, list[Range]]:
+    """Return the rows of a grid that lie within cones, and its columns: those of each turn."""
+    import numpy as np
+
     rows = _range(grid.up, elevation - high, elevation + high)
+    columns = []
     around = np.mod(azimuth - grid.across.middle + math.pi, 2 * math.pi) - math.pi
     around += grid.across.middle
     for turn in (-2 * math.pi, 0.0, 2 * math.pi):
         middle = around + turn
-        low = np.where(wide < math.pi, middle - wide, -np.inf if turn == 0.0 else np.inf)
-        columns = _range(grid.across, low, np.where(wide < math.pi, middle + wide, np.inf))
-        yield from _pairs(rows, columns, grid.across.number)
+        start = np.where(wide < math.pi, middle - wide, -np.inf if turn == 0.0 else np.inf)
+        end = np.where(wide < math.pi, middle + wide, np.inf)
+        columns.append(_range(grid.across, start, end))
+    return rows, columns
 
 
-def _cones(corners: Array) -> tuple[Array, Array, Array, Array]:
-    """Return azimuth and elevation of each triangle's middle, and how far it reaches from them."""
+def _cones(middle: Array, radius: Array) -> tuple[Array, Array, Array, Array]:
+    """Return azimuth and elevation of the middles of balls, and how far these reach from them."""
     import numpy as np
 
-    middle = corners.mean(axis=1)
-    radius = np.sqrt(((corners - middle[:, None, :]) ** 2).sum(axis=2).max(axis=1))
     distance = np.sqrt((middle**2).sum(axis=1))
     half = np.where(radius < distance, np.arcsin(np.minimum(radius / distance, 1.0)), math.pi)
     half = half + _SLACK
@@ -101,7 +138,7 @@ def _cones(corners: Array) -> tuple[Array, Array, Array, Array]:
     return azimuth, elevation, np.where(over_pole, math.pi, wide), half
 
 
-def _range(steps: Steps, low: Array, high: Array) -> tuple[Whole, Whole]:
+def _range(steps: Steps, low: Array, high: Array) -> Range:
     """Return the first of the steps in each range, and how many there are."""
     import numpy as np
 
@@ -110,9 +147,7 @@ def _range(steps: Steps, low: Array, high: Array) -> tuple[Whole, Whole]:
     return first, np.maximum(last - first + 1, 0)
 
 
-def _pairs(
-    rows: tuple[Whole, Whole], columns: tuple[Whole, Whole], across: int
-) -> Iterator[tuple[Whole, Whole]]:
+def _pairs(rows: Range, columns: Range, across: int) -> Iterator[tuple[Whole, Whole]]:
     import numpy as np
 
     counts = rows[1] * columns[1]

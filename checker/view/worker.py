@@ -9,18 +9,19 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from checker.mesh.apart import Ended, apart
+from checker.mesh.apart import Ended, all_apart
 from checker.mesh.limits import SIZE_LIMIT
 from checker.mesh.reader import load_libraries, read_surface
 from checker.mesh.surface import NoSurface
 from checker.package.reading import NotReadable, read_bytes
 from checker.view.grid import Grid, grid_from_json
 from checker.view.solids import entered
-from checker.view.triangles import met
+from checker.view.triangles import ball_around, in_view, met
 
 if TYPE_CHECKING:
     from numpy import bool_, float64
@@ -33,6 +34,7 @@ SECONDS_FOR_ONE = 20
 """Processor time for one file and all that look at it."""
 SECONDS_FOR_ALL = 60
 """By the clock, for the files of one robot."""
+_LATE = f"was not looked at: the others took {SECONDS_FOR_ALL} s"
 FARTHEST = 1e12
 """Metres; corners beyond are nowhere."""
 
@@ -62,8 +64,9 @@ def look(asked: dict[str, Any]) -> dict[str, Any]:
     unread: list[tuple[int, str]] = []
     until = monotonic() + SECONDS_FOR_ALL
     load_libraries(mesh["name"] for mesh in asked["meshes"])
-    for number, mesh in enumerate(asked["meshes"]):
-        read = _mesh_apart(mesh, poses, grids, until)
+    works = [partial(_as_bytes, mesh, poses, grids) for mesh in asked["meshes"]]
+    for number, told in enumerate(all_apart(works, SECONDS_FOR_ONE, until, _LATE)):
+        read = told.reason if isinstance(told, Ended) else json.loads(told)
         if isinstance(read, str):
             unread.append((number, read))
         else:
@@ -130,18 +133,8 @@ def _solids(kinds: dict[str, Any], poses: list[Array], grids: list[Grid]) -> Ite
                 yield _met(group["visuals"][number], sensor, first[number], cut[number])
 
 
-def _mesh_apart(
-    mesh: dict[str, Any], poses: list[Array], grids: list[Grid], until: float
-) -> list[Met] | str:
-    """Look at a file in a process of its own: it takes no other file with it."""
-    seconds = min(SECONDS_FOR_ONE, int(until - monotonic()))
-    if seconds < 1:
-        return f"was not looked at: the others took {SECONDS_FOR_ALL:g} s"
-    read = apart(lambda: json.dumps(_mesh(mesh, poses, grids)).encode(), seconds)
-    if isinstance(read, Ended):
-        return read.reason
-    seen: list[Met] | str = json.loads(read)
-    return seen
+def _as_bytes(mesh: dict[str, Any], poses: list[Array], grids: list[Grid]) -> bytes:
+    return json.dumps(_mesh(mesh, poses, grids)).encode()
 
 
 def _mesh(mesh: dict[str, Any], poses: list[Array], grids: list[Grid]) -> list[Met] | str:
@@ -158,11 +151,18 @@ def _mesh(mesh: dict[str, Any], poses: list[Array], grids: list[Grid]) -> list[M
         return "is used in part only (<submesh>)"
     corners = surface.corners[(np.abs(surface.corners) <= FARTHEST).all(axis=(1, 2))]
     found: list[Met] = []
+    if not len(corners):
+        return found
     for use in mesh["uses"]:
         placed = np.array(use["pose"])
         in_robot = (corners * use["scale"]) @ placed[:9].reshape(3, 3).T + placed[9:]
+        middle, radius = ball_around(in_robot)
         for sensor, (pose, grid) in enumerate(zip(poses, grids, strict=True)):
-            first, cut = met((in_robot - pose[9:]) @ pose[:9].reshape(3, 3), grid)
+            turned = pose[:9].reshape(3, 3)
+            # Most of a robot is behind most of its cameras.
+            if not in_view((middle - pose[9:]) @ turned, radius, grid):
+                continue
+            first, cut = met((in_robot - pose[9:]) @ turned, grid)
             if cut.any() or np.isfinite(first).any():
                 found.append(_met(use["visual"], sensor, first, cut))
     return found

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from time import monotonic, sleep
 
@@ -15,9 +15,12 @@ import pytest
 
 from checker.jobs.checking import check_upload
 from checker.jobs.children import Children
+from checker.jobs.isolation import StageLimits
 from checker.jobs.outcome import Checked, Outcome
 from checker.jobs.port import Order, Stage
 from checker.store.store import Store
+from tests.conftest import SAMPLES
+from tests.web.service import zip_of
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="the system has no /proc")
 
@@ -29,6 +32,7 @@ children = Children(Path(sys.argv[1]))
 children.get_ready()
 time.sleep(600)
 """
+READER = "checker.mesh.worker"
 MAY_LEAVE = "import ctypes; raise SystemExit(ctypes.CDLL(None).unshare(0x50000000))"
 
 
@@ -43,13 +47,13 @@ def children(store: Store) -> Iterator[Children]:
         yield made
 
 
-def started_by(parent: int) -> list[int]:
-    """Return the checking children of a process that are not dead."""
+def started_by(parent: int, module: str = "checker.jobs.checking_child") -> list[int]:
+    """Return the children of a process that run a module and are not dead."""
     found = []
     for each in Path("/proc").glob("[0-9]*"):
         try:
             state, its_parent = (each / "stat").read_text().rpartition(")")[2].split()[:2]
-            ours = b"checker.jobs.checking_child" in (each / "cmdline").read_bytes()
+            ours = module.encode() in (each / "cmdline").read_bytes()
         except OSError:
             continue
         if ours and int(its_parent) == parent and state != "Z":
@@ -57,20 +61,28 @@ def started_by(parent: int) -> list[int]:
     return found
 
 
-def the_one(parent: int) -> int:
-    """Wait until a process has one child, and return it."""
+def the_one(parent: int, module: str = "checker.jobs.checking_child") -> int:
+    """Wait until a process has one child that runs a module, and return it."""
     deadline = monotonic() + 20
-    while len(started_by(parent)) != 1 and monotonic() < deadline:
+    while len(started_by(parent, module)) != 1 and monotonic() < deadline:
         sleep(0.02)
-    (child,) = started_by(parent)
+    (child,) = started_by(parent, module)
     return child
 
 
 def check(store: Store, children: Children, look: Callable[[], object]) -> Outcome:
     """Check a model that was not there before; look around meanwhile."""
+    model = b"<sdf version='1.6'>" + os.urandom(8).hex().encode() + b"</sdf>"
+    return check_file(store, children, look, model, "model.sdf")
+
+
+def check_file(
+    store: Store, children: Children, look: Callable[[], object], data: bytes, name: str
+) -> Outcome:
+    """Check an upload; look around meanwhile."""
     with store.incoming() as incoming:
-        incoming.write(b"<sdf version='1.6'>" + os.urandom(8).hex().encode() + b"</sdf>")
-        order = Order(incoming.finish(), "model.sdf", "sdf")
+        incoming.write(data)
+        order = Order(incoming.finish(), name, "sdf")
 
     def never() -> bool:
         look()
@@ -132,6 +144,39 @@ def test_one_that_waits_knows_no_secret_and_has_no_network(
         sleep(0.02)
     assert (child / "ns/net").readlink() != own
     assert b"hunter2" not in (child / "environ").read_bytes()
+
+
+def test_one_that_reads_meshes_waits_beside_it(
+    store: Store, children: Children, tmp_path: Path
+) -> None:
+    archive = zip_of([SAMPLES / "husky_description"], tmp_path / "husky.zip").read_bytes()
+    children.get_ready()
+    child = the_one(os.getpid())
+    reader = the_one(child, READER)
+    seen: dict[int, str] = {}
+
+    def look() -> None:
+        for each in started_by(child, READER):
+            with suppress(OSError):
+                seen[each] = Path(f"/proc/{each}/limits").read_text()
+
+    outcome = check_file(store, children, look, archive, "husky.zip")
+    assert isinstance(outcome, Checked)
+    assert set(seen) == {reader}
+    files = StageLimits(1.0).open_files
+    assert f"Max open files            {files}" in seen[reader]
+    assert list((store.cache / "mesh").rglob("*.json"))
+    assert not Path(f"/proc/{reader}").exists()
+
+
+def test_one_that_reads_meshes_ends_with_the_service(children: Children) -> None:
+    children.get_ready()
+    reader = the_one(the_one(os.getpid()), READER)
+    children.close()
+    deadline = monotonic() + 20
+    while Path(f"/proc/{reader}").exists() and monotonic() < deadline:
+        sleep(0.02)
+    assert not Path(f"/proc/{reader}").exists()
 
 
 def test_none_waits_after_the_end_and_a_check_goes_on(store: Store, children: Children) -> None:

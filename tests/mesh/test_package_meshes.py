@@ -154,27 +154,6 @@ def test_a_file_that_brings_its_reader_down_takes_no_other_with_it(
     assert killer.trouble is MeshTrouble.NOT_LOOKED_AT
 
 
-_DIES = {
-    "no result": "raise ValueError",
-    "memory": "raise MemoryError",
-    "crash": "os.kill(os.getpid(), 11)",
-    "processor time": "[0 for _ in iter(int, 1)]",
-}
-
-
-@pytest.mark.parametrize("how", _DIES)
-def test_work_apart_may_die(how: str) -> None:
-    """In an interpreter of its own: a fork wants a process without threads."""
-    script = (
-        "import os\nfrom checker.mesh.apart import apart\n"
-        f"def work():\n    {_DIES[how]}\n"
-        "print(type(apart(work, 1)).__name__, apart(lambda: b'well', 1))"
-    )
-    command = [sys.executable, "-c", script]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stdout == "Ended b'well'\n"
-
-
 def test_results_are_kept_and_no_library_is_loaded_for_them(tmp_path: Path) -> None:
     cache = Cache(tmp_path / "cache")
     files = {"meshes/a.stl": CUBE, "meshes/b.stl": CUBE[:-1]}

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.view.grid import Grid, Steps
-from checker.view.triangles import met
+from checker.view.triangles import ball_around, in_view, met
 from tests.mesh.files import box
 
 GRIDS = [
@@ -69,3 +69,28 @@ def test_corners_that_are_nowhere_do_no_harm(value: float) -> None:
     first, _ = met(corners, GRIDS[0])
     assert np.isfinite(first).any()
     assert met(np.empty((0, 3, 3)), GRIDS[0])[0].shape == (288,)
+
+
+@settings(max_examples=300, deadline=None)
+@given(
+    st.integers(0, 2**32 - 1),
+    st.sampled_from(GRIDS),
+    st.sampled_from([0.05, 0.5, 3.0]),
+    st.sampled_from([0.1, 1.5]),
+)
+def test_nothing_out_of_view_is_met(seed: int, grid: Grid, size: float, away: float) -> None:
+    random = np.random.default_rng(seed)
+    corners = away * random.normal(size=3) + size * random.normal(size=(30, 3, 3))
+    if not in_view(*ball_around(corners), grid):
+        first, cut = met(corners, grid)
+        assert not np.isfinite(first).any()
+        assert not cut.any()
+
+
+def test_what_is_behind_a_camera_is_out_of_its_view() -> None:
+    camera = GRIDS[2]
+    for place, seen in (((2.0, 0.0, 0.0), True), ((-2.0, 0.0, 0.0), False), ((0, 0, 3), False)):
+        corners = np.array(box(0.4, 0.4, 0.4, place))
+        assert in_view(*ball_around(corners), camera) is seen
+    assert in_view(np.array([-2.0, math.nan, 0.0]), 0.1, camera)
+    assert in_view(np.array([-2.0, 0.0, 0.0]), 5.0, camera)

@@ -20,7 +20,7 @@ from checker.display.files.thinning import joined, shares, thinned
 from checker.display.files.wavefront import wavefront_pieces
 from checker.display.files.wire import Looked, to_json
 from checker.display.surface import Surface
-from checker.mesh.apart import Ended, apart_until
+from checker.mesh.apart import Ended, all_apart
 from checker.mesh.limits import SECONDS_FOR_ONE, SIZE_LIMIT
 from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
 from checker.mesh.reader import load_libraries, read_surface
@@ -38,6 +38,7 @@ _SHARED = 64
 """Pictures that are kept, a megabyte each at most."""
 _HEIGHT = 4
 """Bytes of a number."""
+_LATE = f"was not read: the others took {SECONDS_FOR_ALL} s"
 _SMALL = 100
 """Triangles that each material of a file keeps where there is room."""
 
@@ -65,21 +66,26 @@ def answer(request: bytes) -> bytes:
         import_module("PIL.Image")
     until = monotonic() + SECONDS_FOR_ALL
     shared = _shared_pictures(asked, until)
-    return b"[" + b",".join(_read_apart(each, shared, until) for each in asked) + b"]"
+    works = [partial(_as_bytes, each, shared) for each in asked]
+    looked = all_apart(works, SECONDS_FOR_ONE, until, _LATE)
+    return b"[" + b",".join(map(_said, looked)) + b"]"
+
+
+def _said(looked: bytes | Ended) -> bytes:
+    return json.dumps(to_json(looked.reason)).encode() if isinstance(looked, Ended) else looked
 
 
 def _shared_pictures(asked: Iterable[Mapping[str, Any]], until: float) -> Pictures:
     """Read the pictures that several files use: to decode one can take half a second."""
     uses = Counter(path for each in asked for path in set(each["pictures"].values()))
     shared = [path for path, number in uses.most_common(_SHARED) if number > 1]
-    return {path: _picture_apart(path, until) for path in shared}
+    read = all_apart([partial(_pixels, path) for path in shared], SECONDS_FOR_ONE, until, _LATE)
+    return dict(zip(shared, map(_as_picture, read), strict=True))
 
 
-def _picture_apart(path: str, until: float) -> Array | None:
-    """Read a picture in a process of its own, as files are."""
+def _as_picture(read: bytes | Ended) -> Array | None:
     import numpy as np
 
-    read = apart_until(partial(_pixels, path), SECONDS_FOR_ONE, until, SECONDS_FOR_ALL)
     if isinstance(read, Ended) or not read:
         return None
     height = int.from_bytes(read[:_HEIGHT], "big")
@@ -90,13 +96,6 @@ def _pixels(path: str) -> bytes:
     """Return a picture's height and its pixels; nothing if it cannot be read."""
     pixels = _picture(path)
     return b"" if pixels is None else len(pixels).to_bytes(_HEIGHT, "big") + pixels.tobytes()
-
-
-def _read_apart(asked: Mapping[str, Any], shared: Pictures, until: float) -> bytes:
-    """Read one file in a process of its own: it takes no other file with it."""
-    work = partial(_as_bytes, asked, shared)
-    read = apart_until(work, SECONDS_FOR_ONE, until, SECONDS_FOR_ALL)
-    return json.dumps(to_json(read.reason)).encode() if isinstance(read, Ended) else read
 
 
 def _as_bytes(asked: Mapping[str, Any], shared: Pictures) -> bytes:

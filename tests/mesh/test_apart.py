@@ -1,0 +1,107 @@
+"""Work in forks: what dies has no result, and takes no other with it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+DIES = {
+    "no result": "raise ValueError",
+    "memory": "raise MemoryError",
+    "crash": "os.kill(os.getpid(), 11)",
+    "processor time": "[0 for _ in iter(int, 1)]",
+    "an end without a word": "os._exit(0)",
+    "a result that breaks off": "os.write(4, (99).to_bytes(8, 'big') + b'cut'); os._exit(1)",
+}
+BEGIN = """
+import os, resource
+from time import monotonic, sleep
+from checker.mesh.apart import Ended, all_apart, apart
+"""
+
+
+def run(body: str) -> list[str]:
+    """Return the lines that a script prints: a fork wants an interpreter without threads."""
+    command = [sys.executable, "-c", BEGIN + body]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    return done.stdout.splitlines()
+
+
+@pytest.mark.parametrize("how", DIES)
+def test_work_may_die(how: str) -> None:
+    body = f"def work():\n    {DIES[how]}\n"
+    body += "print(type(apart(work, 1)).__name__, apart(lambda: b'well', 1))"
+    assert run(body) == ["Ended b'well'"]
+
+
+@pytest.mark.parametrize("how", DIES)
+def test_one_of_several_may_die(how: str) -> None:
+    body = f"""
+def dies():
+    {DIES[how]}
+first, *others = all_apart([lambda: b"1", dies, dies, lambda: b"", os.getcwdb], 1, 1e9, "late")
+print(first, type(others[0]).__name__, type(others[1]).__name__, others[2:] == [b"", os.getcwdb()])
+"""
+    assert run(body) == ["b'1' Ended Ended True"]
+
+
+def test_they_share_a_fork_until_one_ends_it() -> None:
+    body = """
+def dies():
+    raise ValueError
+def who():
+    return str(os.getpid()).encode()
+a, b, bad, c, d = all_apart([who, who, dies, who, who], 5, 1e9, "late")
+print(a == b, isinstance(bad, Ended), c == d, a == c, a == who())
+"""
+    assert run(body) == ["True True True False False"]
+
+
+def test_what_ends_a_shared_fork_is_tried_alone() -> None:
+    """Three of these fit into the memory by themselves, not together."""
+    body = """
+resource.setrlimit(resource.RLIMIT_AS, (600_000_000, 600_000_000))
+kept = []
+def large():
+    kept.append(bytearray(150_000_000))
+    return str(len(kept)).encode()
+print(*all_apart([large] * 7, 5, 1e9, "late"))
+"""
+    counts = [int(count[2:-1]) for count in run(body)[0].split(" ")]
+    assert len(counts) == 7
+    assert counts[0] == 1
+    assert 1 in counts[1:]
+
+
+def test_each_has_the_processor_for_as_long() -> None:
+    """Together they take longer than one may."""
+    body = """
+def works():
+    until = sum(os.times()[:2]) + 0.7
+    while sum(os.times()[:2]) < until:
+        pass
+    return b"done"
+print(*all_apart([works] * 4, 2, 1e9, "late"))
+"""
+    assert run(body) == [" ".join(["b'done'"] * 4)]
+
+
+def test_none_is_begun_when_it_is_too_late() -> None:
+    body = """
+def waits():
+    sleep(1.2)
+    return b"done"
+print(all_apart([waits] * 4, 5, monotonic() + 2.1, "came too late"))
+"""
+    late = "Ended(reason='came too late')"
+    assert run(body) == [f"[b'done', {late}, {late}, {late}]"]
+
+
+def test_limits_that_there_are_stay() -> None:
+    body = """
+resource.setrlimit(resource.RLIMIT_CPU, (3, 3))
+print(apart(lambda: str(resource.getrlimit(resource.RLIMIT_CPU)).encode(), 20))
+"""
+    assert run(body) == ["b'(3, 3)'"]
