@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -28,7 +29,7 @@ class Incoming:
     """
 
     def __init__(
-        self, path: Path, descriptor: int, limit: int, admit: Callable[[Path], str]
+        self, path: Path, descriptor: int, limit: int, admit: Callable[[Path, str], None]
     ) -> None:
         """Begin.
 
@@ -36,7 +37,7 @@ class Incoming:
             path: Of an empty file.
             descriptor: To write it; its owner closes it.
             limit: Bytes.
-            admit: Takes the finished file, and returns its hash.
+            admit: Takes the finished file and its hash.
         """
         self.path, self.size = path, 0
         self._descriptor, self._limit, self._admit = descriptor, limit, admit
@@ -56,4 +57,12 @@ class Incoming:
 
     def finish(self) -> str:
         """Put the upload into the store, and return its hash; see `Store.admit`."""
-        return self._admit(self.path)
+        hash = content_hash(self.path)
+        self._admit(self.path, hash)
+        return hash
+
+
+def content_hash(file: Path) -> str:
+    """Return the SHA-256 of a file's content, hexadecimal."""
+    with file.open("rb", buffering=0) as opened:
+        return hashlib.file_digest(opened, "sha256").hexdigest()

@@ -11,7 +11,6 @@ Many processes use it at once, on several machines where they share the folder.
 from __future__ import annotations
 
 import fcntl
-import hashlib
 import os
 import re
 import shutil
@@ -22,7 +21,7 @@ from pathlib import Path
 
 from checker.record import record
 from checker.report.artefacts import ARTEFACT_NAME
-from checker.store.durable import move, rename, settle_below, settle_name
+from checker.store.durable import move, rename, settle, settle_below, settle_name
 from checker.store.incoming import Incoming, TooLarge
 from checker.store.workplace import sweep, work_file, workplace
 
@@ -57,23 +56,18 @@ class Store:
         with work_file(self.folder / "incoming") as (path, descriptor):
             yield Incoming(path, descriptor, limit, self.admit)
 
-    def admit(self, file: Path) -> str:
+    def admit(self, file: Path, hash: str) -> None:
         """Keep an upload that has come whole, safe from a power failure.
 
         Args:
             file: Of `Incoming`; it is gone after.
-
-        Returns:
-            SHA-256 of its content, hexadecimal.
+            hash: As `content_hash` says it.
         """
-        with file.open("rb", buffering=0) as opened:
-            hash = hashlib.file_digest(opened, "sha256").hexdigest()
-            os.fsync(opened.fileno())
+        settle(file)
         place = self.folder / "uploads" / hash[:2] / hash
         with self._alone():
             rename(file, place)
         settle_name(place)
-        return hash
 
     @contextmanager
     def workplace(self) -> Iterator[Path]:

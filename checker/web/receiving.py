@@ -6,9 +6,11 @@ import asyncio
 import errno
 import os
 import shutil
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, MutableMapping
+from contextlib import suppress
 from dataclasses import dataclass
 from time import monotonic
+from typing import Any
 
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
@@ -21,6 +23,7 @@ from checker.web.config import Config
 from checker.web.form import ROOM, UploadForm
 from checker.web.refusal import Refused
 from checker.web.services import Services
+from checker.web.turns import Turn
 
 AT_ONCE = 1_048_576
 """Bytes of each upload that the event loop writes itself. The system takes them into its memory in
@@ -63,11 +66,13 @@ async def _received(request: Request, services: Services, incoming: Incoming) ->
     """Read the form, and have a check of its file ordered; see `new_check`."""
     admit = services.gate.needs_token(request)
     form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
-    async for piece in _pieces(request, services.config):
-        if incoming.size < AT_ONCE:
-            form.feed(piece)
-        else:
-            await run_in_threadpool(form.feed, piece)
+    async with services.turns.one() as turn:
+        async for piece in _pieces(request, services.config, turn):
+            if incoming.size < AT_ONCE:
+                form.feed(piece)
+            else:
+                turn.end()
+                await run_in_threadpool(form.feed, piece)
     form.end()
     profile = _profile(form.fields.get("profile", ""))
     return await services.clerk.take(Slip(str(incoming.path), form.name, profile))
@@ -121,8 +126,8 @@ class _Patience:
         return min(bought, config.upload_seconds) - passed
 
 
-async def _pieces(request: Request, config: Config) -> AsyncIterator[bytes]:
-    """Yield the body of a request piece by piece.
+async def _pieces(request: Request, config: Config, turn: Turn) -> AsyncIterator[bytes]:
+    """Yield the body of a request piece by piece; a sender that does not keep up has no turn.
 
     Raises:
         Refused: It comes too slowly, is longer than any form, or ends early.
@@ -130,11 +135,7 @@ async def _pieces(request: Request, config: Config) -> AsyncIterator[bytes]:
     patience = _Patience(config, monotonic())
     more = True
     while more:
-        try:
-            async with asyncio.timeout(min(config.idle_seconds, max(patience.left, 0.0))):
-                message = await request.receive()
-        except TimeoutError:
-            raise _too_slow(config) from None
+        message = await _message(request, config, patience, turn)
         if message["type"] == "http.disconnect":
             raise Refused(400, "The upload was cut off.", "Send it again.", "cut")
         piece: bytes = message.get("body", b"")
@@ -144,6 +145,21 @@ async def _pieces(request: Request, config: Config) -> AsyncIterator[bytes]:
             raise too_large(config.upload_limit)
         if piece:
             yield piece
+
+
+async def _message(
+    request: Request, config: Config, patience: _Patience, turn: Turn
+) -> MutableMapping[str, Any]:
+    if turn.lasts:
+        with suppress(TimeoutError):
+            async with asyncio.timeout_at(turn.until):
+                return await request.receive()
+        turn.end()
+    try:
+        async with asyncio.timeout(min(config.idle_seconds, max(patience.left, 0.0))):
+            return await request.receive()
+    except TimeoutError:
+        raise _too_slow(config) from None
 
 
 def _too_slow(config: Config) -> Refused:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from checker.jobs.port import Jobs
@@ -11,6 +12,7 @@ from checker.web.clerk.port import Clerk
 from checker.web.config import Config
 from checker.web.gate import Gate
 from checker.web.metrics import Metrics
+from checker.web.turns import Turns
 
 if TYPE_CHECKING:
     from starlette.requests import Request
@@ -27,6 +29,7 @@ class Services:
         config: What is allowed here.
         gate: Says who may do what.
         metrics: Counts what they do.
+        turns: Of the uploads that come.
     """
 
     jobs: Jobs
@@ -35,6 +38,7 @@ class Services:
     config: Config
     gate: Gate
     metrics: Metrics
+    turns: Turns = field(default_factory=Turns)
 
     def address(self, request: Request) -> str:
         """Return where people reach the service, without a slash at its end."""

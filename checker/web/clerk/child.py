@@ -5,23 +5,28 @@ from __future__ import annotations
 import logging
 import socket
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
+from contextlib import nullcontext, suppress
+from dataclasses import field
 from functools import cached_property, partial
+from pathlib import Path
 from threading import Lock
 
 from checker.jobs.durable.client import DurableJobs, durable_jobs
 from checker.jobs.place import database_url
 from checker.jobs.port import JobsUnreachable
+from checker.recall import program_parts
 from checker.record import record
 from checker.store.place import data_folder
 from checker.store.store import Store
-from checker.web.clerk.port import Slip, kept
+from checker.web.clerk.port import Slip, accepted, looked_at
 from checker.web.clerk.wire import answer_line, slip_from_line
 from checker.web.config import Config, config_from
 from checker.web.logs import LOGGER, log_to_stderr
 
-_AT_ONCE = 8
-"""Uploads; while the disk writes one, another one is looked at."""
+_AT_ONCE = 16
+"""Uploads; while the disk writes some, another one is looked at."""
+_SMALL = 2_000_000
+"""Bytes of an upload that is looked at in no time."""
 _LOG = logging.getLogger(LOGGER)
 
 
@@ -31,9 +36,14 @@ class _Desk:
 
     store: Store
     config: Config
+    turn: Lock = field(default_factory=Lock)
 
     def take(self, slip: Slip) -> str:
-        return self.jobs.submit(kept(slip, self.store))
+        # Threads that all want the interpreter spend as much time again on passing it around.
+        is_small = Path(slip.path).stat().st_size <= _SMALL
+        with self.turn if is_small else nullcontext():
+            order = looked_at(slip)
+        return accepted(slip, order, self.store, self.jobs)
 
     @cached_property
     def jobs(self) -> DurableJobs:
@@ -53,7 +63,9 @@ def work(descriptor: int) -> None:
     desk = _Desk(Store(data_folder()), config_from())
     log_to_stderr()
     with suppress(JobsUnreachable):
-        _ = desk.jobs
+        desk.jobs.alive()
+    # Each result is that of a program; to look through all of this one takes as long as 20 uploads.
+    program_parts()
     turn = Lock()
 
     def answer(line: bytes) -> None:

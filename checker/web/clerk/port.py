@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Protocol
 
 from checker.errors import UnreadableInput
-from checker.jobs.port import Order
+from checker.jobs.port import Jobs, Order
 from checker.package.archive import ARCHIVE_SUFFIXES, check_archive
 from checker.record import record
 from checker.report.wording import plain
+from checker.store.incoming import content_hash
 from checker.store.store import Store
 from checker.web.refusal import Refused, sentence
 
@@ -43,15 +44,20 @@ class Clerk(Protocol):
         ...
 
 
-def kept(slip: Slip, store: Store) -> Order:
-    """Look at an upload, keep it, and return what is to be ordered; raises as `Clerk.take` does."""
-    _check_index(slip)
-    return Order(store.admit(Path(slip.path)), slip.name, slip.profile)
+def looked_at(slip: Slip) -> Order:
+    """Look at an upload, and return what is to be ordered; raises as `Clerk.take` does."""
+    if slip.name.lower().endswith(ARCHIVE_SUFFIXES):
+        _check_index(slip)
+    return Order(content_hash(Path(slip.path)), slip.name, slip.profile)
+
+
+def accepted(slip: Slip, order: Order, store: Store, jobs: Jobs) -> str:
+    """Keep an upload, order its check, and return its id; raises as `Clerk.take` does."""
+    store.admit(Path(slip.path), order.upload)
+    return jobs.submit(order)
 
 
 def _check_index(slip: Slip) -> None:
-    if not slip.name.lower().endswith(ARCHIVE_SUFFIXES):
-        return
     try:
         check_archive(Path(slip.path), slip.name)
     except UnreadableInput as error:

@@ -9,7 +9,7 @@ from anyio import CapacityLimiter, to_thread
 from checker.jobs.port import Jobs
 from checker.record import record
 from checker.store.store import Store
-from checker.web.clerk.port import Slip, kept
+from checker.web.clerk.port import Slip, accepted, looked_at
 
 _AT_ONCE = 2
 
@@ -33,4 +33,4 @@ class ThreadClerk:
         return await to_thread.run_sync(self._taken, slip, limiter=self.limiter)
 
     def _taken(self, slip: Slip) -> str:
-        return self.jobs.submit(kept(slip, self.store))
+        return accepted(slip, looked_at(slip), self.store, self.jobs)
