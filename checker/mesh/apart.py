@@ -11,7 +11,7 @@ from itertools import islice
 from time import monotonic, process_time
 from typing import BinaryIO
 
-from checker.confined import end_with_parent
+from checker.confined import ANSWER_LIMIT, end_with_parent
 from checker.record import record
 
 _OUT_OF_MEMORY, _FAILED = 71, 70
@@ -81,7 +81,7 @@ def _whole(pipe: BinaryIO) -> Iterator[bytes]:
     """Yield results as `_work` writes them, but for the one that the fork did not finish."""
     while len(head := pipe.read(_HEAD)) == _HEAD:
         length = int.from_bytes(head, "big")
-        result = pipe.read(length)
+        result = pipe.read(length) if length <= ANSWER_LIMIT else b""
         if len(result) < length:
             return
         yield result

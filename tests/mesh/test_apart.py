@@ -13,6 +13,7 @@ DIES = {
     "crash": "os.kill(os.getpid(), 11)",
     "processor time": "[0 for _ in iter(int, 1)]",
     "an end without a word": "os._exit(0)",
+    "a result without end": "os.write(4, b'\\xff' * 20); os._exit(0)",
     "a result that breaks off": "os.write(4, (99).to_bytes(8, 'big') + b'cut'); os._exit(1)",
 }
 BEGIN = """
