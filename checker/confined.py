@@ -81,12 +81,21 @@ class Child:
             env=_environment(),
         )
         if request is not None:
-            self.give(request)
+            try:
+                self.give(request)
+            except BaseException:  # such as a full disk: nobody else knows of the process
+                self.stop()
+                raise
 
     @property
     def pid(self) -> int:
         """Its process id."""
         return self._process.pid
+
+    @property
+    def alive(self) -> bool:
+        """Whether it has not ended."""
+        return self._process.poll() is None
 
     def give(self, request: bytes) -> None:
         """Bring the request to a child that was started without one; its time begins now."""

@@ -71,13 +71,19 @@ def check(place: Path, meshes: Child | None = None) -> None:
     settle(place)
     limits = StageLimits(**request["limits"])
     limit(limits)
-    waiting = []
-    with suppress(ProcessLookupError):
-        if meshes is not None:
-            limit(limits, meshes.pid)
-            waiting.append(meshes)
+    waiting = [meshes] if meshes is not None and _limited(meshes, limits) else []
     answer = _answer(request, place, lambda: waiting.pop() if waiting else mesh_child())
     (place / ANSWER).write_text(json.dumps(answer), encoding="utf-8")
+
+
+def _limited(child: Child, limits: StageLimits) -> bool:
+    """Hold a child that waits to the limits of a check; False, and it is ended, if that fails."""
+    with suppress(OSError, ValueError):  # it has died, or sets its own at this very moment
+        limit(limits, child.pid)
+        if child.alive:
+            return True
+    child.stop()
+    return False
 
 
 def _answer(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -79,9 +80,14 @@ def limit(limits: StageLimits, process: int = 0) -> None:
         (resource.RLIMIT_NOFILE, limits.open_files),
         (resource.RLIMIT_CORE, 0),
     ):
-        hard = resource.prlimit(process, kind)[1]
-        allowed = most if hard == resource.RLIM_INFINITY else min(most, hard)
-        resource.prlimit(process, kind, (allowed, allowed))
+        soft, hard = (_number(each) for each in resource.prlimit(process, kind))
+        resource.prlimit(process, kind, (int(min(most, soft, hard)), int(min(most, hard))))
+
+
+def _number(limit: int) -> float:
+    import resource
+
+    return math.inf if limit == resource.RLIM_INFINITY else limit
 
 
 _NEW_USER, _NEW_NET = 0x10000000, 0x40000000

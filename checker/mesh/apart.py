@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import os
 import resource
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
+from pathlib import Path
 from time import monotonic, process_time
 from typing import BinaryIO
 
@@ -18,6 +20,11 @@ _OUT_OF_MEMORY, _FAILED = 71, 70
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
 _HEAD = 8
 """Bytes of a result's length."""
+_PIECE = 65_536
+_LEAST = 1.0
+"""Seconds that are worth beginning with."""
+_GROWN = 100_000_000
+"""Bytes by which works may make their fork grow before the next one is given a new fork."""
 
 
 @record()
@@ -49,15 +56,16 @@ def all_apart(
     Args:
         works: See `apart`.
         seconds: Of processor time, for each.
-        until: When the time for all ends, by `time.monotonic`; none is begun after it.
+        until: When the time for all ends, by `time.monotonic`; none is begun in its last second.
         late: Why those that are left then have no result.
     """
     results: list[bytes | Ended] = []
     while len(results) < len(works):
-        if until - monotonic() < 1.0:
+        if until - monotonic() < _LEAST:
             return results + [Ended(late)] * (len(works) - len(results))
         read, code = _forked(works[len(results) :], seconds, until)
-        results += read or [Ended(_cause(code, seconds))]
+        in_time = until - monotonic() >= _LEAST
+        results += read or [Ended(_cause(code, seconds) if in_time else late)]
     return results
 
 
@@ -73,7 +81,8 @@ def _forked(
     os.close(results_to)
     with os.fdopen(results_from, "rb") as pipe:
         results = list(islice(_whole(pipe), len(works)))
-        pipe.read()  # what nobody expects
+        while pipe.read(_PIECE):  # what nobody expects
+            pass
     return results, os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
 
 
@@ -90,15 +99,20 @@ def _whole(pipe: BinaryIO) -> Iterator[bytes]:
 def _work(works: Sequence[Callable[[], bytes]], seconds: int, until: float, to: int) -> int:
     """Be the fork; return its exit code."""
     end_with_parent()
+    gc.freeze()
+    had = _memory()
     try:
         with os.fdopen(to, "wb") as pipe:
             for number, work in enumerate(works):
-                if number and until - monotonic() < 1.0:
+                if number and (until - monotonic() < _LEAST or _memory() - had > _GROWN):
                     break
                 _allow(seconds, until)
                 result = work()
                 pipe.write(len(result).to_bytes(_HEAD, "big") + result)
                 pipe.flush()
+                # The next work is to find as much memory as this one did.
+                del result
+                gc.collect()
     except MemoryError:
         return _OUT_OF_MEMORY
     except BaseException:  # noqa: BLE001 - whatever it is, the fork must not go on as its parent
@@ -109,9 +123,17 @@ def _work(works: Sequence[Callable[[], bytes]], seconds: int, until: float, to: 
 def _allow(seconds: int, until: float) -> None:
     """Let this process go on for so many seconds of processor time, or until it is too late."""
     left = min(float(seconds), until - monotonic())
-    soft, hard = int(process_time() + left), resource.getrlimit(resource.RLIMIT_CPU)[1]
+    soft, hard = math.ceil(process_time() + left), resource.getrlimit(resource.RLIMIT_CPU)[1]
     allowed = max(soft, 1) if hard == resource.RLIM_INFINITY else min(max(soft, 1), hard)
     resource.setrlimit(resource.RLIMIT_CPU, (allowed, hard))
+
+
+def _memory() -> int:
+    """Return the bytes of address space of this process; 0 where the system does not say."""
+    try:
+        return int(Path("/proc/self/statm").read_text("ascii").split()[0]) * resource.getpagesize()
+    except OSError:
+        return 0
 
 
 def _cause(code: int, seconds: int) -> str:

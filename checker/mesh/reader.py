@@ -22,7 +22,7 @@ _POINTER = b"version https://git-lfs"
 
 
 def load_libraries(names: Iterable[str]) -> None:
-    """Import once what reads files of these names, before a process forks for each of them."""
+    """Import once what reads files of these names, before a process forks to read them."""
     suffixes = {name.rpartition(".")[2].lower() for name in names}
     for suffix, library in _LIBRARIES.items():
         if suffix in suffixes:

@@ -19,6 +19,8 @@ BLOCK = 512
 MAX_EXTENDED_HEADER = 1_000_000
 # Headers, padding and extended headers around each entry's content.
 OVERHEAD_PER_ENTRY = 4_096
+_HEADERS_PER_ENTRY = 4
+"""At most: its own, and those of a long name, a long target and further fields."""
 
 _OCTAL = re.compile(rb"[\0 ]*([0-7]*)[\0 ]*\Z")
 _FILES = {b"0", b"\0", b"7"}
@@ -70,10 +72,22 @@ class TarEntry:
         self._stream.read(-self.size % BLOCK)
 
 
-def tar_entries(stream: GzipStream) -> Iterator[TarEntry]:
-    """Yield the entries of a tar stream; extended headers are applied to the entry behind them."""
+def tar_entries(stream: GzipStream, most: int) -> Iterator[TarEntry]:
+    """Yield the entries of a tar stream; extended headers are applied to the entry behind them.
+
+    Args:
+        stream: The archive, unpacked.
+        most: Headers of all kinds.
+
+    Raises:
+        DamagedArchive: The stream ends early, or holds something else, or more headers.
+    """
     extended: dict[str, bytes] = {}
+    headers = 0
     while header := stream.read(BLOCK):
+        headers += 1
+        if headers > most:
+            raise DamagedArchive("has more headers than any package")
         if len(header) < BLOCK:
             raise DamagedArchive("ends in the middle of an entry")
         if not any(header):
@@ -160,7 +174,7 @@ def _pax_records(data: bytes) -> dict[str, bytes]:
 def read_tar_index(path: Path, index: ArchiveIndex) -> None:
     """Pass every entry of a gzipped tar archive to the index, which may refuse it."""
     with path.open("rb") as file:
-        for entry in tar_entries(_stream(file, index)):
+        for entry in tar_entries(_stream(file, index), _most_headers(index)):
             if entry.kind in _REFUSED:
                 raise index.refusal(entry.name, _REFUSED[entry.kind])
             if entry.kind != _FOLDER and entry.kind not in _FILES:
@@ -174,10 +188,14 @@ def tar_contents(path: Path, index: ArchiveIndex) -> Iterator[tuple[Member, TarE
     """Yield the checked files of a gzipped tar archive with their bytes."""
     members = {member.path: member for member in index.members if not member.is_folder}
     with path.open("rb") as file:
-        for entry in tar_entries(_stream(file, index)):
+        for entry in tar_entries(_stream(file, index), _most_headers(index)):
             member = members.get(plain_path(entry.name))
             if member is not None:
                 yield member, entry
+
+
+def _most_headers(index: ArchiveIndex) -> int:
+    return _HEADERS_PER_ENTRY * (index.limits.entries + 1)
 
 
 def _stream(file: IO[bytes], index: ArchiveIndex) -> GzipStream:

@@ -40,6 +40,11 @@ class Steps:
         return (self.lower + self.upper) / 2.0
 
     @property
+    def reach(self) -> float:
+        """The angle farthest from 0, either way."""
+        return max(abs(self.lower), abs(self.upper))
+
+    @property
     def step(self) -> float:
         """From one angle to the next; never 0."""
         return max((self.upper - self.lower) / self.number, _LEAST_STEP)

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 _AT_ONCE = 300_000
 """Pairs of triangle and ray that are tried in one go: 50 MB."""
+_FARTHEST = 1e100
+"""Metres."""
 _SLACK = 1e-7
 """Radians that a cone is wider than it must be."""
 
@@ -73,7 +75,8 @@ def in_view(middle: Array, radius: float, grid: Grid) -> bool:
     """
     import numpy as np
 
-    if not np.isfinite([*middle, radius]).all():
+    # Their squares overflow; and behind the poles a cone has no elevation.
+    if not (np.abs([*middle, radius]) < _FARTHEST).all() or grid.up.reach > math.pi / 2.0:
         return True
     with np.errstate(all="ignore"):
         rows, columns = _within(*_cones(middle[None, :], np.array([radius])), grid)

@@ -276,6 +276,18 @@ def test_tar_formats_with_long_names(tmp_path: Path, form: int) -> None:
         assert opened.packages[0].read_bytes(name.removeprefix("rover/")) == b"mesh"
 
 
+@pytest.mark.parametrize(("name", "kind"), [("x", b"x"), ("x", b"g"), ("./", tarfile.DIRTYPE)])
+def test_tar_of_endless_headers(tmp_path: Path, name: str, kind: bytes) -> None:
+    """None of them is an entry of the package, so that no limit of these ends them."""
+    path = tmp_path / "rover.tar.gz"
+    info = tarfile.TarInfo(name)
+    info.type = kind
+    with gzip.open(path, "wb") as archive:
+        archive.write(info.tobuf(tarfile.USTAR_FORMAT) * 100_000)
+    with pytest.raises(UnreadableInput, match="more headers than any package"), open_input(path):
+        pass
+
+
 def test_tar_that_hides_a_path_in_an_extended_header(tmp_path: Path) -> None:
     path = tmp_path / "rover.tar.gz"
     with tarfile.open(path, "w:gz", format=tarfile.PAX_FORMAT) as archive:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import logging
 import socket
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import nullcontext, suppress
+from contextlib import suppress
 from dataclasses import field
 from functools import cached_property, partial
-from pathlib import Path
 from threading import Lock
 
 from checker.jobs.durable.client import DurableJobs, durable_jobs
@@ -25,8 +24,8 @@ from checker.web.logs import LOGGER, log_to_stderr
 
 _AT_ONCE = 16
 """Uploads; while the disk writes some, another one is looked at."""
-_SMALL = 2_000_000
-"""Bytes of an upload that is looked at in no time."""
+_PATIENCE = 0.1
+"""Seconds that one waits until another one is looked at: most take 2 ms, some archives seconds."""
 _LOG = logging.getLogger(LOGGER)
 
 
@@ -40,9 +39,12 @@ class _Desk:
 
     def take(self, slip: Slip) -> str:
         # Threads that all want the interpreter spend as much time again on passing it around.
-        is_small = Path(slip.path).stat().st_size <= _SMALL
-        with self.turn if is_small else nullcontext():
+        has_turn = self.turn.acquire(timeout=_PATIENCE)
+        try:
             order = looked_at(slip)
+        finally:
+            if has_turn:
+                self.turn.release()
         return accepted(slip, order, self.store, self.jobs)
 
     @cached_property
