@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -15,6 +16,10 @@ from tests.postgres import postgres_url  # noqa: F401 (a fixture)
 # Machines differ and are shared: no example of a property is held against the clock.
 settings.register_profile("shared machines", deadline=None)
 settings.load_profile("shared machines")
+
+# Where the tests run in the background, a shell has all that they start ignore Ctrl-C.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 SAMPLES = Path(__file__).parent.parent / "samples"
 
