@@ -174,7 +174,7 @@ def _pax_records(data: bytes) -> dict[str, bytes]:
 def read_tar_index(path: Path, index: ArchiveIndex) -> None:
     """Pass every entry of a gzipped tar archive to the index, which may refuse it."""
     with path.open("rb") as file:
-        for entry in tar_entries(_stream(file, index), _most_headers(index)):
+        for entry in _entries(file, index):
             if entry.kind in _REFUSED:
                 raise index.refusal(entry.name, _REFUSED[entry.kind])
             if entry.kind != _FOLDER and entry.kind not in _FILES:
@@ -188,16 +188,13 @@ def tar_contents(path: Path, index: ArchiveIndex) -> Iterator[tuple[Member, TarE
     """Yield the checked files of a gzipped tar archive with their bytes."""
     members = {member.path: member for member in index.members if not member.is_folder}
     with path.open("rb") as file:
-        for entry in tar_entries(_stream(file, index), _most_headers(index)):
+        for entry in _entries(file, index):
             member = members.get(plain_path(entry.name))
             if member is not None:
                 yield member, entry
 
 
-def _most_headers(index: ArchiveIndex) -> int:
-    return _HEADERS_PER_ENTRY * (index.limits.entries + 1)
-
-
-def _stream(file: IO[bytes], index: ArchiveIndex) -> GzipStream:
-    overhead = (index.limits.entries + 1) * OVERHEAD_PER_ENTRY
-    return GzipStream(file, index.allowed_bytes + overhead)
+def _entries(file: IO[bytes], index: ArchiveIndex) -> Iterator[TarEntry]:
+    entries = index.limits.entries + 1
+    stream = GzipStream(file, index.allowed_bytes + entries * OVERHEAD_PER_ENTRY)
+    return tar_entries(stream, entries * _HEADERS_PER_ENTRY)
