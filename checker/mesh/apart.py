@@ -104,15 +104,16 @@ def _work(works: Sequence[Callable[[], bytes]], seconds: int, until: float, to: 
     try:
         with os.fdopen(to, "wb") as pipe:
             for number, work in enumerate(works):
-                if number and (until - monotonic() < _LEAST or _memory() - had > _GROWN):
-                    break
+                if number:
+                    # This work is to find as much memory as the first one did.
+                    gc.collect()
+                    if until - monotonic() < _LEAST or _memory() - had > _GROWN:
+                        break
                 _allow(seconds, until)
                 result = work()
                 pipe.write(len(result).to_bytes(_HEAD, "big") + result)
                 pipe.flush()
-                # The next work is to find as much memory as this one did.
                 del result
-                gc.collect()
     except MemoryError:
         return _OUT_OF_MEMORY
     except BaseException:  # noqa: BLE001 - whatever it is, the fork must not go on as its parent
