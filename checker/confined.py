@@ -217,9 +217,24 @@ def _hold_to(seconds: int, memory: int) -> None:
         (resource.RLIMIT_AS, memory, memory),
         (resource.RLIMIT_CORE, 0, 0),
     ):
-        given = resource.getrlimit(kind)[1]
-        most = hard if given == resource.RLIM_INFINITY else min(hard, given)
-        resource.setrlimit(kind, (min(soft, most), most))
+        resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
+
+
+def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
+    """Return the soft and the hard limit to set where others are set already: the tighter of each.
+
+    Args:
+        given: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
+        soft: The soft limit that is wanted.
+        hard: The hard limit that is wanted, not below `soft`.
+    """
+    from resource import RLIM_INFINITY
+
+    most, hardest = (
+        wanted if limit == RLIM_INFINITY else min(limit, wanted)
+        for limit, wanted in zip(given, (soft, hard), strict=True)
+    )
+    return most, hardest
 
 
 if __name__ == "__main__":

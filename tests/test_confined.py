@@ -8,8 +8,10 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
-from checker.confined import Child, Died, Limits, ask
+from checker.confined import Child, Died, Limits, ask, tightened
 
 LIMITS = Limits(seconds=5, memory=1_000_000_000)
 
@@ -124,3 +126,22 @@ print(ask("some_work", b"", {LIMITS}))
         [sys.executable, "-c", script], capture_output=True, text=True, check=True
     )
     assert done.stdout == "b'(3, 3)'\n"
+
+
+LIMIT = st.integers(0, 2**40)
+PAIR = st.tuples(LIMIT, LIMIT).map(lambda pair: (min(pair), max(pair)))
+ENDLESS = -1
+"""`resource.RLIM_INFINITY`."""
+
+
+@given(
+    given=PAIR | LIMIT.map(lambda soft: (soft, ENDLESS)) | st.just((ENDLESS, ENDLESS)), wanted=PAIR
+)
+@example(given=(5, ENDLESS), wanted=(3, 4))
+def test_of_two_limits_the_tighter_holds(given: tuple[int, int], wanted: tuple[int, int]) -> None:
+    soft, hard = tightened(given, *wanted)
+    assert 0 <= soft <= hard
+    for new, old, wish in zip((soft, hard), given, wanted, strict=True):
+        assert new in (old, wish)
+        assert new <= wish
+        assert old == ENDLESS or new <= old

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import os
 from contextlib import suppress
 from pathlib import Path
 
-from checker.confined import end_with_parent
+from checker.confined import end_with_parent, tightened
 from checker.record import record
 
 _NICENESS = 10
@@ -80,14 +79,8 @@ def limit(limits: StageLimits, process: int = 0) -> None:
         (resource.RLIMIT_NOFILE, limits.open_files),
         (resource.RLIMIT_CORE, 0),
     ):
-        soft, hard = (_number(each) for each in resource.prlimit(process, kind))
-        resource.prlimit(process, kind, (int(min(most, soft, hard)), int(min(most, hard))))
-
-
-def _number(limit: int) -> float:
-    import resource
-
-    return math.inf if limit == resource.RLIM_INFINITY else limit
+        given = resource.prlimit(process, kind)
+        resource.prlimit(process, kind, tightened(given, most, most))
 
 
 _NEW_USER, _NEW_NET = 0x10000000, 0x40000000

@@ -68,13 +68,13 @@ def work(descriptor: int) -> None:
         desk.jobs.alive()
     # Each result is that of a program; to look through all of this one takes as long as 20 uploads.
     program_parts()
-    turn = Lock()
+    answering = Lock()
 
     def answer(line: bytes) -> None:
         number, slip = slip_from_line(line)
         on_fault = partial(_LOG.exception, "an upload is not taken")
         said = answer_line(number, partial(desk.take, slip), on_fault)
-        with turn:
+        with answering:
             wire.sendall(said)
 
     with (

@@ -19,6 +19,8 @@ from checker.web.clerk.wire import answer_from_line, id_in, slip_to_line
 from checker.web.refusal import Refused
 
 _PIECE = 65_536
+PATIENCE = 120.0
+"""Seconds until an answer is no longer waited for; a hundred uploads at once take one."""
 
 
 @dataclass(eq=False)
@@ -41,15 +43,21 @@ class _Running:
 
 
 class ProcessClerk:
-    """Has a process take uploads: a `Clerk`, used by one event loop. It starts anew if it dies."""
+    """Has a process take uploads: a `Clerk`, used by one event loop. It starts anew if it dies.
 
-    def __init__(self, command: Sequence[str]) -> None:
+    Attributes:
+        patience: Seconds to wait for an answer.
+    """
+
+    def __init__(self, command: Sequence[str], patience: float = PATIENCE) -> None:
         """Start no process yet.
 
         Args:
             command: Starts it; the descriptor of its socket is added.
+            patience: Seconds to wait for an answer.
         """
         self._command = command
+        self.patience = patience
         self._running: _Running | None = None
 
     def start(self) -> None:
@@ -70,7 +78,8 @@ class ProcessClerk:
         """See `Clerk.take`.
 
         Raises:
-            Refused: Also where the process dies: nobody knows whether the check is ordered.
+            Refused: Also where the process dies or does not answer: nobody knows whether the
+                check is ordered.
         """
         running = self._ready()
         loop = asyncio.get_running_loop()
@@ -85,7 +94,12 @@ class ProcessClerk:
             running.wire.sendall(slip_to_line(number, slip))
         except OSError:
             self._lose(running)
-        return id_in(await answer)
+        try:
+            said = await asyncio.wait_for(answer, self.patience)
+        except TimeoutError:
+            # It may hang on a disk or a database; it goes on, since others may have more luck.
+            raise _lost("did not take the upload in time") from None
+        return id_in(said)
 
     def _ready(self) -> _Running:
         if self._running is None:
@@ -126,14 +140,14 @@ class ProcessClerk:
         running.process.wait()
         for answer in running.waiting.values():
             if not answer.done():
-                answer.set_exception(_lost())
+                answer.set_exception(_lost("was interrupted while it took the upload"))
         running.waiting.clear()
 
 
-def _lost() -> Refused:
+def _lost(reason: str) -> Refused:
     return Refused(
         503,
-        "The service was interrupted while it took the upload.",
+        f"The service {reason}.",
         "Send it again.",
         "clerk",
         {"Retry-After": "5"},

@@ -103,6 +103,29 @@ def test_a_database_that_is_away_is_said(
         run(clerk, taken(clerk, store, b"<sdf/>"))
 
 
+def test_one_that_hangs_is_not_waited_for_and_may_come_back(store: Store) -> None:
+    clerk = ProcessClerk((*CHILD, str(os.getpid()), "clerk"), patience=30)
+
+    async def work() -> None:
+        await taken(clerk, store, b"<sdf/>")
+        pid = clerk.pid
+        assert pid is not None
+        clerk.patience = 0.2
+        os.kill(pid, signal.SIGSTOP)
+        with pytest.raises(Refused) as refused:
+            await taken(clerk, store, b"<sdf />")
+        assert refused.value.status == 503
+        assert refused.value.error == "The service did not take the upload in time."
+        os.kill(pid, signal.SIGCONT)
+        clerk.patience = 30
+        await taken(clerk, store, b"<sdf  />")
+        assert clerk.pid == pid
+        assert not list((store.folder / "incoming").iterdir())
+
+    run(clerk, work())
+    assert clerk.pid is None
+
+
 def test_an_upload_that_is_gone_and_a_fault_of_ours_end_no_clerk(
     store: Store, clerk: ProcessClerk
 ) -> None:
