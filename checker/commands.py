@@ -6,7 +6,6 @@ import argparse
 import json
 import shlex
 import sys
-from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -36,6 +35,8 @@ from checker.report.report import Report
 from checker.report.summary import statistics_text
 from checker.report.wording import plain, shortened
 from checker.rule import Rule
+from checker.rule_options import words_of
+from checker.rule_text import page_text
 from checker.saying import say_nothing
 from checker.suppression.baseline import DEFAULT_FILE, Baseline, read_baseline
 from checker.suppression.writing import baseline_to_renew, write_baseline
@@ -177,7 +178,7 @@ def explain_rule(wanted: str) -> int:
     if rule is None:
         known = [name for rule in rules for name in (rule.id, rule.name)]
         raise CheckerError(no_such_rule(wanted, known))
-    show(_page_text(rule) + "\n")
+    show(page_text(rule) + "\n")
     return EXIT_CLEAN
 
 
@@ -232,50 +233,6 @@ def init(options: argparse.Namespace) -> int:
     return EXIT_CLEAN
 
 
-def _page_text(rule: Rule) -> str:
-    page = parse_page(rule.page)
-    parts = [f"{rule.id} {rule.name} ({rule.severity})", page.title + ".", page.why]
-    parts += [f"Fix: {page.fix}", f"Source: {page.source}"]
-    if rule.options:
-        options = "\n".join(f"  {name} = {value!r}" for name, value in rule.options.items())
-        parts.append(f"Options, in subt-check.toml below [rules.{rule.id}]:\n{options}")
-    if rule.bad:
-        parts.append("Reported:\n" + _indented(_example(rule.bad[0])))
-    if rule.good:
-        parts.append("Right:\n" + _indented(_example(rule.good[0])))
-    return "\n\n".join(parts)
-
-
-def _example(example: object) -> str:
-    """Show an example: a fragment of model.sdf, or files by their paths."""
-    if not isinstance(example, Mapping):
-        return str(example).strip("\n")
-    shown = []
-    for path, text in example.items():
-        match path, text:
-            case "@reported" | "@with", _:
-                pass
-            case "@fragment", _:
-                shown.append(f"model.sdf:\n{_indented(text.strip())}")
-            case "@urdf", True:
-                shown.append("urdf/arm.urdf holds an arm with a transmission for its joint")
-            case "@urdf", _:
-                shown.append(f"urdf/arm.urdf:\n{_indented(text.strip())}")
-            case "@name", _:
-                shown.append(f"folder {text}/")
-            case "@links", _:
-                shown += [f"{link} is a link to {target}" for link, target in text.items()]
-            case _, None:
-                shown.append(f"{path} is missing")
-            case _:
-                shown.append(f"{path}:\n{_indented(text.strip())}")
-    return "\n".join(shown)
-
-
-def _indented(text: str) -> str:
-    return "\n".join(f"  {line}".rstrip() for line in text.splitlines())
-
-
 def list_rules(form: str) -> int:
     """List all rules, by group."""
     if form == "json":
@@ -299,4 +256,5 @@ def _as_dict(rule: Rule) -> dict[str, object]:
         "fix": page.fix,
         "source": page.source,
         "options": rule.options,
+        "option_words": words_of(rule),
     }

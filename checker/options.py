@@ -77,14 +77,28 @@ def options_of(rule: Rule, settings: Settings) -> dict[str, Any]:
 
 
 def _typed(value: object, default: object) -> object:
-    """Return a value of TOML in the type of a default; None when it has another."""
+    """Return a value of TOML in the type of a default; None when it has another, or makes no sense.
+
+    Options are sizes, counts, shares: none is negative unless its default is.
+    """
     if isinstance(default, tuple) and isinstance(value, list):
-        typed = tuple(_typed(each, default[0]) for each in value) if default else tuple(value)
+        typed = tuple(_typed(each, _element(default)) for each in value)
         return None if None in typed else typed
     if isinstance(default, float) and type(value) in (int, float):
         number = _float(value)
-        return number if math.isfinite(number) else None
-    return value if type(value) is type(default) else None
+        return number if math.isfinite(number) and _is_allowed(number, default) else None
+    if type(value) is not type(default) or not _is_allowed(value, default):
+        return None
+    return value
+
+
+def _element(default: tuple[Any, ...]) -> Any:
+    """Return an element of a list; one that is empty as a rule has it holds texts."""
+    return default[0] if default else ""
+
+
+def _is_allowed(value: Any, default: Any) -> bool:
+    return type(default) not in (int, float) or default < 0 or value >= 0
 
 
 def _float(value: Any) -> float:
@@ -94,8 +108,9 @@ def _float(value: Any) -> float:
         return math.inf
 
 
-def _kind(default: object) -> str:
+def _kind(default: Any) -> str:
     if isinstance(default, tuple):
-        return "a list" + (f" in which each is {_kind(default[0])}" if default else "")
+        return f"a list in which each is {_kind(_element(default))}"
     names = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
-    return names.get(type(default), type(default).__name__)
+    kind = names.get(type(default), type(default).__name__)
+    return kind if _is_allowed(-1, default) else f"{kind}, 0 or more"

@@ -14,6 +14,7 @@ from typing import Any
 from checker.page import parse_page
 from checker.profiles import profile, profile_names
 from checker.rule import Rule
+from checker.rule_options import told_options, work_of
 
 _GENERATED = "This page is generated from the rules: `make golden`."
 _SHORT = 16
@@ -95,23 +96,10 @@ def _profiles(rule: Rule) -> Iterator[str]:
 
 
 def _options(rule: Rule) -> Iterator[str]:
-    """Yield what the rule does, in the words that name its options, and their defaults."""
-    yield f"**Options**, below `[rules.{rule.id}]`. {escaped(inspect.getdoc(rule.check) or '')}"
-    rows = [f"| `{name}` | `{_as_toml(value)}` |" for name, value in rule.options.items()]
-    yield "\n".join(["| option | default |", "|---|---|", *rows])
-
-
-def _as_toml(value: object) -> str:
-    """Return a value as a settings file has it."""
-    match value:
-        case bool():
-            return str(value).lower()
-        case str():
-            return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
-        case tuple():
-            return f"[{', '.join(map(_as_toml, value))}]"
-        case _:
-            return str(value)
+    """Yield what the rule does, and its options."""
+    yield f"**Options**, below `[rules.{rule.id}]`. {escaped(work_of(rule))}"
+    rows = [f"| `{o.name}` | `{o.default}` | {escaped(o.words)} |" for o in told_options(rule)]
+    yield "\n".join(["| option | default | meaning |", "|---|---|---|", *rows])
 
 
 def _example(example: object) -> str:

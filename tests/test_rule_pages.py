@@ -17,6 +17,7 @@ from markdown_it import MarkdownIt
 
 from checker.discovery import all_rules
 from checker.page import parse_page
+from checker.rule_options import told_options
 from checker.rule_pages import anchor, escaped, pages
 
 FOLDER = Path(__file__).parent.parent / "docs/rules"
@@ -70,15 +71,15 @@ def test_a_rule_is_told_in_full(rule: object) -> None:
     for part in (page.title, page.why, page.fix, page.source):
         for paragraph in part.split("\n\n"):
             assert " ".join(paragraph.replace("`", "").split()) in prose.replace("`", "")
-    for name in wanted.options:
-        assert f"| `{name}` | " in section
+    for option in told_options(wanted):
+        assert f"| `{option.name}` | `{option.default}` | {escaped(option.words)} |" in section
 
 
 def test_defaults_are_written_as_a_settings_file_has_them() -> None:
     rows = [
         row
         for text in PAGES.values()
-        for row in re.findall(r"^\| `(.+)` \| `(.+)` \|$", text, re.M)
+        for row in re.findall(r"^\| `(.+?)` \| `(.+?)` \| .* \|$", text, re.M)
     ]
     read = tomllib.loads(
         "\n".join(f"{number}.{name} = {value}" for number, (name, value) in enumerate(rows))

@@ -78,7 +78,8 @@ def six_numbers(pose: Transform, stated: Pose | None = None) -> tuple[str, str]:
         pose: What to write.
         stated: The pose of the source; where it is the same, its numbers are taken as written.
     """
-    if stated is not None and len(stated.numbers) == 6 and _same(pose, stated.transform):
+    usable = stated is not None and stated.in_radians and len(stated.numbers) == 6
+    if stated is not None and usable and _same(pose, stated.transform):
         return exact_numbers(stated.numbers[:3]), exact_numbers(stated.numbers[3:])
     return numbers(pose.translation), numbers(pose.rpy)
 

@@ -50,14 +50,17 @@ class Pose:
     Attributes:
         transform: The numbers, as a transform into the frame `relative_to`.
         relative_to: Name of that frame; empty for the default of the place it stands in.
-        numbers: x, y, z (metres), roll, pitch, yaw (radians), each with its place.
+        numbers: As written, each with its place: x, y, z (metres), then roll, pitch, yaw (radians,
+            or degrees), or a quaternion x, y, z, w.
         span: The pose element, or the element that could have stated one.
+        in_radians: Whether the numbers end with three angles in radians.
     """
 
     transform: Transform
     relative_to: str
     numbers: tuple[Located[float], ...]
     span: Span
+    in_radians: bool = True
 
 
 @record(eq=False)

@@ -21,7 +21,12 @@ SECONDS = 60.0
 def check(
     robot: Robot, specification: Specification, context: Context, *, tolerance: float = 0.2
 ) -> Findings:
-    """Compare endurances; `tolerance` is a share of what the sheet says."""
+    """Compare the endurance of the sheet with how long the model's battery lasts.
+
+    Options:
+        tolerance: Share of the sheet's endurance by which the model's may be off, beside the
+            rounding of the sheet's figure; more is reported.
+    """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     stated = specification.endurance

@@ -26,9 +26,15 @@ def check(
     air: float = 10.0,
     tolerance: float = 0.1,
 ) -> Findings:
-    """Report batteries beyond `ground` or `air`, minutes, without links to measurements.
+    """Report batteries that last beyond `ground` or `air` without links to measurements.
 
-    `tolerance` is the share by which the figures of the model may be off.
+    Options:
+        ground: Minutes that the battery of a robot that does not fly may last without links to
+            measurements.
+        air: Minutes that the battery of a robot with a MulticopterVelocityControl may last without
+            links to measurements.
+        tolerance: Share by which the minutes of the model may be above `ground` or `air` before
+            they are reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

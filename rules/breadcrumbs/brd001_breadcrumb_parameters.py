@@ -32,18 +32,23 @@ def check(
     *,
     counts: tuple[int, ...] = COUNTS,
 ) -> Findings:
-    """Look at what each Breadcrumbs plugin states, and compare their number with the sheet."""
+    """Look at what each Breadcrumbs plugin states, and compare their number with the sheet.
+
+    Options:
+        counts: Numbers of breadcrumbs that a robot may carry, those of all its plugins together;
+            any other number is reported.
+    """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     plugins = breadcrumbs(robot)
+    expected = " or ".join(map(str, counts)) or "none"
     for plugin in plugins:
-        yield from _missing(plugin)
+        yield from _missing(plugin, expected)
     numbers = [each.max_deployments for each in plugins if each.max_deployments is not None]
     if not numbers or len(numbers) < len(plugins):
         return
     total = sum(number.value for number in numbers)
     if total not in counts:
-        expected = " or ".join(str(count) for count in counts)
         yield finding(numbers[0], f"the robot carries {total:g} breadcrumbs, expected {expected}")
     for item in _listed(specification, configuration_number(package.name)):
         if item.count != total:
@@ -54,11 +59,11 @@ def check(
             )
 
 
-def _missing(plugin: Breadcrumbs) -> Iterator[Finding]:
+def _missing(plugin: Breadcrumbs, counts: str) -> Iterator[Finding]:
     """Report what a plugin does not state."""
     expected = {
         "topic": (plugin.topic, "the topic that drops one"),
-        "max_deployments": (plugin.max_deployments, "6 or 12; without it there is no limit"),
+        "max_deployments": (plugin.max_deployments, f"{counts}; without it there is no limit"),
         "disable_physics_time": (plugin.disable_physics_time, "3.0 (seconds)"),
     }
     for tag, (value, meaning) in expected.items():

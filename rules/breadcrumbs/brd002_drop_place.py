@@ -36,11 +36,12 @@ def check(
 ) -> Findings:
     """Compare where relays appear with the robot's collisions.
 
-    Args:
-        robot: The robot.
-        farthest: From the box around the robot, level, metres.
-        depth: How far inside of a collision, metres; 0 counts its surface as well.
-        mesh_depth: The same for the hull of a mesh.
+    Options:
+        farthest: Metres, level, from the box around the robot's collisions to where a relay
+            appears; more is reported.
+        depth: Metres inside a collision from which on a relay is reported; with 0 one on the
+            surface is as well.
+        mesh_depth: Metres inside the convex hull of a mesh from which on a relay is reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -33,7 +33,12 @@ WHERE: Mapping[str, str] = {
 
 @rule("CTL005", "pid-gains", Severity.WARNING)
 def check(control: ControlSystem, *, least_p: float = 0.0) -> Findings:
-    """Report missing gains, a proportional one of `least_p` or less, and negative ones."""
+    """Report missing gains, a proportional one of `least_p` or less, and negative ones.
+
+    Options:
+        least_p: Proportional gain `p` of a controller, in its own unit; one from 0 up to this bound
+            is reported.
+    """
     for controller in control.configured.values():
         yield from _missing(controller)
         for gains in {id(each): each for each in controller.gains.values()}.values():

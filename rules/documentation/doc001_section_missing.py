@@ -19,7 +19,12 @@ KEY = "sections"
 
 @rule("DOC001", "section-missing", Severity.WARNING)
 def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Findings:
-    """Look for headings that contain the words of `sections`; without any, the challenge's ten."""
+    """Look for headings that contain the words of `sections`, and for text below them.
+
+    Options:
+        sections: Words that some heading must contain, in upper or lower case; an empty list stands
+            for the ten sections of the SubT template.
+    """
     wanted: Sequence[str] = sections or table("subt_standards")["specifications_md"]["required"]
     found = {words: _sections(specification, words) for words in wanted}
     missing = [words for words, having in found.items() if not having]

@@ -42,7 +42,10 @@ def check(
 ) -> Findings:
     """Compare the model's types of sensors with what the section names for this configuration.
 
-    Types of `exempt` need no entry; of those of `minor` one is wanted, and its lack no fault.
+    Options:
+        exempt: Values of the `type` of a `<sensor>` that needs no entry in the sheet.
+        minor: Values of the `type` of a `<sensor>` whose lack in the sheet is information instead
+            of a warning.
     """
     section = specification.section("sensors")
     if section is None or specification.says_nothing(section) or not specification.sensors:

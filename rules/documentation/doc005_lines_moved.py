@@ -47,9 +47,12 @@ MOST_REFERENCES = 200
 def check(
     package: Package, specification: Specification, *, around: int = 1, tolerance: float = 0.02
 ) -> Findings:
-    """Read the lines that the sheet names, `around` more on each side, and look for what it says.
+    """Read the lines that the sheet names and some around them, and look for what it says.
 
-    `tolerance` is the share by which numbers may differ.
+    Options:
+        around: Lines that are read above and below those that the sheet names.
+        tolerance: Share of the larger number by which a limit in the sheet and a number in the
+            lines may differ.
     """
     for reference in specification.line_references[:MOST_REFERENCES]:
         path = _path(package, specification, reference.file.value)

@@ -29,7 +29,12 @@ _SAME_MASS = re.compile(
 
 @rule("DOC007", "cost-and-mass", Severity.WARNING)
 def check(specification: Specification, *, tolerance: float = 0.01) -> Findings:
-    """Add up the parts; `tolerance` is the share by which the stated sum may differ."""
+    """Add up the parts, and look for a cost and a mass.
+
+    Options:
+        tolerance: Share of the larger figure by which the stated sum and that of the parts may
+            differ; more is reported.
+    """
     section = specification.section("cost")
     if section is None or specification.says_nothing(section):
         return

@@ -38,11 +38,11 @@ def check(
 ) -> Findings:
     """Compare the turning radius of the sheet with that of a robot with one drive plugin.
 
-    Args:
-        robot: The robot.
-        specification: The sheet.
-        on_the_spot: Greatest radius of a robot that turns on the spot, metres.
-        tolerance: Share by which the radius of a steered robot may differ.
+    Options:
+        on_the_spot: Metres; where the drive turns the robot on the spot, a greater turning radius
+            in the sheet is reported.
+        tolerance: Share by which the sheet may be below the turning radius of a steered robot's
+            inner wheels, or above that of its outer ones.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -18,7 +18,12 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 @rule("DRV003", "uneven-limits", Severity.WARNING)
 def check(robot: Robot, *, tolerance: float = 0.001) -> Findings:
-    """Compare the two ends of each limit; `tolerance` is relative."""
+    """Compare the two ends of each limit.
+
+    Options:
+        tolerance: Share of the larger end by which the minimum and maximum of a limit may differ in
+            size; more is reported.
+    """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     for what, ends in _limits(robot):

@@ -27,7 +27,11 @@ def check(
 ) -> Findings:
     """Compare each limit of the sheet with the drive's.
 
-    Both tolerances are relative; `about` holds where the sheet says "about" or the like.
+    Options:
+        tolerance: Share of the sheet's figure by which a limit of the drive may be off; more is an
+            error.
+        about: Share that counts instead of `tolerance` where the sheet says "about", "~" or the
+            like.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -22,7 +22,14 @@ from checker.source.text import Located
 def check(
     robot: Robot, specification: Specification, *, ground: float = 1.0, air: float = 4.0
 ) -> Findings:
-    """Report robots that may go faster than `ground` or `air`, m/s, without validation links."""
+    """Report robots that may go faster than `ground` or `air` without validation links.
+
+    Options:
+        ground: Greatest speed, m/s, that a drive with wheels or tracks may allow without links to
+            measurements.
+        air: Greatest speed, m/s along any axis, that a multicopter's controller may allow without
+            links to measurements.
+    """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     too_fast = [

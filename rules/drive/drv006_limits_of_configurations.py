@@ -22,7 +22,12 @@ _Name = tuple[str, str, str, str, int]
 
 @rule("DRV006", "limits-of-configurations", Severity.WARNING)
 def check(robot: Robot, first: FirstConfiguration, *, tolerance: float = 0.001) -> Findings:
-    """Compare the limits with those of the first configuration at hand; relative `tolerance`."""
+    """Compare the limits with those of the first configuration at hand.
+
+    Options:
+        tolerance: Share of the larger figure by which a limit may differ from that of the first
+            configuration; more is reported.
+    """
     reasons = (
         robot.unread_plugins,
         first.robot.unread_plugins and f"in {first.name}, {first.robot.unread_plugins}",

@@ -21,9 +21,15 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 @rule("DRV009", "wheel-slip-numbers", Severity.WARNING)
 def check(robot: Robot, *, force: float = 0.2, radius: float = 0.03) -> Findings:
-    """Compare WheelSlip with the robot; `force` and `radius` are relative tolerances.
+    """Compare WheelSlip with the robot.
 
     Wheels that do not exist are left to PLG004.
+
+    Options:
+        force: Share by which `<wheel_normal_force>` may be above the weight over the number of
+            driven or listed wheels, or below that over all wheels.
+        radius: Share of the reach of a wheel's collisions across its axis by which `<wheel_radius>`
+            may be off.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

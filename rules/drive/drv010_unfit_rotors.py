@@ -44,10 +44,19 @@ def check(
 ) -> Findings:
     """Check motors by themselves, against each other and against their controller.
 
-    `least_thrust` and `most_thrust` are thrust over weight; `imbalance` the share of the rotors'
-    torques that may not cancel; `tolerance` of the constants, relative; `least_cosine` of the
-    angle between a rotor's joint axis and its thrust. Joints and links that do not exist are left
-    to PLG004.
+    Joints and links that do not exist are left to PLG004.
+
+    Options:
+        least_thrust: Thrust of all rotors at full speed, in multiples of the robot's weight; less
+            is an error.
+        most_thrust: Thrust of all rotors at full speed, in multiples of the robot's weight; more is
+            a warning.
+        imbalance: Share of the rotors' torques together that may not cancel at equal speed; more is
+            a warning.
+        tolerance: Share of a motor's `<motorConstant>` or `<momentConstant>` by which the
+            controller's may be off; more is a warning.
+        least_cosine: Cosine of the angle between a rotor's joint axis and its thrust, up or down;
+            less is an error.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -21,6 +21,8 @@ from checker.source.text import Located
 HALF_PI = math.pi / 2
 EXACT_HALF_PI = Decimal("1.57079632679489661923")
 """To more digits than a float has, so that a multiple of it is right in every digit written."""
+_MOST_DIGITS = 17
+"""Of all behind the point that tell one float near π from the next."""
 
 
 @rule("GEO001", "imprecise-angle", Severity.INFO)
@@ -32,7 +34,18 @@ def check(
     typos: tuple[str, ...] = ("3.14", "3.1459"),
     digits: int = 16,
 ) -> Findings:
-    """Report angles near a multiple of π/2: an error in a wheel's collision, else information."""
+    """Report angles near a multiple of π/2: an error in a wheel's collision, else information.
+
+    Options:
+        tolerance: Radians; an angle that is off a multiple of π/2 other than 0 by less is taken to
+            mean it, and reported.
+        harmless: Radians that an angle of a wheel's collision may be off before it is an error
+            instead of information.
+        typos: Texts, without sign, that are taken to mean the nearest multiple of π/2 however far
+            off they are.
+        digits: Digits behind the decimal point of the angle that the fix writes, 17 at most.
+    """
+    decimals = min(digits, _MOST_DIGITS)
     wheels = {link.scoped_name for link in robot.wheels}
     for pose, link in _poses(robot):
         for angle, quarters, off in _near(pose, tolerance, typos):
@@ -45,7 +58,7 @@ def check(
                 f"off {'-' if quarters < 0 else ''}{meant} by {off:.1e} rad",
                 severity=Severity.ERROR if grave else Severity.INFO,
                 key="wheel" if grave else "elsewhere",
-                fix=replace_text(angle, f"{quarters * EXACT_HALF_PI:.{digits}f}"),
+                fix=replace_text(angle, f"{quarters * EXACT_HALF_PI:.{decimals}f}"),
             )
 
 
@@ -64,7 +77,7 @@ def _near(
     pose: Pose, tolerance: float, typos: tuple[str, ...]
 ) -> Iterator[tuple[Located[float], int, float]]:
     """Yield angles that mean quarter turns: which number of them, and how far off they are."""
-    for angle in pose.numbers[3:6]:
+    for angle in pose.numbers[3:6] if pose.in_radians else ():
         quarters = round(angle.value / HALF_PI)
         off = abs(angle.value - quarters * HALF_PI)
         typo = angle.stated and angle.span.text.lstrip("+-") in typos
@@ -78,6 +91,9 @@ GOOD = [
   <collision name="c"><pose>0 0 0 1.5707963267948966 0 0</pose></collision>
   <collision name="d"><pose>0 0 0 0.3 0 3.1415926535897932</pose></collision>
 </link>
+""",
+    """
+<link name="base_link"><pose degrees="true">0 0 0.1 0 0 355</pose></link>
 """,
 ]
 BAD = [

@@ -22,8 +22,9 @@ from checker.source.text import Located
 def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
     """Report wheels and tracks without collision; a warning for wheels that nothing drives.
 
-    A warning as well for a link with a visual, no collision, and more than `body_share` of the
-    robot's mass.
+    Options:
+        body_share: Share of the robot's mass; links fixed together that weigh more, are seen and
+            have no collision are a warning.
     """
     if robot.missing_parts or robot.unread_plugins:
         yield unchecked(robot.missing_parts or robot.unread_plugins)

@@ -20,7 +20,11 @@ from checker.rule import Findings, Severity, finding, rule
 def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
     """Report driven wheels whose largest collision is round about another axis than the joint's.
 
-    Both may differ by `degrees`; smaller angles are the business of GEO001.
+    Angles that are only written with too few digits are the business of GEO001.
+
+    Options:
+        degrees: Degrees between the axis of a wheel's largest collision and that of its joint; more
+            is an error.
     """
     for wheel in robot.locomotion.wheels:
         angle = askew(robot, wheel)

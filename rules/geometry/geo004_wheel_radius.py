@@ -18,9 +18,15 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 @rule("GEO004", "wheel-radius-disagrees", Severity.ERROR)
 def check(robot: Robot, *, error_above: float = 0.10, warning_above: float = 0.03) -> Findings:
-    """Compare a drive's radius with how far its wheels reach across their axes, relative to both.
+    """Compare a drive's radius with how far its wheels reach across their axes.
 
     Wheels that stand askew have no radius to compare: GEO003 reports them.
+
+    Options:
+        error_above: Share of a wheel's true radius by which the drive's may be off before it is an
+            error.
+        warning_above: Share of a wheel's true radius by which the drive's may be off; more is a
+            warning.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -24,7 +24,15 @@ def check(
 ) -> Findings:
     """Report distances less than `least` or more than `most` times the true ones.
 
-    Steering goes by the geometry alone: there `most_of_steering` is the bound.
+    Steering goes by the geometry alone: it has a bound of its own.
+
+    Options:
+        least: Least ratio of any distance that the plugin counts on to the true one; less is
+            reported.
+        most: Greatest ratio of the separation of wheels or tracks that the plugin counts on to the
+            true one; more is reported.
+        most_of_steering: Greatest ratio of the wheel base or kingpin width that the plugin counts
+            on to the true one; more is reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

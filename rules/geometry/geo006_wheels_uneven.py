@@ -15,10 +15,16 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("GEO006", "wheels-uneven", Severity.ERROR)
 def check(robot: Robot, *, error_above: float = 0.02, warning_above: float = 0.005) -> Findings:
-    """Report wheels and tracks whose lowest points are that many metres off the others'.
+    """Report wheels and tracks whose lowest points are off the level of the others'.
 
     What left and right wheel have in common is meant so. Wheels on suspensions and on further
     segments of an articulated robot are passed over: they give way.
+
+    Options:
+        error_above: Metres that a wheel or track may be above or below the level of the others
+            before it is an error.
+        warning_above: Metres above or below the level of the others; more is a warning, unless the
+            wheel across is as high to within that.
     """
     for foot in uneven_wheels(robot, warning_above):
         yield finding(

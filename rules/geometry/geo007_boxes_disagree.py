@@ -26,10 +26,18 @@ def check(
     other_share: float = 0.5,
     mass_share: float = 0.02,
 ) -> Findings:
-    """Report boxes whose centres or sizes differ by that share of the larger diagonal.
+    """Report links whose collisions and visuals fill boxes of other centres or sizes.
 
-    Links of less than `mass_share` of the robot's mass, rotors, and wheels that stand askew
-    (GEO003) are passed over, as are links with a mesh that is not known.
+    Wheels that stand askew (GEO003) and rotors are passed over, as are links with a mesh that is
+    not known.
+
+    Options:
+        wheel_share: Share of the larger box's diagonal by which centres or sizes may differ of a
+            wheel; more is reported.
+        other_share: Share of the larger box's diagonal by which centres or sizes may differ of any
+            other link; more is reported.
+        mass_share: Share of the robot's mass; links that weigh no more are passed over, except
+            wheels.
     """
     wheels = {link.scoped_name for link in robot.wheels}
     exempt = {rotor.link.scoped_name for rotor in robot.locomotion.rotors if rotor.link}

@@ -23,8 +23,12 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Findings:
     """Report coefficients of 0 or less and above `most`, and wheels that alone state none.
 
-    Feet of a legged robot are its moving parts within `foot_height` metres of the lowest point.
-    Where nothing of what it stands on states a friction, that is information.
+    Where nothing that the robot stands on states a friction, that is information.
+
+    Options:
+        most: Greatest coefficient of friction; more is reported, except across a track.
+        foot_height: Metres above a legged robot's lowest point; collisions that reach down to there
+            count as feet where a joint carries their link.
     """
     reader = FrictionReader(robot)
     across = _across(robot)

@@ -17,11 +17,16 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 
 @rule("GEO011", "body-below-wheels", Severity.ERROR)
 def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.25) -> Findings:
-    """Report collisions of what carries the wheels that reach `tolerance` metres below them all.
+    """Report collisions of what carries the wheels that reach below them all, or nearly so.
 
-    A warning for those that leave less than `least_clearance` of the wheels' radius to the ground.
     Arms, legs and other moving parts may reach down. A robot on one axle needs something else to
     stand on, such as a caster: it is passed over.
+
+    Options:
+        tolerance: Metres that a collision may reach below the lowest point of wheels and tracks
+            before it is an error.
+        least_clearance: Room below a collision as a share of the largest wheel's radius, or of half
+            a track's height; less is a warning.
     """
     parts = rolling_parts(robot)
     if not parts or on_one_axle(parts):
@@ -37,7 +42,8 @@ def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.
             continue
         for each in placed(robot, link, link.collisions):
             clearance = each.box.low[2] - ground
-            if clearance < max(-tolerance, least_clearance * radius):
+            # What reaches below the wheels by no more than the tolerance has no room at all.
+            if clearance < -tolerance or max(clearance, 0.0) < least_clearance * radius:
                 yield _finding(each, clearance, least_clearance * radius, tolerance)
 
 

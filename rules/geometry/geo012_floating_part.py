@@ -18,7 +18,12 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 @rule("GEO012", "floating-part", Severity.WARNING)
 def check(robot: Robot, *, gap: float = 0.02) -> Findings:
-    """Report groups of shapes that are more than `gap` metres from all other shapes."""
+    """Report groups of shapes that are more than `gap` from all other shapes.
+
+    Options:
+        gap: Metres between the boxes of two shapes, along each axis of the robot, up to which they
+            hang together.
+    """
     shapes, unknown = _shapes(robot)
     try:
         groups = clusters([each.box for each in shapes], gap)

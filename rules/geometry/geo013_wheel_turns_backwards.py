@@ -25,8 +25,11 @@ _UP: Vector = (0.0, 0.0, 1.0)
 def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25) -> Findings:
     """Report axes that point the wrong way, and wheels on the other side than the plugin says.
 
-    An axis counts whose cosine to the direction it should have is `least_cosine` or more; a wheel
-    is on a side when it is `least_share` of half the wheels' distance off the middle.
+    Options:
+        least_cosine: Cosine of the angle to the wrong direction from which on a wheel's axis is an
+            error, and to straight up below which a steering axis is.
+        least_share: Share of half the distance of the outermost wheels; a wheel no further off the
+            middle is never on the wrong side.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

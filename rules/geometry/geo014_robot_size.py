@@ -22,7 +22,14 @@ def check(
     lightest: float = 0.05,
     heaviest: float = 5000.0,
 ) -> Findings:
-    """Compare the longest side of the box around all shapes, metres, and the mass, kilograms."""
+    """Compare the longest side of the box around all shapes, and the mass, with real robots'.
+
+    Options:
+        smallest: Metres of the longest side of the box around the robot; less is reported.
+        largest: Metres of the longest side of the box around the robot; more is reported.
+        lightest: Kilograms of all links of the robot together; less is reported.
+        heaviest: Kilograms of all links of the robot together; more is reported.
+    """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return

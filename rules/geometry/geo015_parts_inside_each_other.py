@@ -16,9 +16,13 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 @rule("GEO015", "parts-inside-each-other", Severity.WARNING)
 def check(robot: Robot, *, depth: float = 0.01) -> Findings:
-    """Report pairs of parts whose collisions are more than `depth` metres inside each other.
+    """Report pairs of parts whose collisions are inside each other by more than `depth`.
 
     Parts that a joint ties may overlap around it. Concave meshes are passed over.
+
+    Options:
+        depth: Metres that two collisions may be inside each other, by the shortest way that parts
+            them; more is reported.
     """
     try:
         for inside in interpenetrations(robot, depth):

@@ -27,8 +27,11 @@ from checker.source.text import Span
 def check(masses: MassProperties, context: Context, *, tolerance: float = 1e-13) -> Findings:
     """Report masses that are not positive and finite, and moments that no body has.
 
-    A smallest eigenvalue of the pseudo-inertia down to -`tolerance` times the largest is rounding.
     Where no simulator is aimed at, what libsdformat takes is a warning.
+
+    Options:
+        tolerance: Share of the pseudo-inertia's largest eigenvalue that the smallest may be below
+            0, as rounding, in units that make mass and largest moment 1.
     """
     readable = Severity.ERROR if context.release else Severity.WARNING
     misread = _misread(masses.robot)

@@ -17,7 +17,10 @@ from checker.rule import Findings, Severity, finding, rule
 def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-9) -> Findings:
     """Report possible inertias with a principal moment of zero.
 
-    That is one below `least` kg·m² or `relative` times the largest.
+    Options:
+        least: The smallest principal moment counts as zero up to this many kg·m².
+        relative: The smallest principal moment counts as zero up to this share of the largest one
+            of the link.
     """
     if masses.robot.is_static:
         return

@@ -28,9 +28,15 @@ def check(
 ) -> Findings:
     """Compare radii of gyration with the farthest point of the link's collisions and visuals.
 
-    Below `warning_below` of it hardly anything is as dense in its middle: a solid ball has 0.63.
-    A link with less than `share` of the robot's mass is information: sensor frames are often mere
-    placeholders.
+    Options:
+        error_above: Ratio of the radius of gyration to the distance of the farthest point from the
+            centre of mass; more is an error.
+        warning_above: Ratio of the same two lengths; more is a warning at least, for no body has
+            more than 1.
+        warning_below: Ratio of the same two lengths; less is a warning, for hardly anything is as
+            dense in its middle (a solid ball has 0.63).
+        share: Share of the robot's mass; a link with no more is often a placeholder: it is
+            information if too large and passed over if too small.
     """
     for name, inertia in masses.links.items():
         if inertia.link.inertial is None or inertia.centre is None or not _possible(inertia):
@@ -47,18 +53,17 @@ def check(
             severity = Severity.ERROR if ratio > error_above else Severity.WARNING
             yield finding(
                 inertia.moments_span,
-                _message(inertia, reach),
+                _message(inertia, reach, "large" if ratio > warning_above else "small"),
                 severity=severity if heavy else Severity.INFO,
                 key="" if heavy else "placeholder",
             )
 
 
-def _message(inertia: LinkInertia, reach: float) -> str:
-    how = "too large" if inertia.gyration_radius > reach else "too small"
+def _message(inertia: LinkInertia, reach: float, how: str) -> str:
     return (
         f"link {inertia.link.name.value!r} has a radius of gyration of "
         f"{inertia.gyration_radius:.3g} m, its farthest point is {reach:.3g} m from its centre of "
-        f"mass: its moments of inertia of up to {inertia.principal[2]:.3g} kg·m² are {how} for "
+        f"mass: its moments of inertia of up to {inertia.principal[2]:.3g} kg·m² are too {how} for "
         f"{inertia.mass:.4g} kg"
     )
 

@@ -27,7 +27,13 @@ def check(
 ) -> Findings:
     """Report centres of mass outside the box around a link's shapes, relative to its diagonal.
 
-    Links with less than `share` of the robot's mass may be placeholders and are passed over.
+    Options:
+        error_above: Distance from the box as a share of its diagonal; a centre of mass that is
+            farther outside is an error.
+        warning_above: Distance from the box as a share of its diagonal; up to it a centre of mass
+            outside is passed over, farther is a warning.
+        share: Share of the robot's mass; a link with no more may be a placeholder and is passed
+            over.
     """
     for name, inertia in masses.links.items():
         inertial, centre = inertia.link.inertial, inertia.centre

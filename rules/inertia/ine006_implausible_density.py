@@ -29,11 +29,19 @@ def check(
     share: float = 0.02,
     volume_share: float = 0.25,
 ) -> Findings:
-    """Report links of less than `lightest` or more than `heaviest` kg/m³.
+    """Report links that are too light or too heavy for the volume of their shapes.
 
-    Above `impossible`, more than any metal, it is an error. Links with less than `share` of the
-    robot's mass may be placeholders and are passed over, unless they fill more than
-    `volume_share` of its collisions' volume.
+    Options:
+        lightest: Density in kg/m³, by the volume of the link's largest collision alone; less is a
+            warning.
+        heaviest: Density in kg/m³, by the volume of all collisions of the link, or of all its
+            visuals where that is more; more is a warning.
+        impossible: Density in kg/m³, by the same volume as for `heaviest`; more is an error, for no
+            metal has it.
+        share: Share of the robot's mass; a link with no more may be a placeholder and is passed
+            over, unless `volume_share` makes it count.
+        volume_share: Share of the sum of all links' largest collisions, by volume; a link whose own
+            fills more is judged however light it is.
     """
     large = _large(masses, volume_share)
     for name, inertia in masses.links.items():

@@ -19,11 +19,15 @@ _UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 def check(
     masses: MassProperties, *, links: int = 3, share: float = 0.02, alike: float = 0.1
 ) -> Findings:
-    """Report unit tensors, and one tensor on `links` links or more that are not alike.
+    """Report unit tensors, and one tensor on several links that are not alike.
 
-    Links are alike when their masses differ by less than `alike` of the larger, and so do the
-    diagonals of the boxes around them. Links below `share` of the robot's mass are passed over
-    when tensors are compared: frames of sensors are placeholders all alike.
+    Options:
+        links: Number of links with the same tensor from which on they are reported, unless they are
+            all alike.
+        share: Share of the robot's mass; a link with no more is left out when tensors are compared,
+            for frames of sensors are placeholders.
+        alike: Share of the largest by which masses, and diagonals of the boxes around the links,
+            may differ for the links to be alike.
     """
     by_tensor: dict[tuple[float, ...], list[LinkInertia]] = {}
     for name, inertia in masses.links.items():

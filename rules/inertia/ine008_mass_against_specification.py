@@ -24,7 +24,12 @@ def check(
 ) -> Findings:
     """Compare the sum of the links' masses with the stated mass, relative to the latter.
 
-    A mass that the sheet calls approximate is given `approximate_factor` times the tolerance.
+    Options:
+        error_above: Difference from the stated mass as a share of it; more is an error.
+        warning_above: Difference from the stated mass as a share of it; up to this it is passed
+            over, more is a warning.
+        approximate_factor: Factor by which both shares grow where the sheet calls the mass
+            approximate, as in "about 50 kg".
     """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)

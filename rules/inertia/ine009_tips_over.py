@@ -24,7 +24,14 @@ def check(
     error_below_degrees: float = 10.0,
     warning_below_degrees: float = 25.0,
 ) -> Findings:
-    """Report a small tip angle at the inertial of the heaviest link."""
+    """Report a small tip angle at the inertial of the heaviest link.
+
+    Options:
+        error_below_degrees: Degrees that the ground must be tilted for the robot to tip over; less
+            is an error.
+        warning_below_degrees: Degrees that the ground must be tilted for the robot to tip over;
+            less is a warning at least.
+    """
     if masses.robot.is_static:
         return
     unknown = masses.robot.missing_parts or masses.support_unknown

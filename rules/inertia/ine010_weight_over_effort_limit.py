@@ -19,9 +19,13 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("INE010", "weight-over-effort-limit", Severity.WARNING)
 def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
-    """Report driven joints that hold more than `factor` times their effort limit.
+    """Report driven joints that cannot hold what hangs on them within their effort limit.
 
     In URDF, where transmissions drive joints, all joints with a limit count.
+
+    Options:
+        factor: What a joint holds against gravity (N·m, of a sliding joint N) over its effort
+            limit; more is reported.
     """
     robot = masses.robot
     unknown = robot.missing_parts or masses.support_unknown or robot.unread_plugins

@@ -28,7 +28,12 @@ _DEVICES = ("camera", "lidar", "ray", "rgbd", "depth", "thermal", "sonar")
 def check(
     masses: MassProperties, first: FirstConfiguration, *, breadcrumbs: bool = True
 ) -> Findings:
-    """Report a model of its own that adds devices, or `breadcrumbs`, and no mass."""
+    """Report a model of its own that adds devices or breadcrumbs, and no mass.
+
+    Options:
+        breadcrumbs: Whether breadcrumbs that the first configuration does not carry count as
+            something added.
+    """
     robot, base = masses.robot, first.robot
     if robot.span.source.file.startswith("../"):
         return

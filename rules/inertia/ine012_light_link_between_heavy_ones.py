@@ -20,10 +20,13 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 
 @rule("INE012", "light-link-between-heavy-ones", Severity.INFO)
 def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -> Findings:
-    """Report joints across which masses differ by more than `ratio`.
+    """Report joints across which masses differ too much, with heavy parts on both sides.
 
-    Of the robot's mass, more than `share` must be on either side of the joint, all that hangs
-    there counted.
+    Options:
+        ratio: Mass of the heavier over that of the lighter body at a joint, each with all that
+            fixed joints tie to it; more is reported.
+        share: Share of the robot's mass; a joint is judged only if more than that is on either side
+            of it, all that hangs there counted.
     """
     hanging = hang(masses.robot)
     body = rigid_bodies(masses.robot).of_link

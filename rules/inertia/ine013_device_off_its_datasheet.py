@@ -34,7 +34,12 @@ _BESIDE = re.compile(
 
 @rule("INE013", "device-off-its-datasheet", Severity.WARNING)
 def check(masses: MassProperties, known: KnownDevices, *, tolerance: float = 0.1) -> Findings:
-    """Report devices off by more than `tolerance`; by figures from memory, as information."""
+    """Report devices off their datasheets; by figures from memory, as information.
+
+    Options:
+        tolerance: Share of the expected figure by which the mass, each side of the size and each
+            principal moment may be off.
+    """
     robot = masses.robot
     for inertia in masses.links.values():
         link = inertia.link

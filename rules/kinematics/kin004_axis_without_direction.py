@@ -19,7 +19,12 @@ from checker.rule import Context, Finding, Findings, Severity, finding, rule
 
 @rule("KIN004", "axis-without-direction", Severity.ERROR)
 def check(robot: Robot, context: Context, *, tolerance: float = 1e-3) -> Findings:
-    """Report missing axes, axes of zeros, and lengths that differ from 1 by over `tolerance`."""
+    """Report missing axes, axes of zeros, and axes that are not of length 1.
+
+    Options:
+        tolerance: How much the length of an axis, a number without unit, may differ from 1; more is
+            a warning.
+    """
     types = table("joint_types")["types"][robot.format]
     for joint in robot.joints:
         needed = types.get(joint.type.value.lower(), {"axes": 0})["axes"]

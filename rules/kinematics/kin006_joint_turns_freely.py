@@ -27,6 +27,10 @@ def check(robot: Robot, *, turning: tuple[str, ...] = _TURNING) -> Findings:
     """Report revolute and prismatic joints without limits that are neither driven nor turning.
 
     In URDF such a joint has a type of its own, `continuous`.
+
+    Options:
+        turning: Words in lower case; a joint may turn freely if one of them stands in its name or
+            in that of its child link.
     """
     if robot.format == "urdf":
         return

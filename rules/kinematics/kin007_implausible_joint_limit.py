@@ -20,9 +20,15 @@ _ROTORS = ("MulticopterMotorModel", "MulticopterVelocityControl", "Thruster")
 
 @rule("KIN007", "implausible-joint-limit", Severity.WARNING)
 def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float = 1e3) -> Findings:
-    """Report finite limits above `highest_effort` (N, N·m) and `highest_velocity` (m/s, rad/s).
+    """Report finite limits of effort and velocity that no motor has.
 
     Missing limits of driven joints are information.
+
+    Options:
+        highest_effort: Effort in N·m, of a sliding joint in N; a finite limit above it is a
+            warning.
+        highest_velocity: Velocity in rad/s, of a sliding joint in m/s; a finite limit above it is a
+            warning.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)

@@ -15,7 +15,12 @@ from checker.rule import Context, Findings, Severity, finding, rule, unchecked
 
 @rule("KIN011", "no-base-link", Severity.WARNING)
 def check(robot: Robot, context: Context, *, base: str = "base_link") -> Findings:
-    """Report a robot without link `base`, and a canonical link that does not exist."""
+    """Report a robot without base link, and a canonical link that does not exist.
+
+    Options:
+        base: Name that a link of the robot must have; none is asked for where no release of Gazebo
+            is aimed at.
+    """
     yield from _canonical(robot)
     # Of a file for no simulator, nobody knows that it is a robot.
     if not context.release or not robot.links or base in robot.links_by_name:

@@ -31,7 +31,12 @@ _SPEEDS = ("max_linear_velocity", "max_velocity")
 
 @rule("KIN012", "wheel-too-slow", Severity.WARNING)
 def check(robot: Robot, *, tolerance: float = 0.01) -> Findings:
-    """Report wheels that reach less than 1 − `tolerance` of their drive's maximum speed."""
+    """Report wheels that do not reach their drive's maximum speed.
+
+    Options:
+        tolerance: Share of the drive's maximum speed by which the joint's velocity limit times
+            `<wheel_radius>` may be less.
+    """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     for plugin in robot.plugins:

@@ -23,9 +23,13 @@ _HINGES = ("revolute", "continuous")
 def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
     """Report parts far from their axis or parent.
 
-    An axis may be `sizes` diagonals of the part's collisions away from their outside, a parent
-    `gap` diagonals of both parts together. Meshes count by their convex hull; parts with one that
-    cannot be read are passed over.
+    Meshes count by their convex hull; parts with one that cannot be read are passed over.
+
+    Options:
+        sizes: Distance of a hinge's axis from the ball around the box of the part's collisions, in
+            diagonals of that box; more is reported.
+        gap: Distance between the boxes around a part and its parent over the sum of their
+            diagonals; more is reported.
     """
     boxes = {name: robot.box_of(link) for name, link in robot.tree.links.items()}
     for tie in robot.tree.ties:

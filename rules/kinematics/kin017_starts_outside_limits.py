@@ -15,9 +15,13 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("KIN017", "starts-outside-limits", Severity.WARNING)
 def check(robot: Robot, *, tolerance: float = 1e-6) -> Findings:
-    """Report joints whose first position is outside their limits by more than `tolerance`.
+    """Report joints whose first position is outside their limits.
 
     Where a robot of URDF starts, what spawns it decides.
+
+    Options:
+        tolerance: Radians, of a sliding joint metres, that the first position may be outside the
+            limits; more is reported.
     """
     if robot.format == "urdf":
         return

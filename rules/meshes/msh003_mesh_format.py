@@ -25,7 +25,11 @@ def check(
 ) -> Findings:
     """Report meshes whose suffix the release does not know.
 
-    On all but `older_releases` glTF and FBX join the `formats`.
+    Options:
+        formats: Suffixes, with the dot and in lower case, of the mesh formats that every release
+            reads.
+        older_releases: Names of the releases of Gazebo that read `formats` alone; on all others
+            glTF and FBX join them.
     """
     older = context.release in older_releases
     known = frozenset(formats) if older else _SINCE_GARDEN.union(formats)

@@ -19,7 +19,11 @@ def check(
 ) -> Findings:
     """Report meshes above the number for their use, and a robot whose meshes sum up to more.
 
-    A mesh that is used several times counts as often.
+    Options:
+        collision: Triangles that the mesh of a collision may have; more are reported.
+        visual: Triangles that the mesh of a visual may have; more are reported.
+        together: Triangles that all meshes of the robot may have together, where a mesh counts as
+            often as it is used; more are reported.
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)

@@ -36,10 +36,19 @@ def check(
 ) -> Findings:
     """Compare the diagonal of each mesh, `<scale>` included, with what is known otherwise.
 
-    Too large: longer than `huge` metres and `beyond` times the robot without its meshes; or a third
-    of that, and larger than the simple shapes of its link by a unit's factor, met within `near`.
-    Too small: all visuals of the link below `tiny` metres together, and the mesh smaller by such a
-    factor than the collisions; or the reverse.
+    Too large: longer by far than the robot without its meshes; or longer, and by a unit's factor
+    larger than the simple shapes of its link. Too small: by such a factor smaller than the link's
+    shapes of the other kind, which are collisions for a visual and visuals for a collision.
+
+    Options:
+        near: Factor above 1 by which a ratio of lengths may be off a unit's 39.4 (inches), 100 or
+            1000 and still count as that unit's.
+        beyond: Ratio of a mesh to the robot without its meshes; more is too large, as is a third of
+            it where a unit's factor shows beside the link's simple shapes.
+        huge: Metres; a shorter mesh is too large only if it is so by a unit's factor beside the
+            simple shapes of its link.
+        tiny: Metres; a mesh is too small only where all shapes of its kind, collisions or visuals,
+            of the link measure less together.
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
@@ -93,7 +102,7 @@ def _unit(large: float, small: float, near: float) -> str:
         return ""
     off = {unit: abs(math.log(large / small / factor)) for unit, factor in UNITS.items()}
     unit = min(off, key=lambda each: off[each])
-    return unit if off[unit] < math.log(near) else ""
+    return unit if off[unit] < math.log(max(near, 1.0)) else ""
 
 
 def _meshes(robot: Robot) -> Iterator[tuple[_Extent, MeshUse, float]]:

@@ -21,7 +21,11 @@ from checker.source.text import Located
 
 @rule("MSH007", "large-texture", Severity.INFO)
 def check(package: Package, robot: Robot, *, most: int = 4096) -> Findings:
-    """Report pictures of the model and of its meshes with more than `most` pixels a side."""
+    """Report pictures of the model and of its meshes with too many pixels a side.
+
+    Options:
+        most: Pixels that the longer side of a PNG or JPEG picture may have; more are reported.
+    """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
     sizes: dict[str, tuple[int, int] | None] = {}

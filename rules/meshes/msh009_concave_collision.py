@@ -13,7 +13,12 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("MSH009", "concave-collision", Severity.INFO)
 def check(robot: Robot, *, factor: float = 2.0) -> Findings:
-    """Report closed collision meshes whose hull holds more than `factor` times their volume."""
+    """Report closed collision meshes that fill little of their convex hull.
+
+    Options:
+        factor: Volume of the convex hull over that of the mesh, which is 1 for a convex one; more
+            is reported.
+    """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
     for use in robot.mesh_uses:

@@ -39,7 +39,12 @@ _TEAM = re.compile(r"\b(?:of|by)\s+(?:the\s+)?(?:team\s+)?([A-Z]\w+)(?:'s)?\s+te
 def check(
     package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS + MORE_TEAMS
 ) -> Findings:
-    """Look for names of others in package.xml, model.config, the sheet and the spawner."""
+    """Look for names of others in package.xml, model.config, the sheet and the spawner.
+
+    Options:
+        teams: Names of teams in lower case; a description in model.config that says "of the … team"
+            with one is reported unless the package's name holds it.
+    """
     if SUBMISSION_NAME.search(package.name) is None:
         return
     if paperwork.manifest is not None:
@@ -71,7 +76,8 @@ def _named(package: Package, text: Located[str], severity: Severity) -> Iterator
 def _other_team(package: Package, text: Located[str], teams: tuple[str, ...]) -> Iterator[Finding]:
     for match in _TEAM.finditer(text.value):
         team = match.group(1)
-        if team.casefold() in teams and team.casefold() not in package.name.split("_"):
+        words = package.name.casefold().split("_")
+        if team.casefold() in teams and team.casefold() not in words:
             yield finding(text, f"description names the team {team}, the package is {package.name}")
 
 
@@ -116,6 +122,10 @@ GOOD = [
         "The acme_rover_sensor_config_1 package, derived from x1_sensor_config_4</description>"
     ),
     {"specifications.md": "# Acme Rover Sensor Config 1\nAs fast as x1_sensor_config_4.\n"},
+    {
+        "@name": "MARBLE_HD2_sensor_config_1",
+        "model.config": "<model><description>The HD2 of the Marble team</description></model>",
+    },
 ]
 BAD = [
     _described("The x1_sensor_config_4 package</description>  <!-- ^ PKG012 -->"),

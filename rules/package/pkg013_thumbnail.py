@@ -20,8 +20,13 @@ VIEWS = {"1.png": "iso", "2.png": "top", "3.png": "side", "4.png": "front", "5.p
 
 
 @rule("PKG013", "thumbnail-missing", Severity.WARNING)
-def check(package: Package, *, limit_megabytes: float = 30) -> Findings:
-    """Look for the five pictures, and into every PNG file beside them."""
+def check(package: Package, *, limit_megabytes: float = 30.0) -> Findings:
+    """Look for the five pictures, and into every PNG file beside them.
+
+    Options:
+        limit_megabytes: Size in MB (10⁶ bytes) above which a PNG file in `thumbnails` is not read
+            but reported as too large.
+    """
     folder = package.index.find(FOLDER)
     if folder is None or not folder.is_folder:
         return

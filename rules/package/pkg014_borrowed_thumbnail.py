@@ -16,17 +16,23 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("PKG014", "borrowed-thumbnail", Severity.WARNING)
 def check(package: Package, *, most_compared: int = 50) -> Findings:
-    """Report thumbnails with the same bytes as one of another robot at hand."""
+    """Report thumbnails with the same bytes as one of another robot at hand.
+
+    Options:
+        most_compared: Number of other robots' pictures, of the same size in bytes, that a thumbnail
+            is compared with at most.
+    """
     if package.only:
         return
     for file in package.index.with_suffix(".png", ".jpg", ".jpeg"):
         if not file.path.startswith("thumbnails/") or not file.size:
             continue
         picture = package.read_bytes(file.path)
+        if isinstance(picture, NotReadable):
+            continue
         alike = package.workspace.thumbnails_by_size.get(file.size, [])
-        for other, path in alike[:most_compared]:
-            if robot_of(other.name) == robot_of(package.name) or isinstance(picture, NotReadable):
-                continue
+        others = (each for each in alike if robot_of(each[0].name) != robot_of(package.name))
+        for _, (other, path) in zip(range(most_compared), others, strict=False):
             if other.read_bytes(path) == picture:
                 yield finding(
                     package.place(file.path),

@@ -16,9 +16,15 @@ _SHOWN = 3
 
 @rule("PKG018", "too-large", Severity.WARNING)
 def check(
-    package: Package, *, package_megabytes: float = 100, file_megabytes: float = 30
+    package: Package, *, package_megabytes: float = 100.0, file_megabytes: float = 30.0
 ) -> Findings:
-    """Report what is larger than accepted packages are; 1 MB is 10⁶ bytes."""
+    """Report what is larger than accepted packages are.
+
+    Options:
+        package_megabytes: Size in MB (10⁶ bytes) that all files of the package may have together;
+            more is reported.
+        file_megabytes: Size in MB (10⁶ bytes) that a single file may have; more is reported.
+    """
     files = sorted(package.index.files, key=lambda file: -file.size)
     total = sum(file.size for file in files) / MEGABYTE
     if total > package_megabytes:

@@ -32,7 +32,12 @@ _MEANT = {
 
 @rule("PLG005", "unread-plugin-parameter", Severity.WARNING)
 def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLESS) -> Findings:
-    """Report elements in plugins of the release that the plugin's source never asks for."""
+    """Report elements in plugins of the release that the plugin's source never asks for.
+
+    Options:
+        harmless: Names of elements that are information instead of a warning where a plugin does
+            not read them.
+    """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     libraries = plugin_libraries(context.release)

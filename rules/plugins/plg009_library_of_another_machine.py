@@ -25,7 +25,13 @@ _SIMULATOR = re.compile(r"lib(?P<name>ignition-gazebo|gz-sim)(?P<major>\d{1,4})\
 def check(
     package: Package, context: Context, *, machine: str = "x64", largest: int = 100_000_000
 ) -> Findings:
-    """Report libraries for another machine than `machine`; `largest` is in bytes."""
+    """Report libraries for another machine or another major version of Gazebo.
+
+    Options:
+        machine: Machine that libraries must be built for, as pyelftools names it, such as `x64`,
+            `x86` or `AArch64`.
+        largest: Size in bytes above which a library is not read but listed as not checked.
+    """
     for file in package.index.with_suffix(".so"):
         data = package.read_bytes(file.path, largest)
         if isinstance(data, NotReadable):

@@ -26,7 +26,12 @@ def check(
     *,
     allowed: tuple[str, ...] = ("https://fuel.ignitionrobotics.org", "https://fuel.gazebosim.org"),
 ) -> Findings:
-    """Report URIs with a scheme or a root."""
+    """Report URIs with a scheme or a root.
+
+    Options:
+        allowed: Beginnings of URIs, scheme and all, that are passed over, such as those of models
+            on Fuel.
+    """
     for uri in robot.file_uris:
         scheme = _SCHEME.match(uri.value)
         if (scheme is None and not uri.value.startswith("/")) or uri.value.startswith(allowed):

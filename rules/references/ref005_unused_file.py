@@ -18,7 +18,12 @@ TEXTURES = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".dds", ".
 def check(
     package: Package, *, folders: tuple[str, ...] = ("meshes", "materials", "textures", "media")
 ) -> Findings:
-    """Report meshes, and textures in these folders, whose names stand in no file."""
+    """Report meshes, and textures in folders for such, whose names stand in no file.
+
+    Options:
+        folders: Names in lower case of folders at the top of the package; pictures are reported
+            only in and below these, meshes anywhere.
+    """
     if too_large := unsearched(package):
         yield unchecked(f"{too_large[0]} is too large to be searched for names")
         return

@@ -26,7 +26,13 @@ def check(
     folder: str = "materials/textures",
     holding_textures: tuple[str, ...] = ("materials", "media", "textures"),
 ) -> Findings:
-    """Report what the model, or the name of its folder, calls a texture, in other places."""
+    """Report what the model, or the name of its folder, calls a texture, in other places.
+
+    Options:
+        folder: Path in the package; in and below it textures may lie, as they may beside meshes.
+        holding_textures: Names in lower case of folders at the top of the package; pictures in and
+            below them count as textures even if nothing uses them.
+    """
     used = {
         posixpath.normpath(posixpath.join(robot.folder_of(uri), uri.value))
         for uri in robot.file_uris
@@ -34,7 +40,7 @@ def check(
     beside_meshes = {posixpath.dirname(mesh.path) for mesh in package.index.with_suffix(*MESHES)}
     for file in package.index.with_suffix(*TEXTURES):
         place = posixpath.dirname(file.path)
-        if place in beside_meshes or f"{place}/".startswith(f"{folder}/"):
+        if place in beside_meshes or f"{place}/".startswith(f"{folder.rstrip('/')}/"):
             continue
         if file.path in used or place.partition("/")[0].lower() in holding_textures:
             yield finding(

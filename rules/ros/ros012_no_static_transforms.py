@@ -37,8 +37,11 @@ def check(
 ) -> Findings:
     """Report static poses that are not bridged, and fixed frames that only a description has.
 
-    Frames with `published_elsewhere` in their names come from optical_frame_publisher; of several
-    frames `shown` are pointed at.
+    Options:
+        published_elsewhere: Text in names of frames that come from optical_frame_publisher; fixed
+            frames with it in their names are passed over, none if it is empty.
+        shown: Number of lacking frames, at most, whose joints in the description the finding points
+            at.
     """
     if state_publishers(launch):
         return
@@ -59,7 +62,7 @@ def check(
     frames = {
         name: joint
         for name, joint in _described(package, launch)
-        if name not in known and published_elsewhere not in name
+        if name not in known and not (published_elsewhere and published_elsewhere in name)
     }
     if frames:
         number = f"{len(frames)} fixed frames" if len(frames) > 1 else "a fixed frame"

@@ -26,7 +26,12 @@ _TOPICS = "launch/vehicle_topics.launch"
 def check(
     package: Package, launch: LaunchGraph, *, relays: str = "mapping_server_relays.launch"
 ) -> Findings:
-    """Look for the include of the file `relays` among all that is started."""
+    """Look for the include of the relays among all that is started.
+
+    Options:
+        relays: Name of the launch file, without folders, that has to be included and given the
+            robot's name as `name`.
+    """
     started: tuple[Include | UnresolvedInclude, ...] = launch.includes + launch.unresolved_includes
     includes = [include for include in started if posixpath.basename(include.file) == relays]
     named = launch.arguments.get("name")

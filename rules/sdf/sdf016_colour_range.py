@@ -19,7 +19,12 @@ EIGHT_BIT = 255.0
 
 @rule("SDF016", "colour-range", Severity.ERROR)
 def check(sdf: SdfDocument, *, eight_bit_from: float = 16.0) -> Findings:
-    """Report colours with a number below 0 or above 1."""
+    """Report colours with a number below 0 or above 1.
+
+    Options:
+        eight_bit_from: Least value of the brightest of red, green and blue for a fix that divides
+            by 255; all numbers must be whole and from 0 to 255.
+    """
     for element, kind in sdf.typed_elements:
         if kind is None or kind.value_type != "color":
             continue

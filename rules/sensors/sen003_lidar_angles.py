@@ -24,7 +24,13 @@ _NEAR = 0.1
 
 @rule("SEN003", "lidar-angles", Severity.WARNING)
 def check(robot: Robot, *, tolerance: float = 1e-3, near: float = _NEAR) -> Findings:
-    """Report scans over a full turn by more than `tolerance`, from 0 to 2π, or of no width, rad."""
+    """Report scans over more than a full turn, from 0 to 2π, or of no width.
+
+    Options:
+        tolerance: Radians that a scan may span beyond a full turn; more is reported.
+        near: Radians within which the ends of a scan count as 0 and 2π, which is reported, and its
+            span as a full turn, which the fix writes as -π to π.
+    """
     for sensor in robot.sensors:
         lidar = sensor.lidar
         if lidar is None or not sensor.kind.is_lidar:

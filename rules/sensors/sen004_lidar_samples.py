@@ -24,9 +24,16 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 
 @rule("SEN004", "lidar-samples", Severity.WARNING)
 def check(
-    robot: Robot, devices: SensorDevices, *, copied: float = 10_000, tolerance: float = 0.02
+    robot: Robot, devices: SensorDevices, *, copied: int = 10_000, tolerance: float = 0.02
 ) -> Findings:
-    """Report rows of `copied` samples or more, and those off the device's by over `tolerance`."""
+    """Report rows of far too many samples, and of others than the device gives.
+
+    Options:
+        copied: Samples in a row; so many or more are reported as copied from an old template, even
+            where no device is known.
+        tolerance: Share by which the samples in a row may differ from what the device gives at that
+            rate; one sample off is always accepted.
+    """
     for sensor in robot.sensors:
         lidar = sensor.lidar
         if lidar is None or not sensor.kind.is_lidar:

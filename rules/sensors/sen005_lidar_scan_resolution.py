@@ -14,7 +14,12 @@ from checker.rule import Findings, Severity, finding, replace_text, rule
 
 @rule("SEN005", "lidar-scan-resolution", Severity.WARNING)
 def check(robot: Robot, *, expected: float = 1.0) -> Findings:
-    """Report lidars whose rows have another resolution than `expected`."""
+    """Report lidars whose rows have another resolution than expected.
+
+    Options:
+        expected: Points given for each sample of a row; any other `<resolution>` that the file
+            states is reported, and the fix writes this one.
+    """
     for sensor in robot.sensors:
         if sensor.lidar is None or not sensor.kind.is_lidar:
             continue

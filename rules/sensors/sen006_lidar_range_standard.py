@@ -33,9 +33,13 @@ def check(
     tolerance: float = 0.01,
     grave: float = 5.0,
 ) -> Findings:
-    """Report figures off by more than a share, with no device known as information.
+    """Report missing noise, and figures that are off: information where no device is known.
 
-    Figures more than `grave` times the standard are a warning for whatever device.
+    Options:
+        tolerance: Share by which range resolution and noise may differ from the device's own
+            figures, else from SubT's 0.01 m.
+        grave: Multiple of the expected figure; what is above it is a warning even where no
+            datasheet confirms what is expected.
     """
     if context.profile != _PROFILE:
         return

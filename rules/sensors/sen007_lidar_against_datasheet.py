@@ -53,9 +53,13 @@ def check(
     angle: float = 1.0,
     near: float = 0.02,
 ) -> Findings:
-    """Report figures off by more than a share, degrees for angles, m for the least range.
+    """Report figures that differ from the datasheet's.
 
-    `tolerance` is the share, `angle` those degrees, `near` those metres.
+    Options:
+        tolerance: Share by which the greatest range and the rate may differ from the datasheet's.
+        angle: Degrees by which the lowest and the highest row may differ from the datasheet's, also
+            to find lidars of the same shape.
+        near: Metres by which the least range may differ from the datasheet's.
     """
     for sensor in robot.sensors:
         lidar = sensor.lidar

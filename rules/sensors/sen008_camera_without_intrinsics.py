@@ -28,10 +28,17 @@ def check(
     centre_tolerance: float = 1.0,
     releases: tuple[str, ...] = ("dome",),
 ) -> Findings:
-    """Report cameras without intrinsics, on `releases` that do not work them out.
+    """Report cameras without intrinsics, on releases that do not work them out.
 
-    Those that the defaults fit are left out: focal length within `tolerance`, as a share, and
-    principal point within `centre_tolerance`, pixels.
+    Cameras that the defaults fit, in focal length and centre, are left out.
+
+    Options:
+        tolerance: Share by which the default focal length, 277 px, may differ from the picture's
+            before it is reported.
+        centre_tolerance: Pixels by which the default centre, 160 and 120 px, may be off the
+            picture's before it is reported.
+        releases: Names of Gazebo releases, in lower case, on which cameras need intrinsics; on all
+            others nothing is reported.
     """
     if context.release not in releases:
         return

@@ -37,7 +37,11 @@ class _Wrong(NamedTuple):
 def check(robot: Robot, *, tolerance: float = 0.01, centre_tolerance: float = 1.0) -> Findings:
     """Compare intrinsics with the picture.
 
-    Focal lengths may differ by `tolerance`, as a share, the centre by `centre_tolerance`, pixels.
+    Options:
+        tolerance: Share by which the focal lengths `<fx>` and `<fy>` may differ from those of the
+            picture.
+        centre_tolerance: Pixels by which `<cx>` and `<cy>` may be off half the picture's width and
+            height.
     """
     for sensor in robot.sensors:
         camera = sensor.camera

@@ -52,9 +52,15 @@ def check(
     rate_tolerance: float = 0.01,
     view_tolerance: float = 0.02,
 ) -> Findings:
-    """Compare cameras with their devices, and RGBD cameras of SubT with `rgbd_pixels`.
+    """Compare cameras with their devices, and the size of RGBD cameras with that of SubT.
 
-    Rates may exceed the device's, and views differ from it, by the tolerances, as shares.
+    Options:
+        rgbd_pixels: Pixels, width times height, that a picture of an RGBD camera may have in the
+            SubT profile.
+        rate_tolerance: Share by which the rate may exceed the device's highest; lower rates are
+            never reported.
+        view_tolerance: Share by which `<horizontal_fov>` may differ from the device's, to either
+            side.
     """
     for sensor in robot.sensors:
         camera = sensor.camera
@@ -64,8 +70,8 @@ def check(
         if is_limited and camera.pixels > rgbd_pixels:
             yield finding(
                 camera.width,
-                f"RGBD camera {sensor.name.value!r} has {_size(camera)}; expected the SubT "
-                "standard, 640 × 480 or 640 × 360 px",
+                f"RGBD camera {sensor.name.value!r} has {_size(camera)}; expected at "
+                f"most {rgbd_pixels} pixels: the SubT standard is 640 × 480 or 640 × 360 px",
                 key=f"rgbd {_size(camera)}",
             )
             continue

@@ -1,7 +1,7 @@
 """A camera that sees up to where it should not, or nothing at all.
 
 Between `<near>` and `<far>` lies all that a camera sees: where near is not below far, nothing is
-rendered. In the SubT challenge depth cameras measure up to 10 m and thermal cameras see up to
+rendered. In the SubT challenge RGBD cameras measure up to 10 m and thermal cameras see up to
 100 m; a copied 300 m gives a robot eyes that no device has.
 
 Fix: write near below far; `<depth_camera><clip><far>10` for depth, `<clip><far>100` for heat.
@@ -22,7 +22,14 @@ from checker.rule import Context, Finding, Findings, Severity, finding, rule
 def check(
     robot: Robot, context: Context, *, depth_far: float = 10.0, thermal_far: float = 100.0
 ) -> Findings:
-    """Report empty ranges, and in SubT those beyond `depth_far` and `thermal_far`, metres."""
+    """Report empty ranges, and in SubT those of RGBD and thermal cameras that reach too far.
+
+    Options:
+        depth_far: Metres up to which an RGBD camera may measure depth in the SubT profile; beyond
+            is reported.
+        thermal_far: Metres up to which a thermal camera may see in the SubT profile; beyond is
+            reported.
+    """
     farthest = {SensorType.RGBD_CAMERA: depth_far, SensorType.THERMAL_CAMERA: thermal_far}
     for sensor in robot.sensors:
         camera = sensor.camera

@@ -14,7 +14,12 @@ from checker.rule import Context, Findings, Severity, finding, rule
 
 @rule("SEN012", "ignored-distortion", Severity.WARNING)
 def check(robot: Robot, context: Context, *, releases: tuple[str, ...] = ("dome",)) -> Findings:
-    """Report coefficients other than 0 on `releases` that ignore them."""
+    """Report coefficients other than 0 on releases that ignore them.
+
+    Options:
+        releases: Names of Gazebo releases, in lower case, that do not render distortion; on all
+            others nothing is reported.
+    """
     if context.release not in releases:
         return
     for sensor in robot.sensors:

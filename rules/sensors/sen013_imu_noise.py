@@ -31,7 +31,12 @@ _Figures = Mapping[str, float]
 
 @rule("SEN013", "imu-noise", Severity.WARNING)
 def check(robot: Robot, *, tolerance: float = 0.01) -> Findings:
-    """Compare the noise of IMUs with the standard; figures may differ by the share `tolerance`."""
+    """Compare the noise of IMUs with the standard.
+
+    Options:
+        tolerance: Share by which each figure of the noise may differ from the standard's; the mean
+            must be exactly 0.
+    """
     standards = {quantity: _standard(quantity) for quantity in QUANTITIES}
     for sensor in robot.sensors:
         if sensor.kind is not SensorType.IMU:

@@ -20,7 +20,12 @@ EXEMPT = (SensorType.CONTACT, SensorType.OTHER)
 
 @rule("SEN015", "update-rate", Severity.WARNING)
 def check(robot: Robot, context: Context, *, imu_rate: float = 50.0) -> Findings:
-    """Report rates that are missing, 0 or negative; in SubT also IMUs off `imu_rate`, hertz."""
+    """Report rates that are missing, 0 or negative; in SubT also IMUs with an unusual one.
+
+    Options:
+        imu_rate: Hertz at which IMUs usually measure in the SubT profile; any other rate is given
+            as information.
+    """
     for sensor in robot.sensors:
         if sensor.kind in EXEMPT:
             continue

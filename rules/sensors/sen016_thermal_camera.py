@@ -27,7 +27,12 @@ _UNITS = {"min_temp": " K", "max_temp": " K", "resolution": " K"}
 
 @rule("SEN016", "thermal-camera", Severity.WARNING)
 def check(robot: Robot, context: Context, *, tolerance: float = 0.01) -> Findings:
-    """Compare thermal cameras with SubT's; figures may differ by `tolerance`, as a share."""
+    """Compare thermal cameras with SubT's.
+
+    Options:
+        tolerance: Share by which `<min_temp>`, `<max_temp>` and `<resolution>` may differ from
+            SubT's figures.
+    """
     if context.profile != "subt":
         return
     standard = table("subt_standards")["thermal"]

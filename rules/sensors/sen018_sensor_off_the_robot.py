@@ -19,7 +19,12 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("SEN018", "sensor-off-the-robot", Severity.WARNING)
 def check(robot: Robot, *, sizes: float = 0.5) -> Findings:
-    """Report sensors farther from the robot's box than `sizes` of its diagonal."""
+    """Report sensors far outside of the robot.
+
+    Options:
+        sizes: Distance of a sensor from the box around the robot's shapes, as a multiple of that
+            box's diagonal; more is reported.
+    """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return

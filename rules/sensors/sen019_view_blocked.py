@@ -33,12 +33,13 @@ def check(
 ) -> Findings:
     """Report views of which the robot takes more than a share.
 
-    Args:
-        seen: The robot and the views of its sensors.
-        most: Share of a lidar's view, of what a camera sees nearer than `close`, and of what the
-            near clip of a camera cuts open.
-        most_of_picture: Share of a camera's whole view: it may see its own robot below.
-        close: Metres.
+    Options:
+        most: Share of a lidar's rays that may meet the robot, and of a camera's view that it may
+            fill nearer than `close`, or that the near clip may cut open.
+        most_of_picture: Share of a camera's view that the robot may fill at any distance; more is
+            allowed, as it may see itself below.
+        close: Metres from a camera; what the robot fills of its view nearer than this counts
+            against `most`.
     """
     for view in seen.views:
         fault = next(_faults(view, most, most_of_picture, close), None)

@@ -37,7 +37,17 @@ def check(
     deepest: float = 0.05,
     deepest_with_shadows: float = 0.01,
 ) -> Findings:
-    """Count the lights, and compare their distance to visuals and depth in them, metres."""
+    """Count the lights, and compare their distance to visuals and depth in them.
+
+    Options:
+        most: Number of lights that a robot may have; more are reported as too many.
+        nearest: Metres from a light to the box around the nearest visual; a light farther away is
+            reported to have no lamp.
+        deepest: Metres that a light without shadows may lie inside an opaque, convex visual; deeper
+            is reported.
+        deepest_with_shadows: Metres that a light that casts shadows may lie inside an opaque,
+            convex visual; deeper is reported.
+    """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return

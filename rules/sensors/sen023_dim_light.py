@@ -27,9 +27,15 @@ def check(
     largest_divisor: float = 0.5,
     least_range: float = 5.0,
 ) -> Findings:
-    """Report lights divided by more than `largest_divisor` at a distance, metres.
+    """Report lights that are weakened as in Gazebo Classic.
 
-    Those that reach less far than `least_range`, metres, are signals and not lamps.
+    Options:
+        distance: Metres from the light at which its divisor, constant + linear·d + quadratic·d², is
+            worked out.
+        largest_divisor: What the light may be divided by at that distance; a greater divisor is
+            reported as dim.
+        least_range: Metres; a light whose `<range>` is less is taken for a signal, not a lamp, and
+            passed over.
     """
     if context.release in _NOT_DARKER:
         return

@@ -24,7 +24,13 @@ _COMPARED = 100
 
 @rule("SEN024", "colour-and-depth-apart", Severity.WARNING)
 def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findings:
-    """Report pairs no more than `distance`, metres, apart that look one way within `angle`, rad."""
+    """Report colour and depth cameras that are at one place and look one way.
+
+    Options:
+        distance: Metres between a colour and a depth camera up to which they count as being at one
+            place.
+        angle: Radians between the directions of the two up to which they look one way.
+    """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
@@ -73,7 +79,8 @@ def _together(one: Mounted, other: Mounted, distance: float, angle: float) -> bo
     ahead, beside = one.looking, other.looking
     if ahead is None or beside is None:
         return False
-    return math.dist(ahead, beside) <= angle
+    # By the chord, which is exact where an angle is too small for its cosine.
+    return 2.0 * math.asin(min(math.dist(ahead, beside) / 2.0, 1.0)) <= angle
 
 
 def _cameras(one: str, other: str, pose: str, mark: str = "", image: str = "R8G8B8") -> str:

@@ -37,7 +37,12 @@ class _Load:
 
 @rule("SEN025", "render-load", Severity.WARNING)
 def check(robot: Robot, *, most: float = 250e6) -> Findings:
-    """Compare the pixels and rays a second with `most`; sensors without a rate do not count."""
+    """Add up the pixels and rays a second; sensors without a rate do not count.
+
+    Options:
+        most: Pixels and rays a second that all cameras and lidars of a robot may render together;
+            more is reported.
+    """
     loads = sorted(_loads(robot), key=lambda load: load.per_second, reverse=True)
     total = sum(load.per_second for load in loads)
     if total > most:

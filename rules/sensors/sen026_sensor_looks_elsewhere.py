@@ -24,10 +24,15 @@ def check(
     largest_angle_tilted: float = 80.0,
     largest_angle_sideways: float = 120.0,
 ) -> Findings:
-    """Compare where sensors look with their names; angles in degrees.
+    """Compare where sensors look with their names.
 
-    Left and right are also said of sensors that look ahead side by side, up and down of those that
-    are tilted a little; so there more is allowed.
+    Options:
+        largest_angle: Degrees that a sensor may look away from where its name says, where that
+            speaks of front or rear.
+        largest_angle_tilted: Degrees that a sensor may look away from where its name says, where
+            that speaks of up or down and not of front or rear; some are tilted a little.
+        largest_angle_sideways: Degrees that a sensor may look away from where its name says, where
+            that speaks of left or right alone; some look ahead side by side.
     """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)

@@ -37,7 +37,12 @@ _YES = ("true", "1")
 def check(
     robot: Robot, spawner: Spawner, spawned: SpawnedXml, launch: LaunchGraph, *, rate: float = 1.0
 ) -> Findings:
-    """Report missing PosePublishers and their settings; static poses come at `rate`, in Hz."""
+    """Report missing PosePublishers, and settings that are missing or unusual.
+
+    Options:
+        rate: Hertz at which static poses are to come; any other `<static_update_frequency>` that is
+            stated is a warning.
+    """
     publishers = [each for each in robot.plugins if each.class_name == "PosePublisher"]
     if not publishers:
         function = spawner.functions.get("spawner")

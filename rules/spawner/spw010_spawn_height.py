@@ -30,7 +30,14 @@ GROUND = SPAWNER_ARGUMENTS[5]
 def check(
     robot: Robot, spawned: SpawnedXml, *, deepest: float = 0.005, highest: float = 0.3
 ) -> Findings:
-    """Report lowest points more than `deepest` below or `highest` above the ground, metres."""
+    """Compare the lowest point of the robot's collisions with the ground.
+
+    Options:
+        deepest: Metres that the lowest point of the collisions may start below the ground; deeper
+            is reported.
+        highest: Metres that the lowest point of the collisions may start above the ground; higher
+            is reported.
+    """
     if is_legged(robot.plugins):
         return
     poses = [pose for spawn in spawned.spawns if (pose := spawn.child("pose")) is not None]

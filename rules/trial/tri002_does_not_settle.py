@@ -27,7 +27,22 @@ def check(
     settle_speed_above: float = 0.05,
     rest_penetration_above: float = 0.05,
 ) -> Findings:
-    """Report a robot that moves further than these limits (m, rad, m/s) while it settles."""
+    """Report a robot that moves further than these limits while it settles.
+
+    Options:
+        settle_drop_above: Metres that the robot's origin may sink from where it is put, 0.01 m of
+            which is the fall to the ground; more is an error.
+        settle_rise_above: Metres that the robot's origin may rise above where it is put; more is an
+            error.
+        settle_shift_above: Metres that the robot's origin may have moved sideways after 2 s; more
+            is an error.
+        settle_tilt_above: Radians between the robot's z axis and the vertical, on average over the
+            last 0.5 s; more is an error.
+        settle_speed_above: Speed of the robot's origin in m/s, on average over the last 0.5 s; more
+            is an error.
+        rest_penetration_above: Metres that the deepest contact may lie in the ground in the last
+            0.5 s; more is an error.
+    """
     limits = {
         "settle_drop": settle_drop_above,
         "settle_rise": settle_rise_above,

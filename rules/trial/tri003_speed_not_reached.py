@@ -17,7 +17,14 @@ from checker.trial.robot_trial import RobotTrial
 def check(
     driven: RobotTrial, *, warning_beyond: float = 0.05, error_beyond: float = 0.15
 ) -> Findings:
-    """Report a speed that differs from the command by more than these shares of it."""
+    """Report a speed that differs from the command by more than these shares of it.
+
+    Options:
+        warning_beyond: Share of the commanded speed by which the robot may be slower or faster;
+            more is a warning.
+        error_beyond: Share of the commanded speed beyond which the difference is an error instead
+            of a warning.
+    """
     if driven.robot.unread_plugins and driven.trial.drive == DriveKind.NONE:
         yield unchecked(driven.robot.unread_plugins)
     if driven.trial.not_driven:

@@ -23,9 +23,18 @@ def check(
     path_heading_error: float = 0.175,
     moved: float = 0.2,
 ) -> Findings:
-    """Report metres sideways for each metre forward, and a turn (rad) on the straight.
+    """Report a robot that leaves the straight line, or turns on it.
 
-    A robot that does not reach the share `moved` of the commanded speed has no path to judge.
+    Options:
+        path_sideways_warning: Metres sideways for each metre forward; more is a warning.
+        path_sideways_error: Metres sideways for each metre forward beyond which it is an error
+            instead of a warning.
+        path_heading_warning: Radians by which the heading may change on the whole straight drive;
+            more is a warning.
+        path_heading_error: Radians of change in heading beyond which it is an error instead of a
+            warning.
+        moved: Share of the commanded speed that must be reached for the way sideways to be judged;
+            the heading always is.
     """
     speed = driven.trial.value("speed_ratio")
     heading = abs(driven.trial.value("path_heading") or 0.0)

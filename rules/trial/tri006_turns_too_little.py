@@ -17,7 +17,14 @@ from checker.trial.robot_trial import RobotTrial
 def check(
     driven: RobotTrial, *, warning_below: float = 0.5, error_below_command: float = 0.05
 ) -> Findings:
-    """Report a turn rate below shares of what is predicted, and of what is commanded."""
+    """Report a turn rate below shares of what is predicted, and of what is commanded.
+
+    Options:
+        warning_below: Share of the turn rate that is predicted from the loads on wheels or tracks;
+            less is a warning.
+        error_below_command: Share of the commanded turn rate; less is an error, whatever is
+            predicted.
+    """
     trial = driven.trial
     rate, ratio = trial.value("yaw_rate"), trial.value("yaw_ratio")
     if rate is None or ratio is None or driven.turns_backwards:

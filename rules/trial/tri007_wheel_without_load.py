@@ -15,7 +15,14 @@ from checker.trial.robot_trial import RobotTrial
 def check(
     driven: RobotTrial, *, warning_below: float = 0.05, error_below: float = 0.002
 ) -> Findings:
-    """Report wheels that carry less than these shares of an equal part of the weight."""
+    """Report wheels that carry less than these shares of an equal part of the weight.
+
+    Options:
+        warning_below: Share of an equal part of the weight (weight over number of drive wheels)
+            that a wheel is to carry; less is a warning.
+        error_below: Share of an equal part of the weight; a wheel that carries less is an error
+            instead of a warning.
+    """
     for load in driven.trial.all("load_share"):
         if load.value >= warning_below:
             continue

@@ -13,7 +13,12 @@ from checker.trial.robot_trial import RobotTrial
 
 @rule("TRI008", "does-not-stop", Severity.ERROR)
 def check(driven: RobotTrial, *, error_above: float = 0.05) -> Findings:
-    """Report a speed (m/s) beyond the command that is left after a stop."""
+    """Report a speed beyond the command that is left after a stop.
+
+    Options:
+        error_above: Speed in m/s, over what is still commanded, that may be left at the end of a
+            stop; more is an error.
+    """
     speed = driven.trial.value("stop_speed")
     if speed is None or abs(speed) <= error_above:
         return

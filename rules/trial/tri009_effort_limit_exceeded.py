@@ -4,7 +4,8 @@ The trial's servos are as strong as they have to be; the simulated motor stops a
 robot starts slower, does not reach its speed, or drops what it holds.
 
 Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
-Source: the largest torque in the trial after the robot has settled, against `<effort>`.
+Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without
+the drive at full speed, against `<effort>`.
 """
 
 from checker.rule import Findings, Severity, finding, rule
@@ -13,7 +14,12 @@ from checker.trial.robot_trial import RobotTrial
 
 @rule("TRI009", "effort-limit-exceeded", Severity.WARNING)
 def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
-    """Report joints that need more than `warning_above` times their limit."""
+    """Report joints that need more than their effort limit.
+
+    Options:
+        warning_above: Multiple of a joint's effort limit; a joint that needs more torque or force
+            than that is reported.
+    """
     limits = {each.part: each.value for each in driven.trial.all("torque_limit")}
     for torque in driven.trial.all("torque"):
         limit = limits.get(torque.part)

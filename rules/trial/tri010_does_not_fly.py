@@ -24,7 +24,16 @@ def check(
     hover_tilt_above: float = 0.26,
     climbed_below: float = 0.8,
 ) -> Findings:
-    """Report a copter that needs more than its thrust, sinks (m), tilts (rad) or does not climb."""
+    """Report a copter that needs more than its thrust, sinks, tilts or does not climb.
+
+    Options:
+        hover_effort_above: Share of its greatest thrust that the most loaded rotor may need in a
+            balanced hover; more is an error.
+        hover_sink_above: Metres of height that may be lost in 4 s of hover; more is an error.
+        hover_tilt_above: Radians between the robot's z axis and the vertical in the last second of
+            hover; more is an error.
+        climbed_below: Share of the commanded climb of 1 m that must be reached; less is an error.
+    """
     value = driven.trial.value
     said = {}
     if (effort := value("hover_effort")) is not None and effort > hover_effort_above:

@@ -21,14 +21,22 @@ def check(
     hold_sink_above: float = 0.05,
     hold_tilt_above: float = 0.17,
 ) -> Findings:
-    """Report joints that give way (rad or m), and a robot that sinks (m) or tilts (rad)."""
+    """Report joints that give way, and a robot that sinks or tilts.
+
+    Options:
+        hold_sag_above: Radians, or metres of a sliding joint, that a joint may have moved from its
+            start by the end of the hold; more is reported.
+        hold_sink_above: Metres that the robot may sink, once settled, while its joints are held for
+            4 s; more is reported.
+        hold_tilt_above: Radians between the robot's z axis and the vertical at the end of the hold;
+            more is reported.
+    """
     for sag in driven.trial.all("hold_sag"):
         if abs(sag.value) > hold_sag_above:
-            who = f"joint {sag.part!r}" if sag.part else "a joint"
             yield finding(
                 driven.part(sag.part),
-                f"{who} gives way by {_amount(driven, sag.part, sag.value)} while the robot holds "
-                "its pose",
+                f"joint {sag.part!r} gives way by {_amount(driven, sag.part, sag.value)} while the "
+                "robot holds its pose",
                 key="hold_sag",
             )
     said = {}

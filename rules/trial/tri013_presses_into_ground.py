@@ -19,9 +19,13 @@ def check(
     rest_penetration_above: float = 0.01,
     rest_penetration_up_to: float = 0.05,
 ) -> Findings:
-    """Report a robot that is deeper in the ground than this, in metres.
+    """Report a robot that presses into the ground when it is at rest.
 
-    What sinks deeper than `rest_penetration_up_to` does not settle at all.
+    Options:
+        rest_penetration_above: Metres that the deepest contact at rest may lie in the ground;
+            deeper is reported.
+        rest_penetration_up_to: Metres beyond which nothing is said here: set it as
+            `rest_penetration_above` of TRI002, which reports what is deeper.
     """
     deep = driven.trial.value("rest_penetration")
     if deep is not None and rest_penetration_above < deep <= rest_penetration_up_to:

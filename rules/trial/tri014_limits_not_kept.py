@@ -17,7 +17,14 @@ from checker.trial.robot_trial import RobotTrial
 def check(
     driven: RobotTrial, *, full_speed_above: float = 1.05, full_acceleration_above: float = 1.25
 ) -> Findings:
-    """Report a speed and an acceleration that exceed these multiples of their limits."""
+    """Report a speed and an acceleration that exceed these multiples of their limits.
+
+    Options:
+        full_speed_above: Multiple of the drive plugin's velocity limit; a higher speed at full
+            command is reported.
+        full_acceleration_above: Multiple of the drive plugin's acceleration limit; more, on average
+            over 0.2 s, is reported.
+    """
     value = driven.trial.value
     said = {}
     speed, limit = value("full_speed"), value("full_speed_limit")

@@ -13,7 +13,12 @@ from checker.trial.robot_trial import RobotTrial
 
 @rule("TRI015", "parts-meet-in-motion", Severity.WARNING)
 def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
-    """Report parts that come further into each other than this, in metres."""
+    """Report parts that come into each other when a joint moves through its range.
+
+    Options:
+        warning_above: Metres that two parts may come into each other; less than 0.001 m is never
+            measured.
+    """
     unswept = driven.trial.value("unswept_joints")
     if unswept:
         yield unchecked(f"{unswept:g} joints of many shapes were not moved through their range")

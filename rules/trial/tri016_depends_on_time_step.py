@@ -32,7 +32,12 @@ _MATTERS = {
 
 @rule("TRI016", "depends-on-time-step", Severity.WARNING)
 def check(driven: RepeatedTrial, *, factor: float = 1.0) -> Findings:
-    """Report figures that differ by more than `factor` times what matters."""
+    """Report figures that differ by more than what matters.
+
+    Options:
+        factor: Multiple of what each figure may change at half the time step, such as 0.02 m of
+            drop or 0.05 rad of tilt; more is reported.
+    """
     said = []
     for name, matters in _MATTERS.items():
         once, again = driven.trial.value(name), driven.again.value(name)

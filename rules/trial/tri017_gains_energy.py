@@ -14,7 +14,12 @@ from checker.trial.robot_trial import RobotTrial
 
 @rule("TRI017", "gains-energy", Severity.WARNING)
 def check(driven: RobotTrial, *, warning_above: float = 0.1) -> Findings:
-    """Report a gain above this share of m·g·0.1 m."""
+    """Report a gain of energy while nothing drives the robot.
+
+    Options:
+        warning_above: Energy gained, as a share of what lifts the robot by 0.1 m; more is reported
+            (0.1 stands for a lift of 10 mm).
+    """
     gain = driven.trial.value("energy_gain")
     if gain is not None and gain > warning_above:
         yield finding(

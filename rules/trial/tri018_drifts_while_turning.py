@@ -15,7 +15,12 @@ from checker.trial.robot_trial import RobotTrial
 
 @rule("TRI018", "drifts-while-turning", Severity.WARNING)
 def check(driven: RobotTrial, *, warning_above: float = 0.5) -> Findings:
-    """Report a robot that ends a turn of 4 s further away than this, in metres."""
+    """Report a robot that moves away while it turns in place.
+
+    Options:
+        warning_above: Metres that the middle of its wheels or tracks may come away from where the
+            turn began; more is reported.
+    """
     drift = driven.trial.value("turn_drift")
     if drift is None or drift <= warning_above:
         return

@@ -20,7 +20,12 @@ _SCOPES = str.maketrans({":": "_", "/": "_"})
 
 @rule("URD005", "urdf-differs-from-sdf", Severity.WARNING)
 def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) -> Findings:
-    """Report links that one of both lacks, and masses that differ by more than `share`."""
+    """Report links that one of both lacks, and masses that differ.
+
+    Options:
+        share: Share of the larger by which both masses of a link may differ; more is reported
+            unless the rigid body that it is part of agrees.
+    """
     if not description.for_rviz:
         return
     if robot.missing_parts:

@@ -19,7 +19,12 @@ _NO_LINK = "world"
 
 @rule("URD007", "link-left-out", Severity.ERROR)
 def check(description: UrdfDescription, *, share: float = 0.01) -> Findings:
-    """Report links without inertia, and those of `share` of the mass without shapes."""
+    """Report links without inertia, and links with weight that lack shapes.
+
+    Options:
+        share: Share of the robot's mass from which on a link, with what is merged into it, must
+            have collisions and visuals.
+    """
     if description.for_rviz:
         return
     robot = description.robot

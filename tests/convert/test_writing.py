@@ -9,8 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
-from checker.convert.writing import document_text, exact, number, tidy
+from checker.convert.writing import document_text, exact, number, six_numbers, tidy
 from checker.model.transform import Transform, rotation_from_rpy
+from tests.model.robots import sdf
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -70,3 +71,12 @@ def test_a_document_is_indented_by_two_blanks() -> None:
     assert document_text(tree) == (
         '<?xml version="1.0" encoding="utf-8"?>\n<a>\n  <b>\n    <c>1</c>\n  </b>\n</a>\n'
     )
+
+
+def test_a_pose_in_degrees_is_written_in_radians() -> None:
+    robot = sdf("""<link name="l0"><collision name="c"><pose degrees="true">1 2 3 90 0 -45</pose>
+      <geometry><sphere><radius>1</radius></sphere></geometry></collision></link>""")
+    (shape,) = robot.links[0].collisions
+    place, angles = six_numbers(shape.pose.transform, shape.pose)
+    assert place == "1 2 3"
+    assert [float(each) for each in angles.split()] == pytest.approx([math.pi / 2, 0, -math.pi / 4])

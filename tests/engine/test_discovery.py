@@ -65,7 +65,7 @@ def test_rules_of_another_distribution_run_with_their_options(
     assert done.returncode == 0
     page = command(distribution, "rule", "cheese-wheel").stdout
     assert "Fix: eat it." in page
-    assert "ripe = True" in page
+    assert "ripe = true" in page
 
 
 def test_two_rules_of_one_id_are_refused_by_name(distribution: Path) -> None:

@@ -21,8 +21,9 @@ def check(
     word: str = "a",
     names: tuple[str, ...] = ("a",),
     numbers: tuple[float, ...] = (0.5,),
+    unnamed: tuple[str, ...] = (),
 ) -> Findings:
-    yield unchecked(f"{limit} {count} {strict} {word} {names} {numbers}")
+    yield unchecked(f"{limit} {count} {strict} {word} {names} {numbers} {unnamed}")
 
 
 RULES = (
@@ -157,6 +158,16 @@ def test_the_command_line_replaces_what_it_names() -> None:
         ("rules.SEN005.limit = '1'", "rules.SEN005.limit is '1', expected a number"),
         ("rules.SEN005.limit = true", "rules.SEN005.limit is True, expected a number"),
         ("rules.SEN005.limit = nan", "rules.SEN005.limit is nan, expected a number"),
+        ("rules.SEN005.limit = -0.5", "rules.SEN005.limit is -0.5, expected a number, 0 or more"),
+        ("rules.SEN005.count = -1", "rules.SEN005.count is -1, expected a whole number, 0 or more"),
+        (
+            "rules.SEN005.numbers = [-2]",
+            "rules.SEN005.numbers is [-2], expected a list in which each is a number",
+        ),
+        (
+            "rules.SEN005.unnamed = [1]",
+            "rules.SEN005.unnamed is [1], expected a list in which each is a text",
+        ),
         ("rules.SEN005.count = 1.5", "rules.SEN005.count is 1.5, expected a whole number"),
         ("rules.SEN005.count = true", "rules.SEN005.count is True, expected a whole number"),
         ("rules.SEN005.strict = 1", "rules.SEN005.strict is 1, expected true or false"),
@@ -198,9 +209,12 @@ def test_options_take_the_types_of_their_defaults() -> None:
         "word": "b",
         "names": ["c", "d"],
         "numbers": [1, 2.5],
+        "unnamed": ["e"],
     }
     options = options_of(RULES[0], Settings(options={"SEN005": given}))
-    assert options == given | {"limit": 3.0, "names": ("c", "d"), "numbers": (1.0, 2.5)}
+    assert options == given | {"limit": 3.0, "names": ("c", "d"), "numbers": (1.0, 2.5)} | {
+        "unnamed": ("e",)
+    }
     assert isinstance(options["limit"], float)
 
 

@@ -120,6 +120,15 @@ def test_every_page_is_for_everybody(
         assert "</script><b>" not in page.content()
 
 
+@pytest.mark.parametrize("rule", ["PKG012", "SEN026", "TRI002"])
+def test_long_options_stay_on_a_narrow_page(chromium: Browser, board: Board, rule: str) -> None:
+    with watched_page(chromium, width=390) as page:
+        page.goto(f"{board.address}/rules/{rule}")
+        told = page.locator(".told")
+        assert told.locator("table tr").count() > 1
+        assert told.evaluate("told => told.scrollWidth - told.clientWidth") <= 0
+
+
 def test_a_page_that_is_not_there_is_for_everybody(chromium: Browser, board: Board) -> None:
     page = chromium.new_page()
     try:

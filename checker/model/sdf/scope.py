@@ -53,7 +53,9 @@ class Scope:
         attribute = "relative_to" if self.version >= (1, 7) else "frame"
         written = element.get(attribute) or ""
         numbers, transform = self._numbers(element)
-        return Pose(transform, self.scoped(written) if written else "", numbers, element.span)
+        frame = self.scoped(written) if written else ""
+        in_radians = len(numbers) == len(_ZEROS) and not _in_degrees(element)
+        return Pose(transform, frame, numbers, element.span, in_radians)
 
     def _numbers(self, element: Element) -> tuple[tuple[Located[float], ...], Transform]:
         if not element.text.stated:
@@ -64,7 +66,7 @@ class Scope:
             return numbers, self._from_quaternion(element, (x, y, z), (qw, qx, qy, qz))
         numbers = self._finite_numbers(element, _ZEROS)
         x, y, z, roll, pitch, yaw = (number.value for number in numbers)
-        if element.get("degrees") in ("true", "1"):
+        if _in_degrees(element):
             roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
         return numbers, Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
 
@@ -83,3 +85,7 @@ class Scope:
             self.values.fault(FaultKind.VALUE, element.span, "a quaternion of zeros is no rotation")
             return Transform(translation=xyz)
         return Transform(rotation_from_quaternion(*quaternion), xyz)
+
+
+def _in_degrees(pose: Element) -> bool:
+    return pose.get("degrees") in ("true", "1")
