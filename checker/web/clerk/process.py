@@ -10,8 +10,10 @@ import asyncio
 import socket
 import subprocess
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
+from time import monotonic
 from typing import Any
 
 from checker.web.clerk.port import Slip
@@ -19,8 +21,14 @@ from checker.web.clerk.wire import answer_from_line, id_in, slip_to_line
 from checker.web.refusal import Refused
 
 _PIECE = 65_536
-PATIENCE = 120.0
-"""Seconds until an answer is no longer waited for; a hundred uploads at once take one."""
+_END = 1.0
+"""Seconds that a killed process has to end."""
+_AHEAD = 64
+"""Uploads that a process is told of before it answers: so many fit into the socket at once, and who
+writes never waits for it."""
+PATIENCE = 45.0
+"""Seconds until an answer is no longer waited for; a hundred uploads at once take one, and proxies
+wait for 60."""
 
 
 @dataclass(eq=False)
@@ -30,7 +38,9 @@ class _Running:
     Attributes:
         wire: Where it is told of them, and answers.
         waiting: For answers, by the number of the upload.
+        places: For uploads that it is told of.
         heard: The beginning of an answer.
+        heard_at: When it answered last, by `monotonic`.
         begun: Whether answers are listened for.
     """
 
@@ -38,7 +48,9 @@ class _Running:
     wire: socket.socket
     waiting: dict[int, asyncio.Future[Mapping[str, Any]]] = field(default_factory=dict)
     numbers: Iterator[int] = field(default_factory=count)
+    places: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(_AHEAD))
     heard: bytes = b""
+    heard_at: float = 0.0
     begun: bool = False
 
 
@@ -81,7 +93,22 @@ class ProcessClerk:
             Refused: Also where the process dies or does not answer: nobody knows whether the
                 check is ordered.
         """
-        running = self._ready()
+        running, began = self._ready(), monotonic()
+        try:
+            said = await asyncio.wait_for(self._answer(running, slip), self.patience)
+        except TimeoutError:
+            # Where others were answered meanwhile, it does not hang.
+            if running.heard_at < began:
+                self._lose(running)
+            raise _lost("did not take the upload in time") from None
+        return id_in(said)
+
+    async def _answer(self, running: _Running, slip: Slip) -> Mapping[str, Any]:
+        """Tell a process of an upload, and wait for what it answers."""
+        await running.places.acquire()
+        if self._running is not running:
+            running.places.release()
+            raise _lost("was interrupted while it took the upload")
         loop = asyncio.get_running_loop()
         if not running.begun:
             running.begun = True
@@ -90,16 +117,10 @@ class ProcessClerk:
         number = next(running.numbers)
         running.waiting[number] = answer
         try:
-            # Slips are short and few: the system holds them until they are read.
             running.wire.sendall(slip_to_line(number, slip))
         except OSError:
             self._lose(running)
-        try:
-            said = await asyncio.wait_for(answer, self.patience)
-        except TimeoutError:
-            # It may hang on a disk or a database; it goes on, since others may have more luck.
-            raise _lost("did not take the upload in time") from None
-        return id_in(said)
+        return await answer
 
     def _ready(self) -> _Running:
         if self._running is None:
@@ -122,23 +143,28 @@ class ProcessClerk:
         if not heard:
             self._lose(running)
             return
+        running.heard_at = monotonic()
         *lines, running.heard = (running.heard + heard).split(b"\n")
         for line in lines:
             number, said = answer_from_line(line)
             answer = running.waiting.pop(number)
+            running.places.release()
             if not answer.done():  # who asked may have gone
                 answer.set_result(said)
 
     def _lose(self, running: _Running) -> None:
         """Know nothing more of a process, and tell those who wait for it."""
-        if self._running is running:
-            self._running = None
+        if self._running is not running:
+            return
+        self._running = None
         if running.begun:
             asyncio.get_running_loop().remove_reader(running.wire)
         running.wire.close()
         running.process.kill()
-        running.process.wait()
+        with suppress(subprocess.TimeoutExpired):  # a disk that hangs keeps what is killed
+            running.process.wait(_END)
         for answer in running.waiting.values():
+            running.places.release()
             if not answer.done():
                 answer.set_exception(_lost("was interrupted while it took the upload"))
         running.waiting.clear()

@@ -6,10 +6,12 @@ import asyncio
 import hashlib
 import os
 import signal
+import sys
 import zipfile
 from collections.abc import Coroutine, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from time import monotonic
 from typing import Any, TypeVar
 
 import pytest
@@ -103,9 +105,7 @@ def test_a_database_that_is_away_is_said(
         run(clerk, taken(clerk, store, b"<sdf/>"))
 
 
-def test_one_that_hangs_is_not_waited_for_and_may_come_back(store: Store) -> None:
-    clerk = ProcessClerk((*CHILD, str(os.getpid()), "clerk"), patience=30)
-
+def test_one_that_hangs_is_replaced(store: Store, clerk: ProcessClerk) -> None:
     async def work() -> None:
         await taken(clerk, store, b"<sdf/>")
         pid = clerk.pid
@@ -116,14 +116,51 @@ def test_one_that_hangs_is_not_waited_for_and_may_come_back(store: Store) -> Non
             await taken(clerk, store, b"<sdf />")
         assert refused.value.status == 503
         assert refused.value.error == "The service did not take the upload in time."
-        os.kill(pid, signal.SIGCONT)
-        clerk.patience = 30
+        assert clerk.pid is None
+        clerk.patience = 60
         await taken(clerk, store, b"<sdf  />")
-        assert clerk.pid == pid
         assert not list((store.folder / "incoming").iterdir())
 
     run(clerk, work())
-    assert clerk.pid is None
+
+
+def test_many_who_wait_for_one_that_hangs_do_not_stop_the_others() -> None:
+    clerk = ProcessClerk(("/bin/sh", "-c", "exec sleep 60"), patience=0.5)
+
+    async def work() -> list[BaseException | str]:
+        slips = (clerk.take(Slip("/" + "a" * 300, "a.sdf", "sdf")) for _ in range(1000))
+        return await asyncio.gather(*slips, return_exceptions=True)
+
+    began = monotonic()
+    assert {type(each) for each in run(clerk, work())} == {Refused}
+    assert monotonic() - began < 30
+
+
+_ANSWERS_SOME = """
+import json, socket, sys
+with socket.socket(fileno=int(sys.argv[1])) as wire, wire.makefile("rb") as lines:
+    for line in lines:
+        number, slip = json.loads(line)
+        if slip["name"] != "bad":
+            wire.sendall(json.dumps([number, {"id": slip["name"]}]).encode() + b"\\n")
+"""
+
+
+def test_one_that_answers_others_is_kept() -> None:
+    clerk = ProcessClerk((sys.executable, "-c", _ANSWERS_SOME), patience=60)
+
+    async def work() -> None:
+        assert await clerk.take(Slip("/a", "first", "")) == "first"
+        pid, clerk.patience = clerk.pid, 1.0
+        bad = asyncio.ensure_future(clerk.take(Slip("/a", "bad", "")))
+        await asyncio.sleep(0.2)
+        clerk.patience = 60
+        assert await clerk.take(Slip("/a", "good", "")) == "good"
+        with pytest.raises(Refused, match="in time"):
+            await bad
+        assert clerk.pid == pid
+
+    run(clerk, work())
 
 
 def test_an_upload_that_is_gone_and_a_fault_of_ours_end_no_clerk(
