@@ -79,7 +79,7 @@ def options_of(rule: Rule, settings: Settings) -> dict[str, Any]:
 def _typed(value: object, default: object) -> object:
     """Return a value of TOML in the type of a default; None when it has another, or makes no sense.
 
-    Options are sizes, counts, shares: none is negative unless its default is.
+    Options are sizes, counts, shares: where the default is above 0, nothing is negative.
     """
     if isinstance(default, tuple) and isinstance(value, list):
         typed = tuple(_typed(each, _element(default)) for each in value)
@@ -98,7 +98,7 @@ def _element(default: tuple[Any, ...]) -> Any:
 
 
 def _is_allowed(value: Any, default: Any) -> bool:
-    return type(default) not in (int, float) or default < 0 or value >= 0
+    return type(default) not in (int, float) or default <= 0 or value >= 0
 
 
 def _float(value: Any) -> float:

@@ -122,7 +122,6 @@ def test_odd_values_stop_no_rule(rule: Rule, tmp_path: Path) -> None:
     [
         ("BRD001", 0, {"counts": [4, 8]}, "expected 4 or 8"),
         ("BRD001", 1, {"counts": [4]}, "expected 4; without it there is no limit"),
-        ("GEO001", 0, {"digits": 3}, "off π/2"),
         ("GEO011", 1, {"least_clearance": 0}, ""),
         ("GEO011", 0, {"least_clearance": 0, "tolerance": 0.1}, ""),
         ("INE004", -2, {"warning_above": 0.5}, "are too large for 2 kg"),
@@ -130,7 +129,9 @@ def test_odd_values_stop_no_rule(rule: Rule, tmp_path: Path) -> None:
         ("REF006", 1, {"folder": "textures"}, ""),
         ("ROS012", -2, {"published_elsewhere": ""}, "(camera_optical_frame)"),
         ("SEN010", 6, {"rgbd_pixels": 100}, "expected at most 100 pixels"),
-        ("SEN024", 0, {"angle": 0}, "looks the same way"),
+        ("BRD002", 0, {"depth": -0.05}, "inside link"),
+        ("SEN024", -4, {"angle": 1.6}, "looks the same way"),
+        ("SEN024", -4, {"angle": 1.5}, ""),
         ("PKG013", 1, {"limit_megabytes": 29.5}, "5.png"),
     ],
 )
@@ -141,3 +142,12 @@ def test_options_do_as_they_say(
     with example_of(rule, number, tmp_path) as run:
         messages = [each.message for each in run(**options).findings]
     assert any(said in each for each in messages) if said else not messages
+
+
+def test_a_fix_has_as_many_digits_as_are_wanted(tmp_path: Path) -> None:
+    (rule,) = (each for each in RULES if each.id == "GEO001")
+    with example_of(rule, 0, tmp_path) as run:
+        for digits, text in ((3, "1.571"), (50, "1.57079632679489662")):
+            (found,) = run(digits=digits).findings
+            assert found.fix is not None
+            assert [edit.replacement for edit in found.fix.edits] == [text]

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from checker.flattening.draft import Draft
+from checker.model.sdf.scope import in_degrees
 from checker.model.transform import Transform, Vector
 from checker.model.values import ValueReader
 from checker.source.text import Located
@@ -24,7 +25,7 @@ def write_pose(draft: Draft, holder: Element, pose: Transform) -> None:
         if _differs(pose, Transform()):
             draft.insert(holder, f"<pose>{pose_text(pose)}</pose>")
         return
-    read = _numbers(element, 6)
+    read = None if in_degrees(element) else _numbers(element, 6)
     if read is None:
         draft.put(element.whole_span, f"<pose>{pose_text(pose)}</pose>")
         return
@@ -38,7 +39,8 @@ def stated_pose(element: Element) -> Transform:
     read = _numbers(element, 6)
     if read is None:
         return Transform()
-    x, y, z, roll, pitch, yaw = (number.value for number in read)
+    x, y, z, *angles = (number.value for number in read)
+    roll, pitch, yaw = map(math.radians, angles) if in_degrees(element) else angles
     return Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
 
 

@@ -20,7 +20,7 @@ def sharpen_angles(tree: etree._Element) -> list[str]:
     changed = 0
     for pose in tree.iter("pose"):
         words = (pose.text or "").split()
-        if len(words) != _NUMBERS:
+        if len(words) != _NUMBERS or pose.get("degrees") in ("true", "1"):
             continue
         sharp = [_sharp(word) for word in words[3:]]
         if sharp != words[3:]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from lxml import etree
 
 from checker.convert.conversion import Conversion
@@ -53,15 +55,19 @@ def _shift(link: etree._Element, new_frame: Transform) -> None:
 
 
 def _pose_of(element: etree._Element) -> Transform:
-    words = (element.findtext("pose") or "").split()
-    if len(words) != _NUMBERS:
+    pose = element.find("pose")
+    words = (pose.text or "").split() if pose is not None else []
+    if pose is None or len(words) != _NUMBERS:
         return Transform()
-    x, y, z, roll, pitch, yaw = (parse_number(word) or 0.0 for word in words)
+    x, y, z, *angles = (parse_number(word) or 0.0 for word in words)
+    in_degrees = pose.get("degrees") in ("true", "1")
+    roll, pitch, yaw = map(math.radians, angles) if in_degrees else angles
     return Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
 
 
 def _pose(element: etree._Element, pose: Transform) -> None:
     fresh = element.find("pose") is None
     written = put(element, "pose", f"{numbers(pose.translation)} {numbers(pose.rpy)}")
+    written.attrib.pop("degrees", "")
     if fresh:
         element.insert(0, written)

@@ -22,9 +22,9 @@ def measure_hold(motion: Motion) -> Iterator[Measurement]:
     during, end = motion.during(leg), motion.last(leg, _END)
     sags = np.abs(np.array(motion.run.samples.joints)[end] - motion.run.rig.initial).max(axis=0)
     if sags.size:
-        # Of joints that give way alike the first is named, whatever a machine's last digits say.
+        # Of joints that give way alike the first is named, mostly whatever the last digits say.
         worst = int(sags.round(4).argmax())
-        yield Measurement("hold_sag", float(sags[worst]), motion.run.rig.names[worst])
+        yield Measurement("hold_sag", float(sags.max()), motion.run.rig.names[worst])
     heights = motion.position[during][:, 2]
     yield Measurement("hold_sink", float(heights[0] - heights.min()))
     yield Measurement("hold_tilt", float(motion.tilt[end].max()))

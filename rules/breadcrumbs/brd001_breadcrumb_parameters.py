@@ -41,7 +41,7 @@ def check(
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     plugins = breadcrumbs(robot)
-    expected = " or ".join(map(str, counts)) or "none"
+    expected = " or ".join(map(str, counts)) or "0"
     for plugin in plugins:
         yield from _missing(plugin, expected)
     numbers = [each.max_deployments for each in plugins if each.max_deployments is not None]

@@ -36,6 +36,8 @@ def check(
 ) -> Findings:
     """Report angles near a multiple of π/2: an error in a wheel's collision, else information.
 
+    Angles in degrees are passed over: there a quarter turn is written exactly.
+
     Options:
         tolerance: Radians; an angle that is off a multiple of π/2 other than 0 by less is taken to
             mean it, and reported.

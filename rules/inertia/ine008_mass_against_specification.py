@@ -25,9 +25,10 @@ def check(
     """Compare the sum of the links' masses with the stated mass, relative to the latter.
 
     Options:
-        error_above: Difference from the stated mass as a share of it; more is an error.
-        warning_above: Difference from the stated mass as a share of it; up to this it is passed
-            over, more is a warning.
+        error_above: Difference from the stated mass as a share of it, beside the rounding of the
+            sheet's figure; more is an error.
+        warning_above: Difference from the stated mass as a share of it, beside the rounding of the
+            sheet's figure; more is a warning.
         approximate_factor: Factor by which both shares grow where the sheet calls the mass
             approximate, as in "about 50 kg".
     """

@@ -125,6 +125,8 @@ GOOD = [
     {
         "@name": "MARBLE_HD2_sensor_config_1",
         "model.config": "<model><description>The HD2 of the Marble team</description></model>",
+        "specifications.md": "# MARBLE HD2 Sensor Config 1\n",
+        "launch/spawner.rb": None,
     },
 ]
 BAD = [

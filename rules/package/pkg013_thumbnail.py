@@ -18,6 +18,9 @@ from checker.source.png import png_fault
 FOLDER = "thumbnails"
 VIEWS = {"1.png": "iso", "2.png": "top", "3.png": "side", "4.png": "front", "5.png": "rear"}
 
+_ALL = 1e9
+"""Megabytes that no file has."""
+
 
 @rule("PKG013", "thumbnail-missing", Severity.WARNING)
 def check(package: Package, *, limit_megabytes: float = 30.0) -> Findings:
@@ -36,7 +39,7 @@ def check(package: Package, *, limit_megabytes: float = 30.0) -> Findings:
     for file in package.index.with_suffix(".png"):
         if posixpath.dirname(file.path) != FOLDER:
             continue
-        data = package.read_bytes(file.path, int(limit_megabytes * 1e6))
+        data = package.read_bytes(file.path, int(min(limit_megabytes, _ALL) * 1e6))
         fault = data.reason if isinstance(data, NotReadable) else png_fault(data)
         if fault is not None:
             yield finding(package.place(file.path), f"{file.path} {fault}")

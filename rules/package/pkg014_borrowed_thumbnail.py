@@ -8,6 +8,8 @@ Fix: make pictures of this robot.
 Source: common practice.
 """
 
+from functools import cache
+
 from checker.package.package import Package
 from checker.package.reading import NotReadable
 from checker.package.submissions import robot_of
@@ -24,15 +26,20 @@ def check(package: Package, *, most_compared: int = 50) -> Findings:
     """
     if package.only:
         return
+    robot = robot_of(package.name)
+
+    @cache
+    def others(size: int) -> list[tuple[Package, str]]:
+        alike = package.workspace.thumbnails_by_size.get(size, ())
+        return [each for each in alike if robot_of(each[0].name) != robot][:most_compared]
+
     for file in package.index.with_suffix(".png", ".jpg", ".jpeg"):
         if not file.path.startswith("thumbnails/") or not file.size:
             continue
         picture = package.read_bytes(file.path)
         if isinstance(picture, NotReadable):
             continue
-        alike = package.workspace.thumbnails_by_size.get(file.size, [])
-        others = (each for each in alike if robot_of(each[0].name) != robot_of(package.name))
-        for _, (other, path) in zip(range(most_compared), others, strict=False):
+        for other, path in others(file.size):
             if other.read_bytes(path) == picture:
                 yield finding(
                     package.place(file.path),

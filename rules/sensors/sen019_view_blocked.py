@@ -36,8 +36,8 @@ def check(
     Options:
         most: Share of a lidar's rays that may meet the robot, and of a camera's view that it may
             fill nearer than `close`, or that the near clip may cut open.
-        most_of_picture: Share of a camera's view that the robot may fill at any distance; more is
-            allowed, as it may see itself below.
+        most_of_picture: Share of a camera's view that the robot may fill at any distance, larger
+            than `most` as it may see itself below; more is reported.
         close: Metres from a camera; what the robot fills of its view nearer than this counts
             against `most`.
     """

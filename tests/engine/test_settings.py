@@ -162,7 +162,7 @@ def test_the_command_line_replaces_what_it_names() -> None:
         ("rules.SEN005.count = -1", "rules.SEN005.count is -1, expected a whole number, 0 or more"),
         (
             "rules.SEN005.numbers = [-2]",
-            "rules.SEN005.numbers is [-2], expected a list in which each is a number",
+            "rules.SEN005.numbers is [-2], expected a list in which each is a number, 0 or more",
         ),
         (
             "rules.SEN005.unnamed = [1]",

@@ -43,6 +43,17 @@ def assert_same(text: str, files: dict[str, str]) -> None:
     assert_same_inertia(before, after, names)
 
 
+def test_a_pose_in_degrees_is_turned() -> None:
+    text = """<sdf version="1.6"><model name="robot"><link name="base_link"/>
+  <model name="arm"><pose>1 0 0 0 0 0.5</pose>
+    <link name="l"><pose degrees="true">0 1 0 0 0 10</pose></link>
+  </model>
+  <joint name="j" type="fixed"><parent>base_link</parent><child>arm::l</child></joint>
+</model></sdf>
+"""
+    assert_same(text, {})
+
+
 def assert_same_inertia(before: Robot, after: Robot, names: FlatNames) -> None:
     """Joints may come in another order; of each, the inertia is what it was."""
     nested, flat = pin_model(before), pin_model(after)

@@ -63,6 +63,11 @@ def test_constants_of_the_guide() -> None:
     assert angle_in(tree) == "1.5707963267948966"
 
 
+def test_angles_in_degrees_stay_as_they_are() -> None:
+    tree = etree.fromstring("<model><pose degrees='true'>0 0 0 0 0 355</pose></model>")
+    assert sharpen_angles(tree) == []
+
+
 COLLISION = "<collision name='c'><pose>0 0 0.3 0 0 0</pose></collision>"
 WITHOUT_BASE = f"""<sdf><model><link name="base_footprint">{COLLISION}</link><link name="wheel"/>
 <joint name="j"><parent>base_footprint</parent><child>wheel</child></joint></model></sdf>"""
@@ -76,6 +81,16 @@ def test_the_root_takes_name_and_place_of_a_base_link_that_was_merged_into_it() 
     assert link.findtext("pose") == "0 0 0.1 0 0 0"
     assert link.findtext("collision/pose") == "0 0 0.2 0 0 0"
     assert tree.findtext("model/joint/parent") == "base_link"
+
+
+def test_a_pose_in_degrees_is_moved_and_written_in_radians() -> None:
+    tree = etree.fromstring(
+        WITHOUT_BASE.replace("<pose>0 0 0.3 0 0 0", '<pose degrees="true">0 0 0.3 0 0 90')
+    )
+    call_base_link(Conversion(tree, lumped={"base_link": Lumped("base_footprint", Transform())}))
+    (pose,) = tree.findall(".//collision/pose")
+    assert pose.text == "0 0 0.3 0 0 1.5707963267948966"
+    assert not pose.attrib
 
 
 @pytest.mark.parametrize(

@@ -54,7 +54,7 @@ class Scope:
         written = element.get(attribute) or ""
         numbers, transform = self._numbers(element)
         frame = self.scoped(written) if written else ""
-        in_radians = len(numbers) == len(_ZEROS) and not _in_degrees(element)
+        in_radians = len(numbers) == len(_ZEROS) and not in_degrees(element)
         return Pose(transform, frame, numbers, element.span, in_radians)
 
     def _numbers(self, element: Element) -> tuple[tuple[Located[float], ...], Transform]:
@@ -66,7 +66,7 @@ class Scope:
             return numbers, self._from_quaternion(element, (x, y, z), (qw, qx, qy, qz))
         numbers = self._finite_numbers(element, _ZEROS)
         x, y, z, roll, pitch, yaw = (number.value for number in numbers)
-        if _in_degrees(element):
+        if in_degrees(element):
             roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
         return numbers, Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
 
@@ -87,5 +87,6 @@ class Scope:
         return Transform(rotation_from_quaternion(*quaternion), xyz)
 
 
-def _in_degrees(pose: Element) -> bool:
+def in_degrees(pose: Element) -> bool:
+    """Whether the angles of a `<pose>` are in degrees, as SDF 1.9 and later allow."""
     return pose.get("degrees") in ("true", "1")
