@@ -20,8 +20,8 @@ LAYERS = (
     {"model", "package", "rule", "spawner"},
     {"confined"},
     {"checklist", "discovery", "dynamics", "flattening"}
-    | {"mesh", "paperwork", "profiles", "spawning", "suppression"},
-    {"rule_pages", "stages", "store", "trial", "xacro"},
+    | {"mesh", "paperwork", "profiles", "rule_options", "spawning", "suppression"},
+    {"rule_pages", "rule_text", "stages", "store", "trial", "xacro"},
     {"view"},
     {"display"},
     {"driving", "including", "launching", "settings"},
