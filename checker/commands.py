@@ -35,8 +35,6 @@ from checker.report.report import Report
 from checker.report.summary import statistics_text
 from checker.report.wording import plain, shortened
 from checker.rule import Rule
-from checker.rule_options import words_of
-from checker.rule_text import page_text
 from checker.saying import say_nothing
 from checker.suppression.baseline import DEFAULT_FILE, Baseline, read_baseline
 from checker.suppression.writing import baseline_to_renew, write_baseline
@@ -173,6 +171,8 @@ def exit_code(report: Report) -> int:
 
 def explain_rule(wanted: str) -> int:
     """Print a rule's page."""
+    from checker.rule_text import page_text
+
     rules = all_rules()
     rule = next((r for r in rules if wanted.upper() == r.id or wanted.lower() == r.name), None)
     if rule is None:
@@ -246,6 +246,8 @@ def list_rules(form: str) -> int:
 
 
 def _as_dict(rule: Rule) -> dict[str, object]:
+    from checker.rule_options import words_of
+
     page = parse_page(rule.page)
     return {
         "id": rule.id,

@@ -230,11 +230,10 @@ def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
     """
     from resource import RLIM_INFINITY
 
-    most, hardest = (
-        wanted if limit == RLIM_INFINITY else min(limit, wanted)
-        for limit, wanted in zip(given, (soft, hard), strict=True)
-    )
-    return most, hardest
+    def tighter(limit: int, wanted: int) -> int:
+        return wanted if limit == RLIM_INFINITY else min(limit, wanted)
+
+    return tighter(given[0], soft), tighter(given[1], hard)
 
 
 if __name__ == "__main__":

@@ -82,14 +82,10 @@ def _typed(value: object, default: object) -> object:
     Options are sizes, counts, shares: where the default is above 0, nothing is negative.
     """
     if isinstance(default, tuple) and isinstance(value, list):
-        typed = tuple(_typed(each, _element(default)) for each in value)
-        return None if None in typed else typed
-    if isinstance(default, float) and type(value) in (int, float):
-        number = _float(value)
-        return number if math.isfinite(number) and _is_allowed(number, default) else None
-    if type(value) is not type(default) or not _is_allowed(value, default):
-        return None
-    return value
+        elements = tuple(_typed(each, _element(default)) for each in value)
+        return None if None in elements else elements
+    typed = _finite(value) if isinstance(default, float) and type(value) in (int, float) else value
+    return typed if type(typed) is type(default) and _is_allowed(typed, default) else None
 
 
 def _element(default: tuple[Any, ...]) -> Any:
@@ -101,11 +97,13 @@ def _is_allowed(value: Any, default: Any) -> bool:
     return type(default) not in (int, float) or default <= 0 or value >= 0
 
 
-def _float(value: Any) -> float:
+def _finite(value: Any) -> float | None:
+    """Return a number as a float; None for infinity, NaN and what no float holds."""
     try:
-        return float(value)
+        number = float(value)
     except OverflowError:
-        return math.inf
+        return None
+    return number if math.isfinite(number) else None
 
 
 def _kind(default: Any) -> str:

@@ -17,6 +17,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from checker.profiles import Profile, profile
+from checker.rule import Rule
+
 NAME = "acme_rover_sensor_config_1"
 
 _HEAD = f"""<?xml version="1.0"?>
@@ -159,6 +162,11 @@ def model_with(fragment: str) -> str:
     if tag in _LINK_PARTS:
         return f'{_HEAD}<link name="base_link">\n{fragment}\n</link>\n{_TAIL}'
     return f'{_HEAD}<link name="base_link"/>\n{fragment}\n{_TAIL}'
+
+
+def judge_of(rule: Rule) -> Profile:
+    """Return the profile that judges the examples of a rule: that of SubT where it has the rule."""
+    return profile("subt") if profile("subt").includes(rule) else profile("urdf")
 
 
 def write_example(example: str | Mapping[str, Any], workspace: Path) -> Path:

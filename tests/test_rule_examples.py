@@ -11,13 +11,12 @@ import pytest
 from checker.cache import Cache, cache_folder
 from checker.discovery import all_rules
 from checker.package.opening import open_input
-from checker.profiles import profile
 from checker.report.report import Cause
 from checker.rule import Rule
 from checker.settings import find_settings
 from checker.subject import Subject
 from checker.suppressing import run_and_set_aside
-from tests.examples import expected_places, write_example
+from tests.examples import expected_places, judge_of, write_example
 
 CASES = [
     pytest.param(rule, kind, example, id=f"{rule.id}-{kind}-{number}")
@@ -32,9 +31,10 @@ def test_example(rule: Rule, kind: str, example: Any, tmp_path: Path) -> None:
     package = write_example(example, tmp_path)
     with open_input(package) as opened:
         subject = Subject(opened.packages[0], Cache(cache_folder()))
-        judge = profile("subt") if profile("subt").includes(rule) else profile("urdf")
         settings = find_settings([package]).overridden(thorough=True)
-        outcome = run_and_set_aside([rule, *_companions(example)], subject, judge, settings)
+        outcome = run_and_set_aside(
+            [rule, *_companions(example)], subject, judge_of(rule), settings
+        )
     unseen = [each for each in outcome.not_checked if each.rule == rule.id]
     looked_away = [each for each in unseen if each.cause is not Cause.NOT_APPLICABLE]
     assert not looked_away

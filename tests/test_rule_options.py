@@ -14,7 +14,6 @@ from checker.discovery import all_rules
 from checker.engine import Outcome
 from checker.finding import Severity
 from checker.package.opening import open_input
-from checker.profiles import profile
 from checker.report.report import Cause
 from checker.rule import Findings, Rule
 from checker.rule_options import Option, told_options, words_of, work_of
@@ -22,7 +21,7 @@ from checker.rule_text import page_text
 from checker.settings import Settings
 from checker.subject import Subject
 from checker.suppressing import run_and_set_aside
-from tests.examples import write_example
+from tests.examples import judge_of, write_example
 
 RULES = [
     rule
@@ -99,11 +98,10 @@ def example_of(rule: Rule, number: int, folder: Path) -> Iterator[Callable[..., 
     example = rule.bad[number] if number >= 0 else rule.good[number]
     with open_input(write_example(example, folder)) as opened:
         subject = Subject(opened.packages[0], Cache(cache_folder()))
-        judge = profile("subt") if profile("subt").includes(rule) else profile("urdf")
 
         def run(**options: object) -> Outcome:
             settings = Settings(options={rule.id: options}, thorough=True)
-            return run_and_set_aside([rule], subject, judge, settings)
+            return run_and_set_aside([rule], subject, judge_of(rule), settings)
 
         yield run
 

@@ -78,10 +78,14 @@ def six_numbers(pose: Transform, stated: Pose | None = None) -> tuple[str, str]:
         pose: What to write.
         stated: The pose of the source; where it is the same, its numbers are taken as written.
     """
-    usable = stated is not None and stated.in_radians and len(stated.numbers) == 6
-    if stated is not None and usable and _same(pose, stated.transform):
+    if stated is not None and _has_six_numbers(stated) and _same(pose, stated.transform):
         return exact_numbers(stated.numbers[:3]), exact_numbers(stated.numbers[3:])
     return numbers(pose.translation), numbers(pose.rpy)
+
+
+def _has_six_numbers(stated: Pose) -> bool:
+    """Whether a pose is stated as it is written here; one of a URDF may not be stated at all."""
+    return stated.in_radians and len(stated.numbers) == 6
 
 
 def _same(first: Transform, second: Transform) -> bool:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from checker.flattening.draft import Draft
-from checker.model.sdf.scope import in_degrees
+from checker.model.sdf.pose_numbers import in_degrees, transform_of
 from checker.model.transform import Transform, Vector
 from checker.model.values import ValueReader
 from checker.source.text import Located
@@ -39,9 +39,7 @@ def stated_pose(element: Element) -> Transform:
     read = _numbers(element, 6)
     if read is None:
         return Transform()
-    x, y, z, *angles = (number.value for number in read)
-    roll, pitch, yaw = map(math.radians, angles) if in_degrees(element) else angles
-    return Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
+    return transform_of(element, (number.value for number in read))
 
 
 def write_direction(draft: Draft, axis: Element, direction: Vector) -> None:

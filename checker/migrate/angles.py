@@ -6,6 +6,7 @@ import math
 
 from lxml import etree
 
+from checker.model.sdf.pose_numbers import in_degrees
 from checker.model.values import parse_number
 
 TOLERANCE = 1e-3
@@ -20,7 +21,7 @@ def sharpen_angles(tree: etree._Element) -> list[str]:
     changed = 0
     for pose in tree.iter("pose"):
         words = (pose.text or "").split()
-        if len(words) != _NUMBERS or pose.get("degrees") in ("true", "1"):
+        if len(words) != _NUMBERS or in_degrees(pose):
             continue
         sharp = [_sharp(word) for word in words[3:]]
         if sharp != words[3:]:

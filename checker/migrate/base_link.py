@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from lxml import etree
 
 from checker.convert.conversion import Conversion
 from checker.convert.writing import numbers
 from checker.migrate.xml_parts import put
+from checker.model.sdf.pose_numbers import transform_of
 from checker.model.transform import Transform
 from checker.model.values import parse_number
 
@@ -59,10 +58,7 @@ def _pose_of(element: etree._Element) -> Transform:
     words = (pose.text or "").split() if pose is not None else []
     if pose is None or len(words) != _NUMBERS:
         return Transform()
-    x, y, z, *angles = (parse_number(word) or 0.0 for word in words)
-    in_degrees = pose.get("degrees") in ("true", "1")
-    roll, pitch, yaw = map(math.radians, angles) if in_degrees else angles
-    return Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
+    return transform_of(pose, (parse_number(word) or 0.0 for word in words))
 
 
 def _pose(element: etree._Element, pose: Transform) -> None:

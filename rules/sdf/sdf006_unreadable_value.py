@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from checker.model.schema import ElementType
 from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.pose_numbers import in_degrees
 from checker.model.sdf.value_types import QUATERNION_POSE, misread, out_of_bounds
 from checker.resources import table
 from checker.rule import Finding, Findings, Severity, finding, rule
@@ -48,7 +49,7 @@ def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
     if value_type == "pose" and "rotation_format" in kind.attributes:
         quaternion = element.get("rotation_format") == "quat_xyzw"
         value_type = QUATERNION_POSE if quaternion else value_type
-        if quaternion and element.get("degrees") in ("true", "1"):
+        if quaternion and in_degrees(element):
             yield finding(element, "<pose> gives a quaternion in degrees, which has none")
     faults = misread(text, value_type) or out_of_bounds(text, kind.bounds)
     for fault in faults:

@@ -19,13 +19,12 @@ from checker.judging import findings_of
 from checker.package.opening import open_input
 from checker.package.package import Package
 from checker.patching.rounds import fix_package
-from checker.profiles import profile
 from checker.report.report import ReportedFinding
 from checker.rule import Rule
 from checker.settings import Settings
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
-from tests.examples import write_example
+from tests.examples import judge_of, write_example
 
 CASES = [
     pytest.param(rule, example, id=f"{rule.id}-{number}")
@@ -42,8 +41,7 @@ REVEALED = {
 
 
 def judge(rule: Rule, **wishes: Any) -> Settings:
-    name = "subt" if profile("subt").includes(rule) else "urdf"
-    return Settings(trial=False, profile=name, **wishes)
+    return Settings(trial=False, profile=judge_of(rule).name, **wishes)
 
 
 def fixed(package: Package, settings: Settings) -> tuple[Package, bool]:

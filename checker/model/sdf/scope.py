@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from math import radians
-
 from checker.model.components import Pose
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
+from checker.model.sdf.pose_numbers import in_degrees, transform_of
 from checker.model.transform import Transform, Vector, rotation_from_quaternion
 from checker.model.values import ValueReader
 from checker.record import record
@@ -65,10 +64,7 @@ class Scope:
             x, y, z, qx, qy, qz, qw = (number.value for number in numbers)
             return numbers, self._from_quaternion(element, (x, y, z), (qw, qx, qy, qz))
         numbers = self._finite_numbers(element, _ZEROS)
-        x, y, z, roll, pitch, yaw = (number.value for number in numbers)
-        if in_degrees(element):
-            roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
-        return numbers, Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))
+        return numbers, transform_of(element, (number.value for number in numbers))
 
     def _finite_numbers(
         self, element: Element, default: tuple[float, ...]
@@ -85,8 +81,3 @@ class Scope:
             self.values.fault(FaultKind.VALUE, element.span, "a quaternion of zeros is no rotation")
             return Transform(translation=xyz)
         return Transform(rotation_from_quaternion(*quaternion), xyz)
-
-
-def in_degrees(pose: Element) -> bool:
-    """Whether the angles of a `<pose>` are in degrees, as SDF 1.9 and later allow."""
-    return pose.get("degrees") in ("true", "1")

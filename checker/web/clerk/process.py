@@ -26,7 +26,7 @@ _END = 1.0
 _AHEAD = 64
 """Uploads that a process is told of before it answers: so many fit into the socket at once, and who
 writes never waits for it."""
-PATIENCE = 45.0
+_PATIENCE = 45.0
 """Seconds until an answer is no longer waited for; a hundred uploads at once take one, and proxies
 wait for 60."""
 
@@ -61,7 +61,7 @@ class ProcessClerk:
         patience: Seconds to wait for an answer.
     """
 
-    def __init__(self, command: Sequence[str], patience: float = PATIENCE) -> None:
+    def __init__(self, command: Sequence[str], patience: float = _PATIENCE) -> None:
         """Start no process yet.
 
         Args:
