@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import signal
 from collections.abc import Iterator
 from dataclasses import replace
@@ -229,6 +230,14 @@ class TestAGracefulStop:
         site.worker()
         assert site.end(id).stage is Stage.DONE
         assert site.stages(id) == WHOLE
+
+    def test_whichever_thread_the_signal_reaches(self, site: Site) -> None:
+        worker = site.worker()
+        assert site.end(site.submit()).stage is Stage.DONE
+        threads = [int(each.name) for each in Path(f"/proc/{worker.pid}/task").iterdir()]
+        other = next(each for each in threads if each != worker.pid)
+        assert ctypes.CDLL(None).tgkill(worker.pid, other, signal.SIGTERM) == 0
+        assert worker.wait(30) == 0
 
     def test_is_no_death(self, site: Site) -> None:
         id = site.submit("trial:1.5")
