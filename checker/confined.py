@@ -228,12 +228,14 @@ def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
         soft: The soft limit that is wanted.
         hard: The hard limit that is wanted, not below `soft`.
     """
+    return tighter(given[0], soft), tighter(given[1], hard)
+
+
+def tighter(limit: int, wanted: int) -> int:
+    """Return what is wanted, or the limit that there is if it allows less."""
     from resource import RLIM_INFINITY
 
-    def tighter(limit: int, wanted: int) -> int:
-        return wanted if limit == RLIM_INFINITY else min(limit, wanted)
-
-    return tighter(given[0], soft), tighter(given[1], hard)
+    return wanted if limit == RLIM_INFINITY else min(limit, wanted)
 
 
 if __name__ == "__main__":

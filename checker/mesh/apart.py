@@ -13,7 +13,7 @@ from pathlib import Path
 from time import monotonic, process_time
 from typing import BinaryIO
 
-from checker.confined import ANSWER_LIMIT, end_with_parent
+from checker.confined import ANSWER_LIMIT, end_with_parent, tighter
 from checker.record import record
 
 _OUT_OF_MEMORY, _FAILED = 71, 70
@@ -125,8 +125,7 @@ def _allow(seconds: int, until: float) -> None:
     """Let this process go on for so many seconds of processor time, or until it is too late."""
     left = min(float(seconds), until - monotonic())
     soft, hard = math.ceil(process_time() + left), resource.getrlimit(resource.RLIMIT_CPU)[1]
-    allowed = max(soft, 1) if hard == resource.RLIM_INFINITY else min(max(soft, 1), hard)
-    resource.setrlimit(resource.RLIMIT_CPU, (allowed, hard))
+    resource.setrlimit(resource.RLIMIT_CPU, (tighter(hard, max(soft, 1)), hard))
 
 
 def _memory() -> int:

@@ -12,7 +12,7 @@ import socket
 import sys
 from collections.abc import Sequence
 
-from checker.confined import end_with_parent
+from checker.confined import end_with_parent, tighter
 from checker.errors import CheckerError
 from checker.jobs.port import JobsUnreachable
 from checker.output import EXIT_CRASH, EXIT_USAGE, say_progress
@@ -62,7 +62,7 @@ def _allow_open_files() -> None:
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    allowed = _OPEN_FILES if hard == resource.RLIM_INFINITY else min(_OPEN_FILES, hard)
+    allowed = tighter(hard, _OPEN_FILES)
     if soft != resource.RLIM_INFINITY and soft < allowed:
         resource.setrlimit(resource.RLIMIT_NOFILE, (allowed, hard))
 
