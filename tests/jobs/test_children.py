@@ -69,6 +69,15 @@ def is_alive(process: int) -> bool:
         return False
 
 
+def killed(process: int) -> None:
+    """Kill a process, and wait until it has died: the system takes its time."""
+    os.kill(process, signal.SIGKILL)
+    deadline = monotonic() + 20
+    while is_alive(process) and monotonic() < deadline:
+        sleep(0.02)
+    assert not is_alive(process)
+
+
 def the_one(parent: int, module: str = "checker.jobs.checking_child") -> int:
     """Wait until a process has one child that runs a module, and return it."""
     deadline = monotonic() + 20
@@ -126,7 +135,7 @@ def test_one_that_waits_takes_the_next_check(store: Store, children: Children) -
 def test_one_that_died_is_not_missed(store: Store, children: Children) -> None:
     children.get_ready()
     first = the_one(os.getpid())
-    os.kill(first, signal.SIGKILL)
+    killed(first)
     seen = children_in(store, children)
     assert seen
     assert first not in seen
@@ -185,7 +194,7 @@ def test_one_that_reads_meshes_and_died_is_not_missed(
 ) -> None:
     archive = zip_of([SAMPLES / "husky_description"], tmp_path / "husky.zip").read_bytes()
     children.get_ready()
-    os.kill(the_one(the_one(os.getpid()), READER), signal.SIGKILL)
+    killed(the_one(the_one(os.getpid()), READER))
     outcome = check_file(store, children, lambda: None, archive, "husky.zip")
     assert isinstance(outcome, Checked)
     assert list((store.cache / "mesh").rglob("*.json"))
