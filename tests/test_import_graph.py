@@ -14,7 +14,7 @@ ROOT = Path(__file__).parent.parent
 
 LAYERS = (
     {"record"},
-    {"cache", "collection", "errors", "finding", "fingerprint", "loopback"},
+    {"cache", "collection", "ending", "errors", "finding", "fingerprint", "loopback"},
     {"page", "parts", "resources", "saying", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},

@@ -13,6 +13,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from checker.confined import module_path
+from checker.ending import on_requests_to_end
 from checker.errors import CheckerError
 from checker.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
 from checker.serving.child import CHILD
@@ -144,12 +145,7 @@ def _processes(
 def _signals() -> tuple[threading.Event, threading.Event]:
     """Return the events that the first and the second request to end set."""
     stop, at_once = threading.Event(), threading.Event()
-
-    def on_signal(_number: int, _frame: object) -> None:
-        (at_once if stop.is_set() else stop).set()
-
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, on_signal)
+    on_requests_to_end((signal.SIGTERM, signal.SIGINT), stop.set, at_once.set)
     return stop, at_once
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import field
 
+from checker.ending import on_requests_to_end
 from checker.jobs.children import Children
 from checker.jobs.durable.database import open_database, prepare, reachable
 from checker.jobs.durable.engine import land, launch
@@ -115,16 +116,10 @@ def work(options: WorkerOptions) -> None:
     )
     logging.getLogger("dbos").setLevel(logging.WARNING)
     stop = threading.Event()
-
-    def on_signal(_number: int, _frame: object) -> None:
-        if stop.is_set():
-            os._exit(1)
-        stop.set()
-
-    for number in (signal.SIGTERM, signal.SIGINT):
-        # Whoever started it may have it ignore the terminal's Ctrl-C, and stop it in time.
-        if signal.getsignal(number) is not signal.SIG_IGN:
-            signal.signal(number, on_signal)
+    # Whoever started it may have it ignore the terminal's Ctrl-C, and stop it in time.
+    both = (signal.SIGTERM, signal.SIGINT)
+    heeded = [each for each in both if signal.getsignal(each) is not signal.SIG_IGN]
+    on_requests_to_end(heeded, stop.set, lambda: os._exit(1))
     run_worker(stop, options)
     logging.shutdown()
     os._exit(0)
