@@ -16,6 +16,7 @@ from typing import Any
 
 from checker.cache import key_of
 from checker.jobs.children import Children
+from checker.jobs.crowd import let_pass
 from checker.jobs.isolation import StageLimits
 from checker.jobs.layout import ANSWER, MADE, OUT_OF_MEMORY, SAID, lay_out
 from checker.jobs.outcome import (
@@ -84,6 +85,7 @@ def _checked(
         return Refused("the upload is no longer there; upload it again")
     with store.workplace() as place:
         lay_out(place, upload, order, stage, limits)
+        let_pass(store, cancelled)
         ended = children.check(place, limits.seconds, cancelled)
         if ended.cancelled:
             return Cancelled()

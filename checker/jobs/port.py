@@ -36,7 +36,7 @@ class Order:
     """A check that somebody asks for.
 
     Attributes:
-        upload: Hash (SHA-256, hexadecimal) of the uploaded content in the store.
+        upload: Hash (BLAKE3, hexadecimal) of the uploaded content in the store.
         name: Of the uploaded file, made safe by `checker.store.naming`; its ending says what it is.
         profile: Of the check; empty for what suits.
     """

@@ -21,7 +21,7 @@ from checker.serving.exposure import address_of, listening, warning_of
 from checker.serving.supervisor import Pace, Process, keep_running, stop_all
 from checker.store.place import data_folder
 
-_NEEDED = ("dbos", "fastapi", "uvicorn")
+_NEEDED = ("blake3", "dbos", "fastapi", "uvicorn")
 _MOST_WORKERS = 2
 """Unless more are asked for: a trial keeps a core busy."""
 

@@ -23,7 +23,7 @@ from checker.record import record
 from checker.report.artefacts import ARTEFACT_NAME
 from checker.store.durable import move, rename, settle, settle_below, settle_name
 from checker.store.incoming import Incoming, TooLarge
-from checker.store.workplace import sweep, work_file, workplace
+from checker.store.workplace import number_of_files, sweep, work_file, workplace
 
 __all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge"]
 
@@ -55,6 +55,10 @@ class Store:
         self._make()
         with work_file(self.folder / "incoming") as (path, descriptor):
             yield Incoming(path, descriptor, limit, self.admit)
+
+    def coming(self) -> int:
+        """Return how many uploads are coming in."""
+        return number_of_files(self.folder / "incoming")
 
     def admit(self, file: Path, hash: str) -> None:
         """Keep an upload that has come whole, safe from a power failure.

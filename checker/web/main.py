@@ -32,4 +32,8 @@ def app_from_environment(clerk: Clerk | None = None) -> FastAPI:
     store.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     store.sweep()
     jobs = durable_jobs(database_url(), store, config.retention_days)
-    return create_app(jobs, store, config, clerk)
+    app = create_app(jobs, store, config, clerk)
+    # The framework works its routes out when they are first needed, which takes as long as several
+    # uploads: now nobody waits for it.
+    app.openapi()
+    return app
