@@ -20,6 +20,7 @@ from checker.jobs.outcome import Checked, Outcome
 from checker.jobs.port import Order, Stage
 from checker.store.store import Store
 from tests.conftest import SAMPLES
+from tests.web.server import eventually
 from tests.web.service import zip_of
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="the system has no /proc")
@@ -72,10 +73,7 @@ def is_alive(process: int) -> bool:
 def killed(process: int) -> None:
     """Kill a process, and wait until it has died: the system takes its time."""
     os.kill(process, signal.SIGKILL)
-    deadline = monotonic() + 20
-    while is_alive(process) and monotonic() < deadline:
-        sleep(0.02)
-    assert not is_alive(process)
+    assert eventually(lambda: not is_alive(process))
 
 
 def the_one(parent: int, module: str = "checker.jobs.checking_child") -> int:
@@ -204,10 +202,7 @@ def test_one_that_reads_meshes_ends_with_the_service(children: Children) -> None
     children.get_ready()
     reader = the_one(the_one(os.getpid()), READER)
     children.close()
-    deadline = monotonic() + 20
-    while is_alive(reader) and monotonic() < deadline:
-        sleep(0.02)
-    assert not is_alive(reader)
+    assert eventually(lambda: not is_alive(reader))
 
 
 def test_none_waits_after_the_end_and_a_check_goes_on(store: Store, children: Children) -> None:
@@ -229,7 +224,4 @@ def test_one_that_waits_ends_with_its_worker(tmp_path: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", WAITS, str(tmp_path)]) as worker:
         child = Path(f"/proc/{the_one(worker.pid)}")
         worker.kill()
-    deadline = monotonic() + 20
-    while child.exists() and monotonic() < deadline:
-        sleep(0.02)
-    assert not child.exists()
+    assert eventually(lambda: not child.exists())

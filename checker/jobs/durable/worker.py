@@ -85,12 +85,11 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     stages = Stages(Ledger(engine), queues, options.store, options.name, children)
     watchdog = Watchdog(roll, options.name, options.silence_seconds)
     retention = Retention(engine, queues, options.store, options.unused_seconds)
-    with reachable():
-        queues.declare(options.trials)
-        roll.beat(options.name)
     # What every result depends on takes 0.1 s to look through: now no upload waits for it.
     program_parts()
     with reachable():
+        queues.declare(options.trials)
+        roll.beat(options.name)
         launch(engine, options.name, stages.run)
     children.get_ready()
     landed = threading.Event()
