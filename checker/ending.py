@@ -2,33 +2,38 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
 from collections.abc import Callable, Collection
-from queue import SimpleQueue
 
 
 def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], object]) -> None:
     """Have something done at the first of some signals, something else at the second, and so on.
 
-    A handler interrupts the main thread wherever it is: within `Event.wait`, say, where it holds
-    the lock that `Event.set` waits for. So what is asked for is done by a thread of its own, and
-    all that the handler does is to tell it, by the one queue that may be interrupted at any point.
+    A thread of its own does it, woken by the signal itself. Python runs handlers in the main thread
+    alone: that sleeps on where the system gives the signal to another thread, as it does now and
+    then where threads start processes, and a handler may interrupt it within `Event.wait`, where it
+    holds the lock that `Event.set` waits for.
 
     Args:
         numbers: Of the signals.
         do: What is to be done, in this order; further signals do nothing.
     """
-    asked: SimpleQueue[None] = SimpleQueue()
+    heard, told = os.pipe()  # open until the process ends
+    os.set_blocking(told, False)
 
     def in_turn() -> None:
         for each in do:
-            asked.get()
+            while os.read(heard, 1)[0] not in numbers:
+                pass  # a signal that somebody else handles
             each()
 
-    def on_signal(_number: int, _frame: object) -> None:
-        asked.put(None)
-
     threading.Thread(target=in_turn, daemon=True, name="requests to end").start()
+    signal.set_wakeup_fd(told, warn_on_full_buffer=False)
     for number in numbers:
-        signal.signal(number, on_signal)
+        signal.signal(number, _do_nothing)
+
+
+def _do_nothing(_number: int, _frame: object) -> None:
+    """Handle a signal, so that it is told of and does not end the process."""

@@ -30,9 +30,6 @@ from checker.store.store import Store
 _LOG = logging.getLogger(__name__)
 _LANDING_SECONDS = 10.0
 """For the children of what is handed back to end, and for the database to hear of it."""
-_HEED_SECONDS = 0.5
-"""Until a signal is heeded that the system gave to another thread than the main one, as it does
-now and then where threads start processes: it wakes nobody, and only the main thread heeds it."""
 
 
 def _some_name() -> str:
@@ -96,8 +93,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     _in_background(watchdog.look, options.beat_seconds, landed)
     _in_background(retention.delete, options.cleaning_seconds, stop)
     _LOG.info("%s waits for checks", options.name)
-    while not stop.wait(_HEED_SECONDS):
-        pass
+    stop.wait()
     _LOG.info("%s stops; it has %g s for what is in hand", options.name, options.grace_seconds)
     _land(stages, options.grace_seconds)
     children.close()
