@@ -17,6 +17,7 @@ from functools import cache as once
 from pathlib import Path
 from typing import Any
 
+from checker.private import make_folder
 from checker.record import record
 
 SIZE_LIMIT = 300_000_000
@@ -101,7 +102,7 @@ class Cache:
             return
         path = self._path(kind, key)
         with suppress(OSError):
-            path.parent.mkdir(parents=True, exist_ok=True)
+            make_folder(path.parent)
             with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
                 file.write(json.dumps(result, separators=(",", ":")).encode())
             Path(file.name).replace(path)

@@ -210,3 +210,20 @@ def fresh_database(server: str) -> str:
     with psycopg.connect(server, autocommit=True) as connection:
         connection.execute(f"CREATE DATABASE {name}".encode())
     return server.rpartition("/")[0] + f"/{name}"
+
+
+def dump(url: str) -> bytes:
+    """Return the rows of all tables of a database, as `pg_dump` would write them."""
+    import psycopg
+    from psycopg import sql
+
+    tables = """SELECT table_schema, table_name FROM information_schema.tables
+        WHERE table_type = 'BASE TABLE' AND table_schema NOT IN ('pg_catalog', 'information_schema')
+        """
+    rows = b""
+    with psycopg.connect(url) as connection, connection.cursor() as cursor:
+        for schema, table in cursor.execute(tables).fetchall():
+            copy = sql.SQL("COPY {} TO STDOUT").format(sql.Identifier(schema, table))
+            with cursor.copy(copy) as lines:
+                rows += b"".join(bytes(line) for line in lines)
+    return rows

@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 LAYERS = (
-    {"record"},
+    {"private", "record"},
     {"cache", "collection", "ending", "errors", "finding", "fingerprint", "loopback"},
     {"page", "parts", "resources", "saying", "versions"},
     {"output", "report", "source"},

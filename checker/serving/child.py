@@ -16,6 +16,7 @@ from checker.confined import end_with_parent, tighter
 from checker.errors import CheckerError
 from checker.jobs.port import JobsUnreachable
 from checker.output import EXIT_CRASH, EXIT_USAGE, say_progress
+from checker.private import UMASK
 
 CHILD = (sys.executable, "-P", "-m", "checker.serving.child")
 """Starts such a process; what follows says whose child it is, and which."""
@@ -90,6 +91,7 @@ def main(arguments: Sequence[str]) -> int:
     """Be the process that the arguments ask for."""
     parent, kind, *rest = arguments
     end_with_parent()
+    os.umask(UMASK)  # for its own children and their libraries, too
     if os.getppid() != int(parent):  # it ended before this one could ask to end with it
         return EXIT_CRASH
     try:

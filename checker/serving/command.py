@@ -11,15 +11,20 @@ import threading
 from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from checker.confined import module_path
 from checker.ending import on_requests_to_end
 from checker.errors import CheckerError
 from checker.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
+from checker.private import UMASK
 from checker.serving.child import CHILD
 from checker.serving.exposure import address_of, listening, warning_of
 from checker.serving.supervisor import Pace, Process, keep_running, stop_all
 from checker.store.place import data_folder
+
+if TYPE_CHECKING:
+    from checker.store.store import Store
 
 _NEEDED = ("blake3", "dbos", "fastapi", "uvicorn")
 _MOST_WORKERS = 2
@@ -62,9 +67,9 @@ def worker(options: argparse.Namespace) -> int:
     from checker.jobs.durable.worker import WorkerOptions, work
     from checker.jobs.place import database_url
     from checker.jobs.port import JobsUnreachable
-    from checker.store.store import Store
 
-    store = Store(_data_made(options))
+    os.umask(UMASK)  # for its children and their libraries, too
+    store = _data_made(options)
     own = {"name": options.name} if options.name else {}
     try:
         work(WorkerOptions(database_url(), store, trials=options.jobs, **own))
@@ -105,12 +110,14 @@ def _environment(options: argparse.Namespace) -> Mapping[str, str]:
     return {**os.environ, "PYTHONPATH": module_path(), **said}
 
 
-def _data_made(options: argparse.Namespace) -> Path:
-    """Return the folder for data, made if need be; children look for it in the environment.
+def _data_made(options: argparse.Namespace) -> Store:
+    """Return the store, made if need be, for nobody else; children look for it in the environment.
 
     Raises:
         CheckerError: It cannot be made or written.
     """
+    from checker.store.store import Store
+
     if options.data:
         os.environ["SUBT_CHECK_DATA"] = str(Path(options.data).absolute())
     folder = data_folder()
@@ -123,7 +130,9 @@ def _data_made(options: argparse.Namespace) -> Path:
         raise CheckerError(
             f"{folder} cannot hold the data of the service ({problem}); choose another by --data"
         )
-    return folder
+    store = Store(folder)
+    store.tighten()
+    return store
 
 
 def _processes(

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from checker.private import make_folder
+
 
 def settle(path: Path) -> None:
     """Have a file or folder written to the disk."""
@@ -37,7 +39,7 @@ def move(source: Path, target: Path) -> None:
 
 def rename(source: Path, target: Path) -> None:
     """Do the same in no time; a power failure undoes it until `settle_name` has been called."""
-    target.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    make_folder(target.parent)
     source.rename(target)
 
 

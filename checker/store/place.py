@@ -7,6 +7,9 @@ from pathlib import Path
 
 from checker.errors import CheckerError
 
+DATABASE = "jobs.sqlite"
+"""The file of the database in that folder, unless it lies elsewhere."""
+
 
 def data_folder() -> Path:
     """Return the folder of uploads, results and the database; it may not be there yet.

@@ -19,10 +19,12 @@ from collections.abc import Collection, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from checker.private import tighten, tighten_below
 from checker.record import record
 from checker.report.artefacts import ARTEFACT_NAME
 from checker.store.durable import move, rename, settle, settle_below, settle_name
 from checker.store.incoming import Incoming, TooLarge
+from checker.store.place import DATABASE
 from checker.store.workplace import number_of_files, sweep, work_file, workplace
 
 __all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge"]
@@ -36,6 +38,7 @@ RESULT_LIMIT = 1_000_000_000
 CACHE_SECONDS = 86_400.0
 """That parts of a check are kept beyond their last use: for its second stage, and for a mended
 package that is uploaded again."""
+_OURS = ("uploads", "results", "incoming", "cache", "lock")
 _KEY = re.compile(r"[0-9a-f]{64}")
 
 
@@ -161,6 +164,18 @@ class Store:
         """Remove the temporary files of processes that have died."""
         sweep(self.folder / "incoming")
 
+    def tighten(self) -> None:
+        """Take from other users what an older version, or a copy, has left them of all this.
+
+        What else lies in the folder is not ours; then the folder itself stays as it is.
+        """
+        for name in _OURS:
+            tighten_below(self.folder / name)
+        with suppress(FileNotFoundError):
+            found = os.listdir(self.folder)  # noqa: PTH208 - names are all that is asked for
+            if all(name in _OURS or name.startswith(DATABASE) for name in found):
+                tighten(self.folder)
+
     def _expire_one(self, path: Path, before: float, place: Path) -> None:
         with self._alone(), suppress(FileNotFoundError):
             if path.stat().st_mtime < before:
@@ -178,9 +193,12 @@ class Store:
     def _alone(self) -> Iterator[None]:
         """Keep others from removing what is just being used again, for a moment."""
         self._make()
-        with (self.folder / "lock").open("a") as file:
-            fcntl.flock(file, fcntl.LOCK_EX)
+        lock = os.open(self.folder / "lock", os.O_RDWR | os.O_CREAT, 0o600)
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX)
             yield
+        finally:
+            os.close(lock)
 
 
 def _is_of_result(name: str) -> bool:

@@ -13,6 +13,7 @@ import pytest
 import sqlalchemy as sa
 
 from checker.jobs.checking import result_key
+from checker.jobs.durable.keys import key_of_check
 from checker.jobs.durable.tables import CHECKS
 from checker.jobs.port import Stage, State
 from tests.jobs.quick_worker import DEATH, PACKAGE, REFUSAL, WORDS
@@ -80,7 +81,7 @@ class TestACheck:
         assert other.result != first.result
 
     def test_that_nobody_knows_is_none(self, site: Site) -> None:
-        for id in ("", "x" * 22, "' or 1=1 --", "\N{ROBOT FACE}", "x.trial"):
+        for id in ("", "x" * 22, "' or 1=1 --", "\N{ROBOT FACE}", "\ud800", "x.trial"):
             assert site.jobs.status(id) is None
             assert site.jobs.events(id) == []
             assert site.jobs.cancel(id) is False
@@ -257,7 +258,8 @@ class TestRetention:
         keeps, goes = site.submit(), site.submit()
         site.worker(cleaning_seconds=0.3, unused_seconds=3.0)
         kept, gone = site.end(keeps), site.end(goes)
-        over = sa.update(CHECKS).where(CHECKS.c.id == goes).values(expires=gone.created)
+        key = key_of_check(goes)
+        over = sa.update(CHECKS).where(CHECKS.c.id == key).values(expires=gone.created)
         with site.jobs.engine.begin() as connection:
             connection.execute(over)
         for _ in range(600):
@@ -268,7 +270,7 @@ class TestRetention:
         assert site.store.names(gone.result) == ()
         assert site.jobs.status(goes) is None
         assert site.jobs.events(goes) == []
-        workflows = site.jobs.queues.client.list_workflows(workflow_ids=[goes, f"{goes}.trial"])
+        workflows = site.jobs.queues.client.list_workflows(workflow_ids=[key, f"{key}.trial"])
         assert workflows == []
         assert site.state(keeps) == kept
         assert site.store.names(kept.result)

@@ -106,6 +106,20 @@ def test_only_its_owner_can_read_it(tmp_path: Path) -> None:
     engine.dispose()
 
 
+def test_one_that_others_could_read_is_tightened(tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path}/jobs.sqlite"
+    first = open_database(url)
+    prepare(first)
+    with first.connect():
+        for each in tmp_path.iterdir():
+            each.chmod(0o666)
+        second = open_database(url)
+        found = {each.name: each.stat().st_mode & 0o777 for each in tmp_path.iterdir()}
+        assert found == dict.fromkeys(("jobs.sqlite", "jobs.sqlite-wal", "jobs.sqlite-shm"), 0o600)
+    first.dispose()
+    second.dispose()
+
+
 def test_a_database_that_goes_away_is_unreachable_in_every_call(tmp_path: Path) -> None:
     place = tmp_path / "data"
     jobs = durable_jobs(f"sqlite:///{place}/jobs.sqlite", Store(tmp_path))

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 from pathlib import Path
 
 from checker.jobs.durable.client import durable_jobs
+from checker.jobs.durable.keys import LENGTH, key_of_check
 from checker.jobs.port import Order
 from checker.store.store import Store
 
@@ -17,3 +19,28 @@ def test_an_id_is_128_random_bits(tmp_path: Path) -> None:
     assert {len(bits) for bits in drawn} == {16}
     # Nothing but chance is in them: no byte is the same in all, as in a time or a number.
     assert all(len({bits[at] for bits in drawn}) > 1 for at in range(16))
+
+
+def test_the_key_of_a_check_is_a_digest_of_its_own() -> None:
+    id = "0123456789abcdefghijkl"
+    digest = hashlib.sha256(b"subt-check: key of a check\0" + id.encode()).hexdigest()
+    assert key_of_check(id) == digest  # or stored checks would be lost
+    assert len(digest) == LENGTH
+    assert digest != hashlib.sha256(id.encode()).hexdigest()
+    assert key_of_check("\ud800") != key_of_check("")
+
+
+def test_only_the_id_opens_a_check(tmp_path: Path) -> None:
+    jobs = durable_jobs(f"sqlite:///{tmp_path}/jobs.sqlite", Store(tmp_path))
+    id = jobs.submit(Order("0" * 64, "robot.zip"))
+    state = jobs.status(id)
+    assert state is not None
+    assert state.id == id
+    assert len(jobs.events(id)) == 1
+    key = key_of_check(id)
+    assert jobs.status(key) is None
+    assert jobs.events(key) == []
+    assert jobs.cancel(key) is False
+    assert jobs.result(key) == ""
+    assert jobs.cancel(id) is True
+    jobs.engine.dispose()

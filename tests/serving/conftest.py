@@ -106,6 +106,7 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
                 cwd=folder,
                 env=environment_of(folder) | environment,
                 start_new_session=True,
+                umask=0,  # the laxest: nothing may depend on it
             )
         started.append(Serving(process, folder))
         return started[-1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
@@ -14,6 +15,7 @@ from blake3 import blake3
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.cache import Cache
 from checker.store.store import SUMMARY, Store, TooLarge
 
 KEY = "ab" * 32
@@ -211,9 +213,45 @@ def test_parts_of_checks_are_kept_a_day_longer(store: Store) -> None:
     assert [path.exists() for path in paths] == [False, True]
 
 
+@pytest.fixture
+def lax_umask() -> Iterator[None]:
+    before = os.umask(0)
+    yield
+    os.umask(before)
+
+
+@pytest.mark.usefixtures("lax_umask")
 def test_others_cannot_read_it(store: Store) -> None:
+    hash = uploaded(store, b"mine")
+    Cache(store.cache).put("mesh", KEY, {})
+    with store.workplace() as place:
+        for path in (store.folder, *store.folder.rglob("*"), place):
+            assert path.stat().st_mode & 0o077 == 0, path
+    assert store.upload(hash) is not None
+
+
+def test_what_others_could_read_is_tightened(store: Store, tmp_path: Path) -> None:
     uploaded(store, b"mine")
-    assert store.folder.stat().st_mode & 0o077 == 0
+    made(store, {"rover/report.json": ""})
+    (tmp_path / "elsewhere").mkdir(mode=0o755)
+    (store.folder / "results" / "link").symlink_to(tmp_path / "elsewhere")
+    ours = [store.folder, *(path for path in store.folder.rglob("*") if not path.is_symlink())]
+    for path in ours:
+        path.chmod(0o777 if path.is_dir() else 0o644)
+    store.tighten()
+    modes = {path: path.stat().st_mode & 0o777 for path in ours}
+    assert modes == {path: 0o700 if path.is_dir() else 0o600 for path in ours}
+    assert (tmp_path / "elsewhere").stat().st_mode & 0o777 == 0o755
+
+
+def test_what_lies_beside_it_in_its_folder_is_not_touched(store: Store) -> None:
+    uploaded(store, b"mine")
+    (store.folder / "letters").mkdir()
+    lax = (store.folder, store.folder / "letters", store.folder / "uploads")
+    for path in lax:
+        path.chmod(0o755)
+    store.tighten()
+    assert [path.stat().st_mode & 0o777 for path in lax] == [0o755, 0o755, 0o700]
 
 
 def test_what_expires_while_it_is_listed_is_whole_or_not_there(store: Store) -> None:

@@ -85,8 +85,8 @@ class Home:
         """Return the files of uploads, of results, or those that are coming in."""
         return [each for each in (self.folder / "data" / kind).rglob("*") if each.is_file()]
 
-    def ids(self) -> set[str]:
-        """Return the checks that the database knows."""
+    def keys(self) -> set[str]:
+        """Return the checks that the database knows, by their keys."""
         engine = open_database(self.database)
         with engine.connect() as connection:
             found = set(connection.execute(sa.select(CHECKS.c.id)).scalars())

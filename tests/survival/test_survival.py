@@ -9,6 +9,7 @@ from pathlib import Path
 
 import httpx
 
+from checker.jobs.durable.keys import key_of_check
 from tests.conftest import SAMPLES
 from tests.serving.conftest import SECONDS, Serve, wait_for
 from tests.survival.conftest import (
@@ -126,7 +127,7 @@ def test_all_is_killed_in_the_middle_of_several_checks(home: Home) -> None:
         assert (told["name"], told["stage"]) == (name, "done")
         assert told["files"] == [f"/api/checks/{id}/report.json"]
         assert_told_once(serving.url, id)
-    assert home.ids() == set(ids.values())
+    assert home.keys() == set(map(key_of_check, ids.values()))
     assert len([each for each in home.stored("results") if each.name == "report.json"]) == 10
     assert set(home.begun().values()) <= {1, 2}
     after = [event["number"] for event in events_of(serving.url, ids[names[0]], before[-1])]

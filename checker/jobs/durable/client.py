@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import sqlalchemy as sa
 
 from checker.jobs.checking import stored_result
 from checker.jobs.durable.database import open_database, prepare, reachable
-from checker.jobs.durable.ledger import WAITS, Ledger, Step
-from checker.jobs.durable.queues import Queues, queues_of
+from checker.jobs.durable.keys import key_of_check
+from checker.jobs.durable.ledger import Ledger, Step
+from checker.jobs.durable.queues import WAITS, Queues, queues_of
 from checker.jobs.durable.readings import alive, events_of, state_of
 from checker.jobs.outcome import Checked
 from checker.jobs.port import RETENTION_DAYS, Alive, Event, Order, Stage, State
@@ -24,6 +26,8 @@ _DAY = 86400.0
 @record()
 class DurableJobs:
     """`Jobs` on a database: SQLite or PostgreSQL.
+
+    Ids, which open reports, end here: what lies behind knows checks by their keys alone.
 
     Attributes:
         engine: Of the database, prepared.
@@ -49,31 +53,33 @@ class DurableJobs:
         again: the new check finishes at once and shares the report.
         """
         id = secrets.token_urlsafe(16)
+        key = key_of_check(id)
         known = stored_result(self.store, order, Stage.TRIAL)
         step = finished(known) if known else Step("queued", Stage.QUEUED, WAITS)
 
         def then(connection: sa.Connection) -> None:
             if known is None:
-                self.queues.put(connection, id, Stage.STATIC)
+                self.queues.put(connection, key, Stage.STATIC)
 
         with reachable():
-            self.ledger.enter(id, order, self.retention_days * _DAY, step, then)
+            self.ledger.enter(key, order, self.retention_days * _DAY, step, then)
         return id
 
     def status(self, id: str) -> State | None:
         """Return where a check stands; None for an id that was never given or is forgotten."""
         with reachable(), self.engine.connect() as connection:
-            return state_of(connection, id)
+            state = state_of(connection, key_of_check(id))
+        return state and replace(state, id=id)
 
     def events(self, id: str, after: int = 0) -> Sequence[Event]:
         """Return what has happened so far after event number `after`, in order."""
         with reachable(), self.engine.connect() as connection:
-            return events_of(connection, id, after)
+            return events_of(connection, key_of_check(id), after)
 
     def cancel(self, id: str) -> bool:
         """End a check; False if there was nothing to end."""
         with reachable():
-            return self.ledger.cancel(id)
+            return self.ledger.cancel(key_of_check(id))
 
     def result(self, id: str) -> str:
         """Return the key of the final report in the store; empty while there is none."""

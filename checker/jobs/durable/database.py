@@ -11,7 +11,9 @@ from typing import Any
 import sqlalchemy as sa
 
 from checker.jobs.durable.tables import METADATA
+from checker.jobs.durable.upgrade import hash_clear_ids
 from checker.jobs.port import JobsUnreachable
+from checker.private import tighten
 from checker.report.wording import plain, shortened
 
 CONNECT_SECONDS = 5
@@ -26,7 +28,7 @@ _POOL: Mapping[str, Any] = {
     "max_overflow": 0,
     "pool_timeout": _POOL_SECONDS,
     "pool_use_lifo": True,
-    "hide_parameters": True,  # ids open reports, and errors get into logs
+    "hide_parameters": True,  # names of files are their senders', and errors get into logs
 }
 _BUSY_MILLISECONDS = 30_000
 _NO_ADDRESS = (
@@ -84,7 +86,9 @@ def reachable() -> Iterator[None]:
 
 
 def prepare(engine: sa.Engine) -> None:
-    """Make the tables that are missing: DBOS's own and the ledger's; many may do so at once.
+    """Make the tables that are missing, DBOS's own and the ledger's, and upgrade older ones.
+
+    Many may do so at once.
 
     Raises:
         JobsUnreachable: The database does not answer.
@@ -101,6 +105,7 @@ def prepare(engine: sa.Engine) -> None:
             else:
                 connection.execute(sa.select(sa.func.pg_advisory_xact_lock(_MIGRATION_LOCK)))
             METADATA.create_all(connection)
+        hash_clear_ids(engine)
 
 
 def now(engine: sa.Engine) -> sa.ColumnElement[float]:
@@ -117,7 +122,7 @@ def _cause(error: sa.exc.SQLAlchemyError) -> str:
 
 
 def _make(file: Path) -> None:
-    """Make the file, for its owner alone: ids in it open reports, and SQLite would let all read it.
+    """Make the file, for its owner alone: SQLite would let all read it, and what lies beside it.
 
     Raises:
         JobsUnreachable: It cannot be made or written.
@@ -125,6 +130,8 @@ def _make(file: Path) -> None:
     try:
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         os.close(os.open(file, os.O_RDWR | os.O_CREAT, 0o600))
+        for suffix in ("", "-wal", "-shm"):  # of an older version, or a copy
+            tighten(file.with_name(file.name + suffix))
     except OSError as error:
         reason = error.strerror or "it cannot be opened"
         raise JobsUnreachable(f"the database {file} cannot be written ({reason})") from None

@@ -10,7 +10,7 @@ from checker.jobs.durable.queues import APPLICATION, VERSION
 from checker.jobs.port import Stage
 
 Run = Callable[[str, Stage], None]
-"""Does a stage of a check, told by its id; it may be called again after a crash."""
+"""Does a stage of a check, told by its key; it may be called again after a crash."""
 
 
 def launch(engine: sa.Engine, worker: str, run: Run) -> None:

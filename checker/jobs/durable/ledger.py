@@ -2,7 +2,8 @@
 
 Every change is one transaction that holds only if the check is where it was thought to be. A worker
 that was taken for dead and comes back finds that it has lost its turn, and what it says is not
-written.
+written. Checks go by their keys here and in all that follows (`checker.jobs.durable.keys`): who has
+a copy of the book opens no report by it.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import Any
 import sqlalchemy as sa
 
 from checker.jobs.durable.database import now
+from checker.jobs.durable.queues import WAITS
 from checker.jobs.durable.tables import CHECKS, EVENTS
 from checker.jobs.durable.together import Change, Together
 from checker.jobs.outcome import UNFINISHED
@@ -25,7 +27,6 @@ from checker.report.wording import plain, shortened
 
 WORKERS_LOST = 3
 """A check that so many workers died of is not given to another one."""
-WAITS = "waits for its turn"
 GIVEN_UP = f"{UNFINISHED}: its worker died three times"
 _WORDS_LIMIT = 2000
 _FINAL = [stage.value for stage in Stage if stage.is_final]
@@ -36,7 +37,7 @@ class Turn:
     """A check in the hands of a worker.
 
     Attributes:
-        id: Of the check.
+        id: Key of the check.
         number: Goes up whenever the check changes hands.
         order: What was asked for.
     """
@@ -77,7 +78,7 @@ class Ledger:
         """Write a new check into the book.
 
         Args:
-            id: A new one.
+            id: Key of a new one.
             order: What is asked for.
             keep_seconds: After which all of it is deleted.
             step: What it begins with.
@@ -105,7 +106,7 @@ class Ledger:
         A worker that has it in hand still is dead: only then the queue gives a check out again.
 
         Args:
-            id: Of the check.
+            id: Key of the check.
             worker: Name of the worker.
             step: What it does now; its stage says what the check must have come to.
 

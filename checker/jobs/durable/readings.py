@@ -16,7 +16,7 @@ _BEFORE_TRIAL = (Stage.QUEUED.value, Stage.STATIC.value)
 
 
 def state_of(connection: sa.Connection, id: str) -> State | None:
-    """Return where a check stands; None if it is not in the book."""
+    """Return where a check stands, with its key for an id; None if it is not in the book."""
     found = connection.execute(sa.select(CHECKS).where(CHECKS.c.id == id)).one_or_none()
     if found is None:
         return None

@@ -1,0 +1,166 @@
+"""Books in which ids stand in the clear: old links go on, and the ids are gone."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import sqlalchemy as sa
+
+from checker.jobs.durable.client import durable_jobs
+from checker.jobs.durable.database import open_database, prepare
+from checker.jobs.durable.keys import key_of_check
+from checker.jobs.durable.queues import queues_of
+from checker.jobs.port import Stage
+from checker.store.store import Store
+from tests.jobs.quick_worker import WORDS
+from tests.jobs.site import Site, site_in
+from tests.postgres import dump, fresh_database
+
+CHECK = """INSERT INTO subt_checks (id, upload, name, profile, stage, words, created, expires, result,
+    packages, worker, turn, losses) VALUES (:id, :upload, :name, '', :stage, :words, :created,
+    4e9, '', '[]', :worker, :turn, '[]')"""
+EVENT = """INSERT INTO subt_events (check_id, number, key, stage, words, time, data)
+    VALUES (:id, 1, 'queued', 'queued', 'waits for its turn', 1e9, '{}')"""
+TAKEN = """UPDATE {0}workflow_status SET status = 'PENDING', executor_id = 'dead'
+    WHERE workflow_uuid = :id"""
+STAGES = {
+    "waits": ("queued", "waits for its turn", "", Stage.STATIC),
+    "is read": ("static", "the rules look at it", "dead", Stage.STATIC),
+    "waits for its trial": ("trial", "the trial waits for its turn", "", Stage.TRIAL),
+    "is tried": ("trial", "the robot is tried on the course", "dead", Stage.TRIAL),
+    "is over": ("failed", "the checker could not finish", "", None),
+}
+"""Stage, words, worker and queue of checks as version 0.1.0 left them."""
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
+    if request.param == "sqlite":
+        return f"sqlite:///{tmp_path}/books/jobs.sqlite"
+    return fresh_database(request.getfixturevalue("postgres_url"))
+
+
+def written(url: str, upload: str, more: int = 0) -> dict[str, str]:
+    """Write books as version 0.1.0 did, and return the ids of their checks.
+
+    Args:
+        url: Of a new database.
+        upload: Hash of what all of them check.
+        more: Checks that are over besides.
+    """
+    engine = open_database(url)
+    prepare(engine)
+    queues = queues_of(engine)
+    queues.declare()
+    ids = {}
+    for number, name in enumerate([*STAGES, *["is over"] * more]):
+        stage, words, worker, queue = STAGES[name]
+        id = ids[f"{name} {number}"] = secrets.token_urlsafe(16)
+        check = {
+            **{"id": id, "upload": upload, "name": f"{number}.zip", "stage": stage},
+            **{"words": words, "created": 1e9 + number, "worker": worker, "turn": number},
+        }
+        with engine.begin() as connection:
+            connection.execute(sa.text(CHECK), check)
+            connection.execute(sa.text(EVENT), {"id": id})
+            queues.put(connection, id, Stage.STATIC)
+            if queue is Stage.TRIAL:
+                queues.put(connection, id, queue)
+            if worker:
+                schema = "" if engine.dialect.name == "sqlite" else "dbos."
+                workflow = id if queue is Stage.STATIC else f"{id}.trial"
+                connection.execute(sa.text(TAKEN.format(schema)), {"id": workflow})
+    engine.dispose()
+    return ids
+
+
+def bytes_of(url: str) -> bytes:
+    """Return all bytes of a database: its files, or a dump of what a server keeps."""
+    if url.startswith("sqlite"):
+        place = Path(url.removeprefix("sqlite:///"))
+        return b"".join(each.read_bytes() for each in place.parent.iterdir())
+    return dump(url)
+
+
+@pytest.fixture
+def upload(tmp_path: Path) -> str:
+    with Store(tmp_path / "store").incoming() as incoming:
+        incoming.write(b"robot")
+        return incoming.finish()
+
+
+@pytest.fixture
+def ids(url: str, upload: str) -> dict[str, str]:
+    return written(url, upload)
+
+
+@pytest.fixture
+def site(url: str, ids: dict[str, str], tmp_path: Path) -> Iterator[Site]:
+    assert all(id.encode() in bytes_of(url) for id in ids.values())
+    site = site_in(tmp_path, url)
+    yield site
+    site.close()
+
+
+def test_old_links_lead_to_their_checks(site: Site, ids: dict[str, str]) -> None:
+    states = {name: site.state(id) for name, id in ids.items()}
+    assert [state.id for state in states.values()] == list(ids.values())
+    assert [state.order.name for state in states.values()] == [f"{n}.zip" for n in range(5)]
+    assert [state.ahead for state in states.values()] == [0, 1, 0, 1, 0]
+    words = ["waits for its turn"] * 2 + ["the trial waits for its turn", "waits for its turn"]
+    assert [state.words for state in states.values()] == [*words, "the checker could not finish"]
+    assert all(site.stages(id) == [(1, "queued")] for id in ids.values())
+    assert all(site.jobs.status(key_of_check(id)) is None for id in ids.values())
+
+
+def test_the_ids_are_gone(site: Site, ids: dict[str, str], url: str) -> None:
+    found = bytes_of(url)
+    site.close()
+    found += bytes_of(url)
+    for id in ids.values():
+        assert id.encode() not in found
+        assert key_of_check(id).encode() in found
+
+
+def test_checks_that_were_not_over_are_gone_on_with(site: Site, ids: dict[str, str]) -> None:
+    site.worker()
+    for name, id in ids.items():
+        state = site.end(id)
+        over = name.startswith("is over")
+        assert (state.stage, state.words == WORDS) == (
+            (Stage.FAILED, False) if over else (Stage.DONE, True)
+        )
+    told = [event.words for id in ids.values() for event in site.jobs.events(id)]
+    assert not any("begins again" in words for words in told)
+    assert set(site.begun().values()) == {1}
+
+
+def test_many_checks_are_hashed_once(url: str, upload: str, tmp_path: Path) -> None:
+    ids = written(url, upload, more=220)
+    for _ in range(2):
+        jobs = durable_jobs(url, Store(tmp_path / "store"))
+        assert all(jobs.status(id) is not None for id in ids.values())
+        assert sum(jobs.alive().waiting.values()) == 4
+        jobs.engine.dispose()
+    assert not any(id.encode() in bytes_of(url) for id in ids.values())
+
+
+def test_a_file_that_was_not_written_anew_is_at_the_next_start(tmp_path: Path) -> None:
+    """As when the process was killed between the change and its end."""
+    engine = open_database(f"sqlite:///{tmp_path}/jobs.sqlite")
+    prepare(engine)
+    with engine.begin() as connection:
+        connection.exec_driver_sql("CREATE TABLE left_over (id TEXT)")
+        connection.exec_driver_sql("INSERT INTO left_over VALUES ('an id in the clear')")
+        connection.exec_driver_sql("PRAGMA user_version=1")
+    with engine.begin() as connection:
+        connection.exec_driver_sql("DROP TABLE left_over")
+    prepare(engine)
+    with engine.connect() as connection:
+        assert connection.exec_driver_sql("PRAGMA user_version").scalar() == 0
+        found = b"".join(each.read_bytes() for each in tmp_path.iterdir())
+    assert b"an id in the clear" not in found
+    engine.dispose()
