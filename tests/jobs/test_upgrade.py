@@ -19,9 +19,9 @@ from tests.jobs.quick_worker import WORDS
 from tests.jobs.site import Site, site_in
 from tests.postgres import dump, fresh_database
 
-CHECK = """INSERT INTO subt_checks (id, upload, name, profile, stage, words, created, expires, result,
-    packages, worker, turn, losses) VALUES (:id, :upload, :name, '', :stage, :words, :created,
-    4e9, '', '[]', :worker, :turn, '[]')"""
+CHECK = """INSERT INTO subt_checks (id, upload, name, profile, stage, words, created, expires,
+    result, packages, worker, turn, losses) VALUES (:id, :upload, :name, '', :stage, :words,
+    :created, 4e9, '', '[]', :worker, :turn, '[]')"""
 EVENT = """INSERT INTO subt_events (check_id, number, key, stage, words, time, data)
     VALUES (:id, 1, 'queued', 'queued', 'waits for its turn', 1e9, '{}')"""
 TAKEN = """UPDATE {0}workflow_status SET status = 'PENDING', executor_id = 'dead'
@@ -60,8 +60,14 @@ def written(url: str, upload: str, more: int = 0) -> dict[str, str]:
         stage, words, worker, queue = STAGES[name]
         id = ids[f"{name} {number}"] = secrets.token_urlsafe(16)
         check = {
-            **{"id": id, "upload": upload, "name": f"{number}.zip", "stage": stage},
-            **{"words": words, "created": 1e9 + number, "worker": worker, "turn": number},
+            "id": id,
+            "upload": upload,
+            "name": f"{number}.zip",
+            "stage": stage,
+            "words": words,
+            "created": 1e9 + number,
+            "worker": worker,
+            "turn": number,
         }
         with engine.begin() as connection:
             connection.execute(sa.text(CHECK), check)
@@ -156,7 +162,8 @@ def test_a_file_that_was_not_written_anew_is_at_the_next_start(tmp_path: Path) -
         connection.exec_driver_sql("CREATE TABLE left_over (id TEXT)")
         connection.exec_driver_sql("INSERT INTO left_over VALUES ('an id in the clear')")
         connection.exec_driver_sql("PRAGMA user_version=1")
-    with engine.begin() as connection:
+    with engine.connect() as connection:
+        connection.exec_driver_sql("PRAGMA secure_delete=OFF")  # on by default in some builds
         connection.exec_driver_sql("DROP TABLE left_over")
     prepare(engine)
     with engine.connect() as connection:

@@ -57,7 +57,7 @@ def test_a_web_server_is_killed_in_the_middle_of_an_upload(home: Home) -> None:
             assert connection.recv(1) == b""
     assert home.stored("incoming") == []
     assert home.stored("uploads") == kept
-    assert home.ids() == {accepted}
+    assert home.keys() == {key_of_check(accepted)}
     home.worker()
     assert wait_for_end(serving.url, accepted)["stage"] == "done"
     assert_told_once(serving.url, accepted)

@@ -23,9 +23,9 @@ CHECKS = sa.Table(
     sa.Column("turn", sa.Integer, nullable=False, default=0),
     sa.Column("losses", sa.JSON, nullable=False, default=list),
 )
-"""Each check. `id` is its key, which opens nothing (`checker.jobs.durable.keys`). `worker` has it in
-hand; empty while it waits or when it is over. `turn` goes up whenever it changes hands: who holds
-an older one has lost it. `losses` are the workers that died with it in hand."""
+"""Each check. `id` is its key, which opens nothing (`checker.jobs.durable.keys`). `worker` has it
+in hand; empty while it waits or when it is over. `turn` goes up whenever it changes hands: who
+holds an older one has lost it. `losses` are the workers that died with it in hand."""
 
 EVENTS = sa.Table(
     "subt_events",
