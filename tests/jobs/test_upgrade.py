@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -144,13 +145,18 @@ def test_checks_that_were_not_over_are_gone_on_with(site: Site, ids: dict[str, s
     assert set(site.begun().values()) == {1}
 
 
-def test_many_checks_are_hashed_once(url: str, upload: str, tmp_path: Path) -> None:
-    ids = written(url, upload, more=220)
-    for _ in range(2):
-        jobs = durable_jobs(url, Store(tmp_path / "store"))
-        assert all(jobs.status(id) is not None for id in ids.values())
-        assert sum(jobs.alive().waiting.values()) == 4
-        jobs.engine.dispose()
+def test_many_may_hash_many_checks_at_once(url: str, upload: str, tmp_path: Path) -> None:
+    ids = written(url, upload, more=420)
+    engines = [open_database(url) for _ in range(4)]
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(prepare, engines))
+    for engine in engines:
+        engine.dispose()
+    jobs = durable_jobs(url, Store(tmp_path / "store"))
+    assert all(jobs.status(id) is not None for id in ids.values())
+    workflows = jobs.queues.client.list_workflows(load_input=False)
+    assert len(workflows) == sum(jobs.alive().waiting.values()) == 4
+    jobs.engine.dispose()
     assert not any(id.encode() in bytes_of(url) for id in ids.values())
 
 

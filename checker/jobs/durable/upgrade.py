@@ -6,7 +6,8 @@ them may be killed: the next one goes on.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import sqlalchemy as sa
@@ -17,6 +18,8 @@ from checker.jobs.durable.tables import CHECKS, EVENTS
 from checker.jobs.port import Stage
 
 _AT_ONCE = 200
+_LOCK = 7_302_815_602
+"""Of PostgreSQL's advisory locks, beside that of `checker.jobs.durable.database`."""
 _FINAL = [stage.value for stage in Stage if stage.is_final]
 
 
@@ -26,16 +29,31 @@ def hash_clear_ids(engine: sa.Engine) -> None:
     SQLite's file is written anew, so that no id is left in what is free there. What PostgreSQL has
     replaced is in no dump; its own files hold it until `VACUUM FULL`.
     """
+    if _in_clear(engine):
+        with _alone(engine):
+            _hash_all(engine)
+    if engine.dialect.name == "sqlite":
+        _write_anew(engine)
+
+
+@contextmanager
+def _alone(engine: sa.Engine) -> Iterator[None]:
+    """Have others wait: PostgreSQL ends one of two that change the same rows in another order."""
+    with engine.begin() as connection:
+        if engine.dialect.name != "sqlite":
+            connection.execute(sa.select(sa.func.pg_advisory_xact_lock(_LOCK)))
+        yield
+
+
+def _hash_all(engine: sa.Engine) -> None:
+    queues = queues_of(engine)
     while ids := _in_clear(engine):
-        queues = queues_of(engine)
         # Before, or they would stay if this process died behind the change; and after, since a
         # worker of the old version may have queued a trial meanwhile.
         queues.forget(ids)
         with engine.begin() as connection:
             _hash(connection, queues, ids)
         queues.forget(ids)
-    if engine.dialect.name == "sqlite":
-        _write_anew(engine)
 
 
 def _in_clear(engine: sa.Engine) -> Sequence[str]:
