@@ -1,4 +1,4 @@
-"""Books in which ids of checks stand in the clear, as version 0.1.0 wrote them, are hashed.
+"""Books in which ids of checks stand in the clear, as version 0.1.0 writes them, are hashed.
 
 Old links lead to their checks as before. Any number of processes may do this at once, and any of
 them may be killed: the next one goes on.
@@ -64,6 +64,10 @@ def _in_clear(engine: sa.Engine) -> Sequence[str]:
 
 
 def _hash(connection: sa.Connection, queues: Queues, ids: Sequence[str]) -> None:
+    if connection.dialect.name == "sqlite":
+        # Before it is read: a worker of the old version may be about to change it.
+        connection.exec_driver_sql("BEGIN IMMEDIATE")
+        connection.exec_driver_sql("PRAGMA user_version=1")  # until it is written anew
     these = sa.select(CHECKS).where(CHECKS.c.id.in_(ids)).order_by(CHECKS.c.created)
     for found in connection.execute(these.with_for_update()).all():
         key = key_of_check(found.id)
@@ -75,8 +79,6 @@ def _hash(connection: sa.Connection, queues: Queues, ids: Sequence[str]) -> None
         if not is_over:
             trial = found.stage == Stage.TRIAL
             queues.put(connection, key, Stage.TRIAL if trial else Stage.STATIC)
-    if connection.dialect.name == "sqlite":
-        connection.exec_driver_sql("PRAGMA user_version=1")  # until it is written anew
 
 
 def _waiting(found: sa.Row[Any]) -> dict[str, Any]:
