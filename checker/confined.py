@@ -1,47 +1,52 @@
-"""Work on hostile or heavy input in a child process with limits; it may die, its parent goes on.
+"""Work on hostile or heavy input in a process with limits and walls; it may die, we go on.
 
-The child runs one function of one module: `answer(request: bytes) -> bytes`. Requests and answers
-are bytes (JSON, say), never pickles: a child that was taken over must not take its parent. They lie
-in a folder of which the child is told when there is a request.
+The process runs one function of one module: `answer(request, files)`. What goes to and fro are
+bytes (JSON, say), never pickles: a process that was taken over must not take who asked it. It is
+started within the walls of `checker.sandbox`, and given no path.
 """
 
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
+import select
 import tempfile
+from collections.abc import Iterable
 from contextlib import suppress
-from pathlib import Path
 from time import monotonic
+from typing import BinaryIO
 
-from checker.package.reading import NotReadable, read_bytes
 from checker.record import record
+from checker.sandbox import files as handed
+from checker.sandbox.files import Content, Files
+from checker.sandbox.launcher import Launcher, Order, launcher
+from checker.sandbox.task import OUT_OF_MEMORY
 
-_OWN_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-_REQUEST, _ANSWER = "request", "answer"
-"""Files in the folder of a child."""
 ANSWER_LIMIT = 200_000_000
 """Bytes; an answer has at least one."""
 _STARTUP_SECONDS = 10.0
-"""For the interpreter and its imports, on a machine that does something else as well."""
+"""For the imports, on a machine that does something else as well."""
+_ENDS_SECONDS = 5.0
+"""Until a process that is killed has ended, at most."""
+_CODE_LIMIT = 16
 
 
 @record()
 class Limits:
-    """What a child may use.
+    """What a process may use.
 
     Attributes:
         seconds: Of processor time; four times as many pass on the clock before it is stopped.
         memory: Bytes of address space.
+        draws: Whether it may use graphics cards.
     """
 
     seconds: float
     memory: int = 1_000_000_000
+    draws: bool = False
 
     @property
     def clock_seconds(self) -> float:
-        """How long the child may take by the clock."""
+        """How long the process may take by the clock."""
         return 4.0 * self.seconds + _STARTUP_SECONDS
 
 
@@ -57,120 +62,125 @@ class Died:
 
 
 class Child:
-    """A child process that works while its parent does something else."""
+    """A process that works while who asked does something else."""
 
-    def __init__(self, module: str, request: bytes | None, limits: Limits) -> None:
+    def __init__(
+        self,
+        module: str,
+        request: bytes | None,
+        limits: Limits,
+        contents: Iterable[tuple[str, Content]] = (),
+        starter: Launcher | None = None,
+        *,
+        works: bool = False,
+    ) -> None:
         """Start it.
 
         Args:
             module: Full name of the module whose `answer` does the work. Its `prepare`, if it has
                 one, is called before the request is there.
             request: What `answer` is given; None when `give` brings it later.
-            limits: What the child may use.
+            limits: What the process may use.
+            contents: Files that go with the request: their names, and what is in them.
+            starter: Starts it; that of this process when None.
+            works: Whether it writes into the working folder, and asks for processes itself.
         """
         self.limits = limits
         self.deadline = monotonic() + limits.clock_seconds
-        self._folder: tempfile.TemporaryDirectory[str] | None = None
-        self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-            [*_COMMAND, module, str(int(limits.seconds)), str(limits.memory)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            # While it waits it has no folder, so that one that is killed leaves none.
-            cwd="/",
-            env=_environment(),
-        )
+        # No names: one that is killed leaves none, and nobody else can open them.
+        self._request: BinaryIO = tempfile.TemporaryFile()  # noqa: SIM115 - closed by `stop`
+        self._answer: BinaryIO = tempfile.TemporaryFile()  # noqa: SIM115
+        order = Order(module, int(limits.seconds), limits.memory, works, limits.draws)
+        self._started = (starter or launcher()).start(order, self._request, self._answer)
+        self.code: int | None = None
+        """Its exit code once it has ended; of a signal, its negative number."""
+        self._stopped = False
         if request is not None:
             try:
-                self.give(request)
+                self.give(request, contents)
             except BaseException:  # such as a full disk: nobody else knows of the process
                 self.stop()
                 raise
 
     @property
-    def pid(self) -> int:
-        """Its process id."""
-        return self._process.pid
-
-    @property
     def alive(self) -> bool:
         """Whether it has not ended."""
-        return self._process.poll() is None
+        return not self.ends(0.0)
 
-    def give(self, request: bytes) -> None:
-        """Bring the request to a child that was started without one; its time begins now."""
+    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> None:
+        """Bring the request to a process that was started without one; its time begins now."""
         self.deadline = monotonic() + self.limits.clock_seconds
-        # It works in a folder of its own: libraries write logs, and import what lies around.
-        self._folder = tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True)
-        # In files, not through pipes: neither side waits for the other to read.
-        for name, content in ((_REQUEST, request), (_ANSWER, b"")):
-            Path(self._folder.name, name).write_bytes(content)
+        handed.write(self._request, request, contents)
         # One that has died says why when it is asked for its answer.
         with suppress(OSError):
-            if self._process.stdin is not None:
-                self._process.stdin.write(os.fsencode(self._folder.name))
-                self._process.stdin.close()
+            os.write(self._started.leash, b"!")
 
     def answer(self) -> bytes | Died:
         """Wait for the answer."""
         try:
-            code = self._process.wait(max(self.deadline - monotonic(), 0.0))
-            return self._answered() if code == 0 else Died(_cause(code, self.limits))
-        except subprocess.TimeoutExpired:
-            return Died(f"took longer than {self.limits.clock_seconds:g} s and was stopped")
+            if not self.ends(self.deadline - monotonic()):
+                return Died(f"took longer than {self.limits.clock_seconds:g} s and was stopped")
+            if self.code is None:
+                return Died("could not be started")
+            if self.code != 0:
+                return Died(_cause(self.code, self.limits))
+            answer = self.answered(ANSWER_LIMIT)
+            return answer if isinstance(answer, Died) else answer[0]
         finally:
             self.stop()
 
-    def _answered(self) -> bytes | Died:
-        """Return what the child has left in its folder."""
-        if self._folder is None:
-            return Died("was given nothing")
-        answer = read_bytes(Path(self._folder.name, _ANSWER), _ANSWER, ANSWER_LIMIT)
-        if isinstance(answer, NotReadable):
-            return Died(f"left an answer that {answer.reason}")
+    def ends(self, seconds: float) -> bool:
+        """Wait for its end; False if it goes on after so many seconds."""
+        if self._stopped:
+            return True
+        poll = select.poll()
+        poll.register(self._started.code, select.POLLIN)
+        if not poll.poll(max(0.0, seconds) * 1000.0):
+            return False
+        said = os.read(self._started.code, _CODE_LIMIT)
+        if said and self.code is None:
+            self.code = int(said)
+        return True
+
+    def answered(self, limit: int) -> tuple[bytes, Files] | Died:
+        """Return what it has written; the files can be read until it is stopped.
+
+        Args:
+            limit: Bytes of the answer; the files have limits of their own.
+        """
+        descriptor = self._answer.fileno()
         # A library may end the process with exit code 0 before anything is said.
-        return answer or Died("ended without an answer")
+        if os.fstat(descriptor).st_size == 0:
+            return Died("ended without an answer")
+        try:
+            answer, files = handed.read(descriptor, limit)
+        except handed.Damaged as damage:
+            return Died(f"left an answer that {damage}")
+        return (answer, files) if answer else Died("ended without an answer")
 
     def stop(self) -> None:
-        """End the child, whatever it does; nothing happens if it has ended."""
-        self._process.kill()
-        self._process.wait()
-        if self._process.stdin is not None:
-            with suppress(OSError):
-                self._process.stdin.close()
-        if self._folder is not None:
-            self._folder.cleanup()
+        """End the process, whatever it does; nothing happens if it has ended."""
+        if self._stopped:
+            return
+        os.close(self._started.leash)
+        self.ends(_ENDS_SECONDS)
+        self._stopped = True
+        os.close(self._started.code)
+        self._request.close()
+        self._answer.close()
 
 
-# `-P` keeps the folder that it runs in out of the search for modules.
-_COMMAND = (sys.executable, "-P", "-m", "checker.confined")
-
-
-def module_path() -> str:
-    """Return the `PYTHONPATH` by which a child finds the same modules, wherever it runs."""
-    here = str(Path(__file__).parent.parent)
-    return os.pathsep.join(filter(None, (here, os.environ.get("PYTHONPATH"))))
-
-
-def _environment() -> dict[str, str]:
-    # Nothing is drawn here, and MuJoCo refuses to load where its renderer does not.
-    own = {name: value for name, value in os.environ.items() if name != "MUJOCO_GL"}
-    return {**own, **dict.fromkeys(_OWN_THREADS, "1"), "PYTHONPATH": module_path()}
-
-
-def ask(module: str, request: bytes, limits: Limits) -> bytes | Died:
-    """Let a child do the work of a module and wait for the answer; see `Child`."""
-    return Child(module, request, limits).answer()
-
-
-_OUT_OF_MEMORY, _FAILED = 71, 70
-"""Exit codes of a child, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
+def ask(
+    module: str, request: bytes, limits: Limits, contents: Iterable[tuple[str, Content]] = ()
+) -> bytes | Died:
+    """Let a process do the work of a module and wait for the answer; see `Child`."""
+    return Child(module, request, limits, contents).answer()
 
 
 def _cause(code: int, limits: Limits) -> str:
     import signal
 
-    if code == _OUT_OF_MEMORY:
+    if code == OUT_OF_MEMORY:
         return f"needs more than {limits.memory / 1e6:.0f} MB of memory"
     if code == -signal.SIGXCPU:
         return f"needs more than {limits.seconds:g} s of processor time"
@@ -179,73 +189,3 @@ def _cause(code: int, limits: Limits) -> str:
     if code < 0:
         return f"ended in a crash (signal {signal.Signals(-code).name})"
     return "failed in its process"
-
-
-def end_with_parent() -> None:
-    """Have this process killed when its parent ends, where the system can (Linux: prctl)."""
-    import ctypes
-    import signal
-
-    with suppress(OSError, AttributeError):
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-
-
-_PR_SET_PDEATHSIG = 1
-
-
-def _work(module: str, seconds: int, memory: int) -> None:
-    """Be the child: set the limits, then answer what lies in the folder that the parent names."""
-    from importlib import import_module
-
-    end_with_parent()
-    _hold_to(seconds, memory)
-    work = import_module(module)
-    if hasattr(work, "prepare"):
-        work.prepare()
-    folder = sys.stdin.buffer.read()
-    if folder:
-        os.chdir(folder)
-        Path(_ANSWER).write_bytes(work.answer(Path(_REQUEST).read_bytes()))
-
-
-def _hold_to(seconds: int, memory: int) -> None:
-    """Take from this process what it shall not use; no limit that it has already is raised."""
-    import resource
-
-    for kind, soft, hard in (
-        (resource.RLIMIT_CPU, max(seconds, 1), max(seconds, 1) + 1),
-        (resource.RLIMIT_AS, memory, memory),
-        (resource.RLIMIT_CORE, 0, 0),
-    ):
-        resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
-
-
-def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
-    """Return the soft and the hard limit to set where others are set already: the tighter of each.
-
-    Args:
-        given: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
-        soft: The soft limit that is wanted.
-        hard: The hard limit that is wanted, not below `soft`.
-    """
-    return tighter(given[0], soft), tighter(given[1], hard)
-
-
-def tighter(limit: int, wanted: int) -> int:
-    """Return what is wanted, or the limit that there is if it allows less."""
-    from resource import RLIM_INFINITY
-
-    return wanted if limit == RLIM_INFINITY else min(limit, wanted)
-
-
-if __name__ == "__main__":
-    code = 0
-    try:
-        _work(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))
-    except MemoryError:
-        code = _OUT_OF_MEMORY
-    except Exception:  # the parent says that the child failed
-        code = _FAILED
-        if os.environ.get("SUBT_CHECK_DEBUG"):
-            raise
-    os._exit(code)

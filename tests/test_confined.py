@@ -5,24 +5,45 @@ from __future__ import annotations
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from checker.confined import Child, Died, Limits, ask, tightened
+from checker.confined import Child, Died, Limits
+from checker.package.reading import NotReadable
+from checker.sandbox.files import Damaged, from_disk, read, write
+from checker.sandbox.launcher import OwnLauncher
+from checker.sandbox.task import tightened
 
 LIMITS = Limits(seconds=5, memory=1_000_000_000)
 
 
-def ask_for(body: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limits: Limits) -> object:
-    """Let a child run the body of an `answer`."""
-    (tmp_path / "some_work.py").write_text(f"def answer(request):\n    {body}\n")
+@contextmanager
+def starter(body: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[OwnLauncher]:
+    """Give a launcher whose processes find the module `some_work`."""
+    (tmp_path / "some_work.py").write_text(body)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     # Bytecode of the body before would count as that of one of the same length and second.
     monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
-    return ask("some_work", b"ping", limits)
+    with closing(OwnLauncher()) as found:
+        yield found
+
+
+def ask_for(
+    body: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    limits: Limits = LIMITS,
+    files: tuple[tuple[str, int], ...] = (),
+) -> object:
+    """Let a child run the body of an `answer`."""
+    module = f"def answer(request, files):\n    {body}\n"
+    with starter(module, tmp_path, monkeypatch) as found:
+        return Child("some_work", b"ping", limits, from_disk(files), found).answer()
 
 
 def test_an_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -34,7 +55,7 @@ def test_an_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     ("body", "reason"),
     [
         ("raise ValueError", "failed"),
-        ("raise SystemExit(0)", "ended without an answer"),
+        ("raise SystemExit(0)", "failed"),
         ("import os; os._exit(0)", "ended without an answer"),
         ("return b''", "ended without an answer"),
         ("return b'x' * 2_000_000_000", "needs more than 1000 MB of memory"),
@@ -61,54 +82,93 @@ def test_a_child_that_never_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 
 def test_a_child_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "some_work.py").write_text("import time\ndef answer(r):\n    time.sleep(600)\n")
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    child = Child("some_work", b"", LIMITS)
-    child.deadline = 0.0
-    assert isinstance(child.answer(), Died)
+    body = "import time\ndef answer(request, files):\n    time.sleep(600)\n"
+    with starter(body, tmp_path, monkeypatch) as found:
+        child = Child("some_work", b"", LIMITS, starter=found)
+        assert child.alive
+        child.deadline = 0.0
+        assert isinstance(child.answer(), Died)
+        assert not child.alive
 
 
-def test_a_child_that_waits_has_nothing_on_the_disk(
+def test_files_are_handed_over_and_no_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "file").write_bytes(b"content")
+    (tmp_path / "link").symlink_to("file")
+    paths = [str(tmp_path / name) for name in ("file", "link", "none")]
+    body = f"return repr([files.read(path) for path in {paths}]).encode()"
+    said = ask_for(body, tmp_path, monkeypatch, files=tuple((path, 10) for path in paths))
+    assert isinstance(said, bytes)
+    first, link, none = eval(said, {"NotReadable": NotReadable})  # noqa: S307 - our own words
+    assert first == b"content"
+    assert isinstance(link, NotReadable)
+    assert isinstance(none, NotReadable)
+    assert "No such file" in none.reason
+    (large,) = (ask_for(body, tmp_path, monkeypatch, files=((paths[0], 6),)),)
+    assert b"more than the 6e-06 MB that are read" in large  # type: ignore[operator]
+
+
+def test_a_child_leaves_nothing_on_the_disk(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "some_work.py").write_text(
-        "import os\ndef answer(r):\n    return r + os.getcwd().encode()\n"
-    )
     (tmp_path / "temporary").mkdir()
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
-    child = Child("some_work", None, LIMITS)
-    assert not list((tmp_path / "temporary").iterdir())
-    child.give(b"in ")
-    (folder,) = (tmp_path / "temporary").iterdir()
-    assert child.answer() == f"in {folder}".encode()
-    assert not list((tmp_path / "temporary").iterdir())
+    body = "def answer(request, files):\n    return request + b'pong'\n"
+    with starter(body, tmp_path, monkeypatch) as found:
+        child = Child("some_work", None, LIMITS, starter=found)
+        child.give(b"ping ")
+        assert not list((tmp_path / "temporary").iterdir())
+        assert child.answer() == b"ping pong"
 
 
 def test_a_child_that_is_given_nothing_ends(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "some_work.py").write_text("def answer(r):\n    raise ValueError\n")
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    script = f"""
-from checker.confined import Child, Limits
-child = Child("some_work", None, {LIMITS})
-child._process.stdin.close()
-print(child._process.wait(20), child.answer())
-"""
-    done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
-    )
-    assert done.stdout == "0 Died(reason='was given nothing')\n"
+    body = "def answer(request, files):\n    raise ValueError\n"
+    with starter(body, tmp_path, monkeypatch) as found:
+        child = Child("some_work", None, LIMITS, starter=found)
+        child.stop()
+        child.stop()
+        assert isinstance(child.answer(), Died)
 
 
-def test_an_answer_is_a_file_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A child that was taken over makes its parent read no other, and wait for none."""
-    for swap in ("os.symlink('/etc/hostname', 'answer')", "os.mkfifo('answer')"):
-        body = f"import os; os.unlink('answer'); {swap}; os._exit(0)"
-        died = ask_for(body, tmp_path, monkeypatch, LIMITS)
-        assert isinstance(died, Died)
-        assert died.reason.startswith("left an answer that ")
+@pytest.mark.parametrize(
+    "said",
+    [
+        b"",
+        b"x",
+        b"x" * 16,
+        b"\xff" * 40,
+        bytes(16),
+        b"{}" + bytes(15) + b"\x02" + b"\0",
+        b'{"a": [0, 9]}' + bytes(15) + b"\x0d",
+        b'{"a": [-1, 1]}' + bytes(15) + b"\x0e",
+        b'{"a": [0, -1]}' + bytes(15) + b"\x0e",
+        b'{"a": [0]}' + bytes(15) + b"\x0a",
+        b"[[[[" + bytes(15) + b"\x04",
+        b"[" * 100_000 + bytes(13) + (100_000).to_bytes(3, "big"),
+    ],
+)
+def test_nonsense_is_no_answer(said: bytes) -> None:
+    """What a child that was taken over writes is measured before it is read."""
+    with tempfile.TemporaryFile() as file:
+        file.write(said)
+        file.flush()
+        if said == bytes(16):
+            said = b""
+        with pytest.raises(Damaged):
+            read(file.fileno(), 1000)
+
+
+@given(st.binary(max_size=200), st.dictionaries(st.text(max_size=20), st.binary(max_size=200)))
+def test_what_is_written_is_read(message: bytes, contents: dict[str, bytes]) -> None:
+    with tempfile.TemporaryFile() as file:
+        write(file, message, contents.items())
+        said, files = read(file.fileno(), 1000)
+        assert said == message
+        assert {name: files.read(name) for name in files.names} == contents
+        assert {name: files.size(name) for name in files.names} == {
+            name: len(content) for name, content in contents.items()
+        }
 
 
 def test_tighter_limits_that_there_are_hold(

@@ -18,6 +18,7 @@ LAYERS = (
     {"page", "parts", "resources", "saying", "versions"},
     {"output", "report", "source"},
     {"model", "package", "rule", "spawner"},
+    {"sandbox"},
     {"confined"},
     {"checklist", "discovery", "dynamics", "flattening"}
     | {"mesh", "paperwork", "profiles", "rule_options", "spawning", "suppression"},

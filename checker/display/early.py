@@ -9,7 +9,7 @@ from checker.confined import Child, Limits
 from checker.mesh.limits import MEMORY
 from checker.record import record
 
-_DRAWS = Limits(20.0, 4_000_000_000)
+_DRAWS = Limits(20.0, 4_000_000_000, draws=True)
 """OpenGL takes 0.9 GB of address space for an empty scene, drivers of graphics cards more."""
 SECONDS_FOR_ALL = 60
 """By the clock, for the looks of the mesh files of one robot."""
@@ -51,7 +51,7 @@ def early_children(meshes: Child | None, *, display: bool) -> EarlyChildren:
     """
     if not display:
         return EarlyChildren(meshes)
-    return EarlyChildren(meshes, artist(PLATFORMS[0], None), looks(None))
+    return EarlyChildren(meshes, artist(PLATFORMS[0], None), looks())
 
 
 def artist(platform: str, request: bytes | None) -> Child:
@@ -59,6 +59,6 @@ def artist(platform: str, request: bytes | None) -> Child:
     return Child(f"checker.display.drawing.by_{platform}", request, _DRAWS)
 
 
-def looks(request: bytes | None) -> Child:
-    """Start a child that reads what mesh files look like; see `Child`."""
-    return Child("checker.display.files.worker", request, _READS)
+def looks() -> Child:
+    """Start a child that waits for mesh files, to read what they look like."""
+    return Child("checker.display.files.worker", None, _READS)

@@ -19,6 +19,7 @@ from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh, MeshFault
 from checker.model.robot import Robot
 from checker.record import record
+from checker.sandbox.files import from_disk
 from checker.source.text import Located
 
 FOR_ONE = 40_000
@@ -90,16 +91,16 @@ class MeshFiles:
 
     @cached_property
     def _reading(self) -> _Reading:
-        requests = {asked.key: asked.request for asked in self._asked.values()}
-        known = {key: found for key in requests if (found := self._known(key)) is not None}
-        unread = [key for key in requests if key not in known]
+        asked = {each.key: each for each in self._asked.values()}
+        known = {key: found for key in asked if (found := self._known(key)) is not None}
+        unread = [key for key in asked if key not in known]
         if not unread:
             return _Reading(known, (), None)
-        request = json.dumps([requests[key] for key in unread]).encode()
-        if self.waiting is None:
-            return _Reading(known, unread, looks(request))
-        self.waiting.give(request)
-        return _Reading(known, unread, self.waiting)
+        child = self.waiting or looks()
+        request = json.dumps([asked[key].request for key in unread]).encode()
+        files = dict(file for key in unread for file in asked[key].files)
+        child.give(request, from_disk(files.items()))
+        return _Reading(known, unread, child)
 
     @cached_property
     def _looked(self) -> dict[str, Looked]:

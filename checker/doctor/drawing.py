@@ -6,13 +6,14 @@ import os
 from functools import partial
 
 from checker.mesh.apart import Ended, apart
+from checker.sandbox.files import Files
 
 _RENDERERS = {"egl": "EGL", "osmesa": "OSMesa"}
 _SECONDS_EACH = 5
 _SCENE = "<mujoco><worldbody><light pos='0 0 3'/><geom size='1'/></worldbody></mujoco>"
 
 
-def answer(_request: bytes) -> bytes:
+def answer(_request: bytes, _files: Files) -> bytes:
     """Return the name of the first renderer that works, or `none`."""
     # A renderer that is not there ends MuJoCo's import, so each is tried in a process of its own.
     for renderer, name in _RENDERERS.items():

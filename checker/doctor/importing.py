@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from importlib import import_module
 
 from checker.confined import Died, Limits, ask
+from checker.sandbox.files import Files
 
 _LIMITS = Limits(20.0, 16_000_000_000)
 """MuJoCo and Pinocchio map far more memory than they use."""
@@ -35,7 +36,7 @@ def import_troubles(distributions: Iterable[str]) -> dict[str, str]:
     return troubles
 
 
-def answer(request: bytes) -> bytes:
+def answer(request: bytes, _files: Files) -> bytes:
     """Return what `import_troubles` does, as JSON, for a list of distributions as JSON."""
     troubles = {}
     for distribution in json.loads(request):

@@ -15,7 +15,7 @@ from checker.report.wording import plain
 from checker.resources import templates
 
 _ENTRIES_LIMIT = 100_000
-_LIMITS = Limits(10.0, 16_000_000_000)
+_LIMITS = Limits(10.0, 16_000_000_000, draws=True)
 """Software renderers map far more memory than they use."""
 
 

@@ -1,24 +1,25 @@
 """One stage of a check: an upload in the store becomes a result in the store, by a child process.
 
-Nothing of an upload is read in the worker: the child opens it, and what it brings back counts as
-a stranger's too.
+Nothing of an upload is looked into in the worker: the child opens it, and what it brings back
+counts as a stranger's too. The worker writes all that is kept, under names that it knows.
 """
 
 from __future__ import annotations
 
 import json
 import logging
-import os
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from checker.cache import key_of
-from checker.jobs.children import Children
+from checker.jobs.children import ANSWER_LIMIT, Children, Ended
 from checker.jobs.crowd import let_pass
-from checker.jobs.isolation import StageLimits
-from checker.jobs.layout import ANSWER, MADE, OUT_OF_MEMORY, SAID, lay_out
+from checker.jobs.layout import CACHE, UPLOAD, is_part
+from checker.jobs.limits import StageLimits
 from checker.jobs.outcome import (
     FAILED_INSIDE,
     UNFINISHED,
@@ -30,19 +31,21 @@ from checker.jobs.outcome import (
 )
 from checker.jobs.port import Order, Stage
 from checker.jobs.summary import read_summary
-from checker.jobs.supervised import Ended
-from checker.package.reading import NotReadable, open_file, read_bytes
+from checker.package.reading import NotReadable, read_bytes
+from checker.private import make_folder
 from checker.recall import program_parts
+from checker.report.artefacts import ARTEFACT_NAME
 from checker.report.wording import plain
-from checker.store.store import SUMMARY, Store
+from checker.sandbox.files import Content, Files
+from checker.sandbox.task import OUT_OF_MEMORY
+from checker.store.store import RESULT_LIMIT, SUMMARY, Store
 
 LIMITS: Mapping[Stage, StageLimits] = {
     Stage.STATIC: StageLimits(seconds=300.0),
     Stage.TRIAL: StageLimits(seconds=900.0),
 }
-_ANSWER_LIMIT = 5_000_000
-_SHOWN = 4_000
-"""Bytes of what a dead child has said, for the log."""
+UPLOAD_LIMIT = 2_000_000_000
+"""Bytes of an upload that is read here; the service takes no larger ones."""
 _LOG = logging.getLogger(__name__)
 
 
@@ -83,13 +86,23 @@ def _checked(
     upload = store.upload(order.upload)
     if upload is None:
         return Refused("the upload is no longer there; upload it again")
-    with store.workplace() as place:
-        lay_out(place, upload, order, stage, limits)
-        let_pass(store, cancelled)
-        ended = children.check(place, limits.seconds, cancelled)
+    request = {
+        "name": order.name,
+        "profile": order.profile,
+        "stage": stage,
+        "limits": asdict(limits),
+    }
+    contents = chain(
+        ((UPLOAD, read_bytes(upload, order.name, UPLOAD_LIMIT)),),
+        _known_parts(store, order.upload),
+    )
+    let_pass(store, cancelled)
+    with children.checked(
+        json.dumps(request).encode(), contents, limits.seconds, cancelled
+    ) as ended:
         if ended.cancelled:
             return Cancelled()
-        return _outcome(store, result_key(order, stage), place, ended, limits)
+        return _outcome(store, order, result_key(order, stage), ended, limits)
 
 
 def result_key(order: Order, stage: Stage) -> str:
@@ -104,36 +117,84 @@ def stored_result(store: Store, order: Order, stage: Stage) -> Checked | None:
     return read_summary(key, _read(path)) if path else None
 
 
-def _outcome(store: Store, key: str, place: Path, ended: Ended, limits: StageLimits) -> Outcome:
-    answer = _read(place / ANSWER) if ended.code == 0 and not ended.overdue else None
-    match answer:
+def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLimits) -> Outcome:
+    match _parsed(ended.answer):
         case {"refused": str(reason)}:
             return Refused(plain(reason))
-        case {"crashed": bool(crashed)}:
+        case {"crashed": bool(crashed)} as answer:
             # What went wrong with us may go right the next time: nobody else gets this result.
             checked = read_summary(secrets.token_hex(32) if crashed else key, answer)
             if checked is not None:
-                return _kept(store, checked, place)
-    _LOG.error("the child ended with %s and said: %s", ended, _last_words(place / SAID))
+                return _kept(store, order, checked, ended)
+    _LOG.error("the child ended with code %s, overdue: %s", ended.code, ended.overdue)
     return Died(_cause(ended, limits))
 
 
-def _kept(store: Store, checked: Checked, place: Path) -> Outcome:
-    """Put a result into the store."""
-    (place / ANSWER).rename(place / MADE / SUMMARY)
-    try:
-        store.keep(checked.key, place / MADE)
-    except ValueError as error:
-        _LOG.error("the child made what is no result: %s", plain(str(error)))
-        return Died(f"{UNFINISHED}: its report is too large or damaged")
+def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome:
+    """Put a result into the store: files that we write, under names that we know."""
+    with store.workplace() as place:
+        try:
+            made = place / "made"
+            _write_result(made, ended.files)
+            (made / SUMMARY).write_bytes(ended.answer)
+            store.keep(checked.key, made)
+        except ValueError as error:
+            _LOG.error("the child made what is no result: %s", plain(str(error)))
+            return Died(f"{UNFINISHED}: its report is too large or damaged")
+        _keep_parts(store, order.upload, ended.files, place / "part")
     return checked
 
 
+def _write_result(folder: Path, files: Files) -> None:
+    """Write the files of a result.
+
+    Raises:
+        ValueError: The process that made them had no reason to make these.
+    """
+    folder.mkdir()
+    left = RESULT_LIMIT
+    for name in files.names:
+        left -= files.size(name)
+        if left < 0:
+            raise ValueError(f"a result holds no more than {RESULT_LIMIT / 1e9:g} GB")
+        if ARTEFACT_NAME.fullmatch(name):
+            path = folder / name
+            path.parent.mkdir(exist_ok=True)
+            with path.open("xb") as file:
+                files.copy(name, file)
+        elif not is_part(name):
+            raise ValueError(f"a result does not hold {name[:200]!r}")
+
+
+def _known_parts(store: Store, upload: str) -> Iterator[tuple[str, Content]]:
+    """Yield what was worked out in an earlier check of the same upload: of no other one."""
+    folder = store.parts(upload)
+    if folder is not None:
+        for path in sorted(folder.glob(f"{CACHE}/*/??/*.json")):
+            name = path.relative_to(folder).as_posix()
+            yield name, read_bytes(path, name, RESULT_LIMIT)
+
+
+def _keep_parts(store: Store, upload: str, files: Files, work: Path) -> None:
+    """Keep what a check has worked out, for later checks of the same upload alone."""
+    folder = store.parts(upload)
+    for name in filter(is_part, files.names):
+        if folder is not None:
+            make_folder((folder / name).parent)
+            with work.open("wb") as file:
+                files.copy(name, file)
+            work.replace(folder / name)
+
+
 def _read(path: Path) -> Any:
-    """Return the JSON that the child has written; None if there is none."""
-    data = read_bytes(path, path.name, _ANSWER_LIMIT)
+    """Return the JSON in a file of a result; None if there is none."""
+    data = read_bytes(path, path.name, ANSWER_LIMIT)
+    return None if isinstance(data, NotReadable) else _parsed(data)
+
+
+def _parsed(data: bytes) -> Any:
     try:
-        return None if isinstance(data, NotReadable) else json.loads(data)
+        return json.loads(data)
     except (ValueError, RecursionError):
         return None
 
@@ -142,19 +203,8 @@ def _cause(ended: Ended, limits: StageLimits) -> str:
     if ended.overdue:
         advice = "check fewer packages at a time"
         return f"{UNFINISHED}: it took longer than {limits.seconds:g} s and was stopped; {advice}"
-    if ended.code < 0:
+    if ended.code is None or ended.code < 0:
         return f"{UNFINISHED}: it was killed; it may have needed too much time or memory"
     if ended.code == OUT_OF_MEMORY:
         return f"{UNFINISHED}: it needed more than {limits.memory / 1e9:g} GB of memory"
     return FAILED_INSIDE
-
-
-def _last_words(said: Path) -> str:
-    """Return the end of what the child has said, on one line of a log."""
-    # The child may have put a link or a pipe in its place, which would have us wait.
-    try:
-        with open_file(said) as file:
-            file.seek(max(0, os.fstat(file.fileno()).st_size - _SHOWN))
-            return repr(file.read(_SHOWN).decode(errors="replace"))
-    except OSError as error:
-        return f"nothing that can be read: {error.strerror}"

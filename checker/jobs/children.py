@@ -5,99 +5,158 @@ Python takes a second to load all that a check needs: as long as many a check it
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-import sys
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
-from pathlib import Path
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, closing, contextmanager, suppress
+from time import monotonic
 
-from checker.jobs.layout import environment
-from checker.jobs.supervised import Ended, supervised
+from checker.confined import Child, Limits
+from checker.jobs.limits import NICENESS, StageLimits
+from checker.record import record
+from checker.sandbox.account import account_for
+from checker.sandbox.files import Content, Files
+from checker.sandbox.launcher import OwnLauncher
+from checker.store.store import Store
+
+MODULE = "checker.jobs.checking_child"
+ANSWER_LIMIT = 5_000_000
+"""Bytes of the answer, besides the files of the result."""
+_LOOK = 0.2
+"""Seconds between questions whether a check is still wanted."""
+
+
+@record()
+class Ended:
+    """How a check ended.
+
+    Attributes:
+        code: Exit code of its process; of a signal, its negative number; None if it has none.
+        answer: What it says, where it says something.
+        files: What it has made.
+        overdue: It took too long and was stopped.
+        cancelled: It was no longer wanted and was stopped.
+    """
+
+    code: int | None
+    answer: bytes = b""
+    files: Files = Files({}, -1)
+    overdue: bool = False
+    cancelled: bool = False
+
+
+class _Place:
+    """A process that checks, its folder and its walls: for one check, and then no more."""
+
+    def __init__(self, store: Store, limits: Limits) -> None:
+        """Start it."""
+        self._held = ExitStack()
+        with ExitStack() as held:
+            folder = held.enter_context(store.workplace())
+            account = account_for(folder)
+            starter = OwnLauncher(folder, account=account, niceness=NICENESS)
+            held.enter_context(closing(starter))
+            self._starter = starter
+            self.child = Child(MODULE, None, limits, starter=starter, works=True)
+            held.callback(self.child.stop)
+            self._held = held.pop_all()
+
+    @property
+    def alive(self) -> bool:
+        """Whether it can still check."""
+        return self._starter.alive and self.child.alive
+
+    def close(self) -> None:
+        """End all of its processes, and remove its folder."""
+        self._held.close()
 
 
 class Children:
-    """Has processes check, each of them once.
+    """Has processes check, each of them once."""
 
-    One thread starts them all, and stays until this object goes: to be kept as long as one of them
-    checks, since what is to end with its parent ends with the thread that started it
-    (PR_SET_PDEATHSIG in prctl(2)).
-    """
-
-    def __init__(self, cache: Path, ahead: bool = True) -> None:
+    def __init__(self, store: Store, ahead: bool = True) -> None:
         """Start nothing yet.
 
         Args:
-            cache: Where results of parts are kept, for all children.
+            store: Holds the folders that they work in.
             ahead: Whether one is to wait for the next check.
         """
-        self._cache, self._ahead = cache, ahead
-        self._starter = ThreadPoolExecutor(1, "starts children")
-        # For the thread that starts them alone.
-        self._waiting: subprocess.Popen[bytes] | None = None
+        self._store, self._ahead = store, ahead
+        self._lock = threading.Lock()
+        self._waiting: _Place | None = None
 
-    def check(self, place: Path, seconds: float, cancelled: Callable[[], bool]) -> Ended:
-        """Have a child check what lies in a folder; at the end none of its processes is left.
+    @contextmanager
+    def checked(
+        self,
+        request: bytes,
+        contents: Iterable[tuple[str, Content]],
+        seconds: float,
+        cancelled: Callable[[], bool],
+    ) -> Iterator[Ended]:
+        """Have a process check an upload; at the end none of its processes is left.
 
         Args:
-            place: Laid out by `checker.jobs.layout`.
+            request: See `checker.jobs.checking_child`.
+            contents: The files that go with it.
             seconds: By the clock, before it is stopped.
             cancelled: Whether it is no longer wanted; asked a few times a second.
 
+        Yields:
+            How it ended; its files can be read meanwhile.
+
         Raises:
-            OSError: The system starts no process.
+            OSError: The system starts no process, or the disk is full.
         """
-        child = self._starter.submit(self._take).result()
+        place = self._take()
         try:
-            _tell(child, place)
-            return supervised(child, seconds, cancelled)
+            place.child.give(request, contents)
+            yield _watched(place.child, seconds, cancelled)
         finally:
+            place.close()
             # Not before: the next one would take processors from this one.
             self.get_ready()
 
     def get_ready(self) -> None:
-        """Begin to start a child that waits for the next check."""
-        self._starter.submit(self._fill)
+        """Start a process that waits for the next check; where that fails, the check says why."""
+        with self._lock, suppress(OSError):
+            if self._ahead and not self._has_one():
+                self._waiting = self._start()
 
     def close(self) -> None:
-        """End the child that waits, and have no other one wait; those that check go on."""
-        self._ahead = False
-        self._starter.submit(self._drop).result()
+        """End the process that waits, and have no other one wait; those that check go on."""
+        with self._lock:
+            self._ahead = False
+            if self._waiting is not None:
+                self._waiting.close()
+                self._waiting = None
 
-    def _take(self) -> subprocess.Popen[bytes]:
-        child, self._waiting = self._living(), None
-        return child or self._start()
+    def _take(self) -> _Place:
+        with self._lock:
+            found, self._waiting = (self._waiting if self._has_one() else None), None
+        return found or self._start()
 
-    def _fill(self) -> None:
-        if self._ahead:
-            self._waiting = self._living() or self._start()
-
-    def _drop(self) -> None:
-        if self._waiting is not None:
-            self._waiting.kill()
-            self._waiting.communicate()
+    def _has_one(self) -> bool:
+        """Whether a process waits; one that has died meanwhile is let go."""
+        if self._waiting is not None and not self._waiting.alive:
+            self._waiting.close()
             self._waiting = None
+        return self._waiting is not None
 
-    def _living(self) -> subprocess.Popen[bytes] | None:
-        """Return the child that waits, unless it has died meanwhile."""
-        return self._waiting if self._waiting and self._waiting.poll() is None else None
-
-    def _start(self) -> subprocess.Popen[bytes]:
-        return subprocess.Popen(  # noqa: S603 - our own interpreter and module
-            (sys.executable, "-P", "-m", "checker.jobs.checking_child", str(os.getpid())),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            env=environment(self._cache),
-            start_new_session=True,
-        )
+    def _start(self) -> _Place:
+        most = StageLimits(0.0)
+        return _Place(self._store, Limits(_PROCESSOR_SECONDS, most.memory))
 
 
-def _tell(child: subprocess.Popen[bytes], place: Path) -> None:
-    """Tell a child where to work."""
-    # One that has died says so by its exit code.
-    with suppress(BrokenPipeError):
-        if child.stdin is not None:
-            child.stdin.write(json.dumps(str(place)).encode() + b"\n")
-            child.stdin.close()
+_PROCESSOR_SECONDS = 3600.0
+"""More than any stage has: its own limit comes with the request."""
+
+
+def _watched(child: Child, seconds: float, cancelled: Callable[[], bool]) -> Ended:
+    """Wait for a process, and return how it ended."""
+    deadline = monotonic() + seconds
+    while not child.ends(min(_LOOK, max(0.0, deadline - monotonic()))):
+        if monotonic() >= deadline:
+            return Ended(None, overdue=True)
+        if cancelled():
+            return Ended(None, cancelled=True)
+    answered = child.answered(ANSWER_LIMIT) if child.code == 0 else None
+    return Ended(child.code, *answered) if isinstance(answered, tuple) else Ended(child.code)

@@ -1,7 +1,7 @@
 """Lets uploads come first: a check that would begin among many of them waits for a moment.
 
 Who uploads looks at the page until the answer comes; the checks of a crowd take minutes anyway. To
-stand back (`checker.jobs.isolation`) is not enough: what fills each gap still takes caches, and on
+stand back (`checker.jobs.limits`) is not enough: what fills each gap still takes caches, and on
 rented machines half of a core, from those who serve.
 """
 

@@ -1,72 +1,72 @@
-"""The folder that a worker and its checking child share, and what the child knows besides."""
+"""What goes to and fro between a worker and the process that checks, and where that one works."""
 
 from __future__ import annotations
 
-import json
 import os
-import shutil
+import re
 import tempfile
-from dataclasses import asdict
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from checker.confined import module_path
-from checker.jobs.isolation import StageLimits
-from checker.jobs.port import Order, Stage
+from checker.package.reading import NotReadable, read_bytes
+from checker.sandbox.files import Content, Files
 
-MADE, REQUEST, ANSWER, SAID = "made", "request.json", "answer.json", "said"
-"""The result; what the worker asks for; what the child answers; what it writes to its streams."""
+UPLOAD = "upload"
+"""Name of the upload among the files of a request."""
 GIVEN = "given/upload"
-"""The folder of the upload, in which the child runs; reports show neither."""
+"""Folder of the upload, in which the process runs; reports show neither."""
 TEMPORARY = "temporary"
-"""The folder of what the child unpacks and its children work with."""
-OUT_OF_MEMORY = 71
-"""Exit code of the child, EX_OSERR of sysexits.h."""
+"""Folder of what is unpacked."""
+CACHE = "cache"
+"""Folder of what was worked out, kept from the first stage of a check for its second."""
+_PART = re.compile(r"cache/([a-z]{1,40})/([0-9a-f]{2})/(\2[0-9a-f]{62})\.json")
+_PART_LIMIT = 200_000_000
+_LOOKED_AT = 20_000
 
 
-def lay_out(place: Path, upload: Path, order: Order, stage: Stage, limits: StageLimits) -> None:
-    """Lay out what the child works with in an empty folder."""
+def settle(place: Path, name: str, files: Files) -> None:
+    """Lay out what was handed over, and work there.
+
+    Args:
+        place: An empty folder.
+        name: Of the uploaded file.
+        files: The upload, and parts of an earlier check of it.
+    """
     given = place / GIVEN
-    (place / SAID).touch()
-    for folder in (given, place / MADE, place / TEMPORARY):
+    for folder in (given, place / TEMPORARY):
         folder.mkdir(parents=True)
     # The search for settings ends at the root of a repository: none of this machine's shall judge.
     (given.parent / ".git").touch()
-    try:
-        os.link(upload, given / order.name)
-    except OSError:  # a file system without links
-        shutil.copyfile(upload, given / order.name)
-    request = {
-        "name": order.name,
-        "profile": order.profile,
-        "stage": stage,
-        "limits": asdict(limits),
-    }
-    (place / REQUEST).write_text(json.dumps(request), encoding="utf-8")
+    _write(given / name, files, UPLOAD)
+    for part in filter(is_part, files.names):
+        (place / part).parent.mkdir(parents=True, exist_ok=True)
+        _write(place / part, files, part)
+    os.chdir(given)
+    os.environ["TMPDIR"] = str(place / TEMPORARY)
+    os.environ["SUBT_CHECK_CACHE"] = str(place / CACHE)
+    tempfile.tempdir = None  # a library may have asked for it before
 
 
-_PASSED_ON = {"HOME", "LANG", "LD_LIBRARY_PATH", "MUJOCO_GL", "PATH", "SUBT_CHECK_DEBUG", "TZ"}
-_FAMILIES = ("EGL_", "GALLIUM_", "LC_", "LIBGL_", "LP_", "MESA_", "PYTHON", "__EGL_")
+def _write(path: Path, files: Files, name: str) -> None:
+    with path.open("wb") as file:
+        files.copy(name, file)
 
 
-def environment(cache: Path) -> dict[str, str]:
-    """Return what the child shall know of our environment: no token, no password, no address.
+def is_part(name: str) -> bool:
+    """Say whether a name is that of a part of a check in its cache."""
+    return _PART.fullmatch(name) is not None
+
+
+def new_parts(place: Path, known: Iterable[str]) -> Iterator[tuple[str, Content]]:
+    """Yield what a check has worked out: names, and what is in them.
 
     Args:
-        cache: Where results of parts are kept, for all children.
+        place: Where it worked.
+        known: Names of what was known before.
     """
-    known = {
-        name: value
-        for name, value in os.environ.items()
-        if name in _PASSED_ON or name.startswith(_FAMILIES)
-    }
-    return {**known, "SUBT_CHECK_CACHE": str(cache), "PYTHONPATH": module_path()}
-
-
-def settle(place: Path) -> None:
-    """Have this process work in a folder that is laid out, and speak into it."""
-    os.chdir(place / GIVEN)
-    os.environ["TMPDIR"] = str(place / TEMPORARY)
-    tempfile.tempdir = None  # a library may have asked for it before
-    with (place / SAID).open("wb") as said:
-        for stream in (1, 2):
-            os.dup2(said.fileno(), stream)
+    before = set(known)
+    for path in sorted((place / CACHE).glob("*/??/*.json"))[:_LOOKED_AT]:
+        name = path.relative_to(place).as_posix()
+        content = read_bytes(path, name, _PART_LIMIT)
+        if is_part(name) and name not in before and not isinstance(content, NotReadable):
+            yield name, content

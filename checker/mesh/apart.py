@@ -13,11 +13,13 @@ from pathlib import Path
 from time import monotonic, process_time
 from typing import BinaryIO
 
-from checker.confined import ANSWER_LIMIT, end_with_parent, tighter
 from checker.record import record
+from checker.sandbox.task import end_with_parent, tighter
 
 _OUT_OF_MEMORY, _FAILED = 71, 70
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
+_RESULT_LIMIT = 200_000_000
+"""Bytes."""
 _HEAD = 8
 """Bytes of a result's length."""
 _PIECE = 65_536
@@ -90,7 +92,7 @@ def _whole(pipe: BinaryIO) -> Iterator[bytes]:
     """Yield results as `_work` writes them, but for the one that the fork did not finish."""
     while len(head := pipe.read(_HEAD)) == _HEAD:
         length = int.from_bytes(head, "big")
-        result = pipe.read(length) if length <= ANSWER_LIMIT else b""
+        result = pipe.read(length) if length <= _RESULT_LIMIT else b""
         if len(result) < length:
             return
         yield result

@@ -23,6 +23,7 @@ from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.package.reading import NotReadable, read_bytes
 from checker.record import record
+from checker.sandbox.files import from_disk
 from checker.source.text import Located
 
 _MATERIAL_FILES = 20
@@ -178,10 +179,9 @@ def _started(files: list[MeshFile], waiting: Child | None) -> Child:
     """Have a child process read files: the one that waits for them, else a new one."""
     named = [(str(file.location), posixpath.basename(file.path)) for file in files]
     request = json.dumps({"files": named, "seconds": SECONDS_FOR_ONE}).encode()
-    if waiting is not None:
-        waiting.give(request)
-        return waiting
-    return Child("checker.mesh.worker", request, Limits(SECONDS_FOR_ALL, MEMORY))
+    child = waiting or Child("checker.mesh.worker", None, Limits(SECONDS_FOR_ALL, MEMORY))
+    child.give(request, from_disk((at, SIZE_LIMIT) for at, _ in named))
+    return child
 
 
 def _answered(child: Child, number: int) -> list[_Read]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import json
 from functools import partial
 from importlib import import_module
-from pathlib import Path
 from time import monotonic
 
 from checker.mesh.apart import Ended, all_apart
-from checker.mesh.limits import LATE, SECONDS_FOR_ALL, SIZE_LIMIT
+from checker.mesh.limits import LATE, SECONDS_FOR_ALL
 from checker.mesh.reader import load_libraries, read_mesh
 from checker.mesh.wire import to_json
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
-from checker.package.reading import NotReadable, read_bytes
+from checker.package.reading import NotReadable
+from checker.sandbox.files import Files
 
 
 def prepare() -> None:
@@ -21,19 +21,21 @@ def prepare() -> None:
     import_module("scipy.spatial")
 
 
-def answer(request: bytes) -> bytes:
+def answer(request: bytes, files: Files) -> bytes:
     """Read files.
 
     Args:
-        request: JSON: `files`, pairs of an absolute path, links resolved, and the name by which the
-            model knows the file (its ending says the format); and `seconds` of processor time each.
+        request: JSON: `files`, pairs of the name under which a file was handed over and the one by
+            which the model knows it (its ending says the format); and `seconds` of processor time
+            each.
+        files: The files.
 
     Returns:
         JSON: what each file holds, in the same order.
     """
     asked = json.loads(request)
     load_libraries(name for _, name in asked["files"])
-    works = [partial(_as_bytes, Path(at), name) for at, name in asked["files"]]
+    works = [partial(_as_bytes, files, at, name) for at, name in asked["files"]]
     read = all_apart(works, asked["seconds"], monotonic() + SECONDS_FOR_ALL, LATE)
     return b"[" + b",".join(map(_said, read)) + b"]"
 
@@ -44,12 +46,12 @@ def _said(read: bytes | Ended) -> bytes:
     return read
 
 
-def _as_bytes(location: Path, name: str) -> bytes:
-    return json.dumps(to_json(_read(location, name))).encode()
+def _as_bytes(files: Files, at: str, name: str) -> bytes:
+    return json.dumps(to_json(_read(files, at, name))).encode()
 
 
-def _read(location: Path, name: str) -> Mesh | MeshFault:
-    data = read_bytes(location, name, SIZE_LIMIT)
+def _read(files: Files, at: str, name: str) -> Mesh | MeshFault:
+    data = files.read(at)
     if isinstance(data, NotReadable):
         return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
     return read_mesh(data, name)

@@ -9,8 +9,10 @@ import struct
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any
+
+from checker.package.reading import NotReadable
+from checker.sandbox.files import Content, Files
 
 WIDTH, HEIGHT = 640, 480
 _VIEWS = ((-138.0, -27.0), (0.0, -90.0), (-90.0, 0.0), (180.0, 0.0), (0.0, 0.0))
@@ -19,16 +21,16 @@ _DISTANCE = 0.95
 """Of the camera, in diagonals of the robot."""
 _RENDERERS = ("egl", "osmesa")
 _SECONDS_EACH = 25
-_FILE_LIMIT = 100_000_000
 _CORNERS = 4
 """That MuJoCo wants of a mesh at least."""
 
 
-def answer(request: bytes) -> bytes:
+def answer(request: bytes, files: Files) -> bytes:
     """Draw.
 
     Args:
         request: JSON: `shapes`, each with shape, sizes, file, position, quaternion and colour.
+        files: Those that the shapes name.
 
     Returns:
         JSON: `pictures`, five PNG files in base 64; or `unable`, why there are none.
@@ -38,7 +40,7 @@ def answer(request: bytes) -> bytes:
     from checker.mesh.apart import Ended, apart
 
     for renderer in _RENDERERS:
-        said = apart(partial(_pictures, shapes, renderer), _SECONDS_EACH)
+        said = apart(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
         if not isinstance(said, Ended):
             return said
     return _unable("no OpenGL is at hand (EGL or OSMesa)")
@@ -48,7 +50,7 @@ def _unable(reason: str) -> bytes:
     return json.dumps({"unable": reason}).encode()
 
 
-def _pictures(shapes: Sequence[Mapping[str, Any]], renderer: str) -> bytes:
+def _pictures(shapes: Sequence[Mapping[str, Any]], files: Files, renderer: str) -> bytes:
     os.environ["MUJOCO_GL"] = renderer
     import mujoco
 
@@ -65,7 +67,7 @@ def _pictures(shapes: Sequence[Mapping[str, Any]], renderer: str) -> bytes:
         height=64,
     )
     for number, shape in enumerate(shapes):
-        _add(spec, mujoco, shape, number)
+        _add(spec, mujoco, shape, files.read(shape["file"]), number)
     if not spec.geoms:
         return _unable("no mesh of the robot can be read")
     try:
@@ -87,7 +89,7 @@ def _pictures(shapes: Sequence[Mapping[str, Any]], renderer: str) -> bytes:
     return json.dumps({"pictures": made}).encode()
 
 
-def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], number: int) -> None:
+def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], content: Content, number: int) -> None:
     """Add a shape to the scene; a mesh that cannot be read is left out."""
     kind = mujoco.mjtGeom
     given = {
@@ -110,7 +112,7 @@ def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], number: int) -> None:
             tall = kind.mjGEOM_CYLINDER if round_ == "cylinder" else kind.mjGEOM_CAPSULE
             spec.worldbody.add_geom(type=tall, size=size, **given)
         case _:
-            corners = _corners(Path(shape["file"]), sizes.get("scale", [1.0, 1.0, 1.0]))
+            corners = _corners(shape["file"], content, sizes.get("scale", [1.0, 1.0, 1.0]))
             if corners is None:
                 return
             mesh = spec.add_mesh(name=f"m{number}")
@@ -120,17 +122,15 @@ def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], number: int) -> None:
             spec.worldbody.add_geom(type=kind.mjGEOM_MESH, meshname=f"m{number}", **given)
 
 
-def _corners(file: Path, scale: Sequence[float]) -> Any:
+def _corners(file: str, content: Content, scale: Sequence[float]) -> Any:
     """Return the corners of a mesh's triangles, metres; None where it cannot be read."""
     from checker.mesh.reader import read_surface
     from checker.mesh.surface import NoSurface
-    from checker.package.reading import NotReadable, read_bytes
 
-    content = read_bytes(file, file.name, _FILE_LIMIT)
     if isinstance(content, NotReadable):
         return None
     try:
-        corners = read_surface(content, file.name).corners.reshape(-1, 3)
+        corners = read_surface(content, file).corners.reshape(-1, 3)
     except NoSurface:
         return None
     return corners * scale if len(corners) >= _CORNERS else None

@@ -11,9 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from checker.confined import Died, Limits, ask
+from checker.mesh.limits import SIZE_LIMIT
 from checker.model.components import Visual
 from checker.model.robot import Robot
 from checker.record import record
+from checker.sandbox.files import from_disk
 from checker.trial.mjcf_text import quaternion
 
 NAMES = ("1", "2", "3", "4", "5")
@@ -48,7 +50,9 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     if not shapes:
         return Thumbnails(trouble=_trouble("the model has nothing that can be seen"))
     request = json.dumps({"shapes": shapes}).encode()
-    said = ask("checker.migrate.drawing", request, Limits(_SECONDS, _MEMORY))
+    files = dict.fromkeys((str(each["file"]) for each in shapes if each["file"]), SIZE_LIMIT)
+    limits = Limits(_SECONDS, _MEMORY, draws=True)
+    said = ask("checker.migrate.drawing", request, limits, from_disk(files.items()))
     if isinstance(said, Died):
         return Thumbnails(trouble=_trouble(f"the process that draws {said.reason}"))
     answer = json.loads(said)
@@ -92,7 +96,6 @@ def _file(visual: Visual, folder: Path) -> str:
     if not path or path.startswith(("/", "../")) or "://" in path:
         return ""
     real = folder / path
-    # The process that draws has another working directory.
     return str(real.resolve()) if real.is_file() else ""
 
 

@@ -12,11 +12,11 @@ import socket
 import sys
 from collections.abc import Sequence
 
-from checker.confined import end_with_parent, tighter
 from checker.errors import CheckerError
 from checker.jobs.port import JobsUnreachable
 from checker.output import EXIT_CRASH, EXIT_USAGE, say_progress
 from checker.private import UMASK
+from checker.sandbox.task import end_with_parent, tighter
 
 CHILD = (sys.executable, "-P", "-m", "checker.serving.child")
 """Starts such a process; what follows says whose child it is, and which."""

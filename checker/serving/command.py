@@ -13,11 +13,11 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from checker.confined import module_path
 from checker.ending import on_requests_to_end
 from checker.errors import CheckerError
 from checker.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
 from checker.private import UMASK
+from checker.sandbox.launcher import module_path
 from checker.serving.child import CHILD
 from checker.serving.exposure import address_of, listening, warning_of
 from checker.serving.supervisor import Pace, Process, keep_running, stop_all

@@ -3,7 +3,7 @@
     uploads/ab/<hash>          what was uploaded, once however often
     results/ab/<key>/…         reports; a key depends on all that a report depends on
     incoming/<random>…         work in progress
-    cache/                     what checks have worked out (`checker.cache`)
+    parts/ab/abcd…/            what checks of an upload have worked out (`checker.cache`)
 
 Many processes use it at once, on several machines where they share the folder.
 """
@@ -36,9 +36,9 @@ SUMMARY = "summary.json"
 RESULT_LIMIT = 1_000_000_000
 """Bytes of one result."""
 CACHE_SECONDS = 86_400.0
-"""That parts of a check are kept beyond their last use: for its second stage, and for a mended
-package that is uploaded again."""
-_OURS = ("uploads", "results", "incoming", "cache", "lock")
+"""That parts of a check are kept beyond their last use: for its second stage, and for the same
+upload with another profile."""
+_OURS = ("uploads", "results", "incoming", "parts", "cache", "lock")
 _KEY = re.compile(r"[0-9a-f]{64}")
 
 
@@ -83,10 +83,9 @@ class Store:
         with workplace(self.folder / "incoming") as place:
             yield place
 
-    @property
-    def cache(self) -> Path:
-        """The folder of what checks have worked out and other checks may need again."""
-        return self.folder / "cache"
+    def parts(self, hash: str) -> Path | None:
+        """Return the folder of what checks of an upload have worked out, for others of the same."""
+        return self._place("parts", hash)
 
     def upload(self, hash: str) -> Path | None:
         """Return the file of an upload; None if it is not there."""
@@ -155,10 +154,11 @@ class Store:
                 for path in (self.folder / kind).glob("[0-9a-f][0-9a-f]/*"):
                     if path.name not in still_used:
                         self._expire_one(path, before, place)
-        for path in self.cache.glob("*/[0-9a-f][0-9a-f]/*"):
+            for path in (self.folder / "parts").glob("[0-9a-f][0-9a-f]/*"):
+                self._expire_one(path, before - CACHE_SECONDS, place)
+            # 0.1.0 shared what it had worked out between uploads.
             with suppress(FileNotFoundError):
-                if path.stat().st_mtime < before - CACHE_SECONDS:
-                    path.unlink()
+                (self.folder / "cache").rename(place / "cache")
 
     def sweep(self) -> None:
         """Remove the temporary files of processes that have died."""

@@ -11,6 +11,7 @@ import fcntl
 import os
 import secrets
 import shutil
+import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -86,6 +87,18 @@ def _locks(descriptor: int) -> bool:
 def _remove(file: Path) -> None:
     """Remove a folder, then the file of its lock: what has no lock has no folder either."""
     place = file.with_suffix("")
-    shutil.rmtree(place, ignore_errors=True)
+    _remove_all(place)
     if not place.exists():
         file.unlink(missing_ok=True)
+
+
+def _remove_all(place: Path) -> None:
+    """Remove a folder, whatever a process that was taken over has made of it."""
+    with suppress(RecursionError):  # folders in folders in folders
+        shutil.rmtree(place, ignore_errors=True)
+    if place.exists():
+        for command in (("chmod", "-R", "u+rwX"), ("rm", "-rf")):
+            with suppress(OSError):
+                subprocess.run(  # noqa: S603 - neither follows links below
+                    [*command, "--", str(place)], check=False, stderr=subprocess.DEVNULL
+                )

@@ -6,6 +6,7 @@ import json
 import re
 from dataclasses import replace
 
+from checker.sandbox.files import NO_FILES, Files
 from checker.trial.contacts import overlaps
 from checker.trial.course import VERSION
 from checker.trial.measuring import measured
@@ -18,7 +19,7 @@ from checker.trial.simulate import drive
 from checker.trial.trial import Trial
 
 
-def answer(request: bytes) -> bytes:
+def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     """Drive a robot.
 
     Args:

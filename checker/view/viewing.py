@@ -9,10 +9,11 @@ from typing import Any
 
 from checker.cache import Cache, code_hash, key_of
 from checker.confined import Child, Died, Limits
-from checker.mesh.limits import MEMORY
+from checker.mesh.limits import MEMORY, SIZE_LIMIT
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews, View
+from checker.sandbox.files import from_disk
 from checker.source.text import Located
 from checker.stages import Stages, TimedMeshes
 from checker.versions import version_of
@@ -96,7 +97,8 @@ class Viewing:
         pending.known = _checked(self.cache.get(_KIND, pending.key), asked)
         if pending.known is None and (asked.request["meshes"] or asked.work > _SMALL):
             limits = Limits(SECONDS_FOR_ALL, MEMORY)
-            pending.child = Child("checker.view.worker", text.encode(), limits)
+            files = from_disk((mesh["file"], SIZE_LIMIT) for mesh in asked.request["meshes"])
+            pending.child = Child("checker.view.worker", text.encode(), limits, files)
         return pending
 
     def _collected(self, pending: _Pending) -> SensorViews:

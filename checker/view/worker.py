@@ -8,17 +8,16 @@ rotation row by row, then the place.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from checker.mesh.apart import Ended, all_apart
-from checker.mesh.limits import SIZE_LIMIT
 from checker.mesh.reader import load_libraries, read_surface
 from checker.mesh.surface import NoSurface
-from checker.package.reading import NotReadable, read_bytes
+from checker.package.reading import NotReadable
+from checker.sandbox.files import NO_FILES, Content, Files
 from checker.view.grid import Grid, grid_from_json
 from checker.view.solids import entered
 from checker.view.triangles import ball_around, in_view, met
@@ -43,13 +42,17 @@ Met = dict[str, Any]
 it, how far away (`reach`, metres), and those that meet it nearer than the sensor sees (`cut`)."""
 
 
-def answer(request: bytes) -> bytes:
+def answer(request: bytes, files: Files) -> bytes:
     """Do the work; see `look`."""
-    return json.dumps(look(json.loads(request))).encode()
+    return json.dumps(look(json.loads(request), files)).encode()
 
 
-def look(asked: dict[str, Any]) -> dict[str, Any]:
+def look(asked: dict[str, Any], files: Files = NO_FILES) -> dict[str, Any]:
     """Return what each sensor sees of the visuals.
+
+    Args:
+        asked: See above.
+        files: The meshes, by their `file`.
 
     Returns:
         `views`: for each sensor `shares` of the view and the metres (`reach`) to what fills each of
@@ -64,7 +67,7 @@ def look(asked: dict[str, Any]) -> dict[str, Any]:
     unread: list[tuple[int, str]] = []
     until = monotonic() + SECONDS_FOR_ALL
     load_libraries(mesh["name"] for mesh in asked["meshes"])
-    works = [partial(_as_bytes, mesh, poses, grids) for mesh in asked["meshes"]]
+    works = [partial(_as_bytes, mesh, files.read, poses, grids) for mesh in asked["meshes"]]
     for number, told in enumerate(all_apart(works, SECONDS_FOR_ONE, until, _LATE)):
         read = told.reason if isinstance(told, Ended) else json.loads(told)
         if isinstance(read, str):
@@ -133,14 +136,18 @@ def _solids(kinds: dict[str, Any], poses: list[Array], grids: list[Grid]) -> Ite
                 yield _met(group["visuals"][number], sensor, first[number], cut[number])
 
 
-def _as_bytes(mesh: dict[str, Any], poses: list[Array], grids: list[Grid]) -> bytes:
-    return json.dumps(_mesh(mesh, poses, grids)).encode()
+Read = Callable[[str], Content]
 
 
-def _mesh(mesh: dict[str, Any], poses: list[Array], grids: list[Grid]) -> list[Met] | str:
+def _as_bytes(mesh: dict[str, Any], read: Read, poses: list[Array], grids: list[Grid]) -> bytes:
+    return json.dumps(_mesh(mesh, read(mesh["file"]), poses, grids)).encode()
+
+
+def _mesh(
+    mesh: dict[str, Any], data: Content, poses: list[Array], grids: list[Grid]
+) -> list[Met] | str:
     import numpy as np
 
-    data = read_bytes(Path(mesh["file"]), mesh["name"], SIZE_LIMIT)
     if isinstance(data, NotReadable):
         return data.reason
     try:

@@ -10,6 +10,7 @@ from time import monotonic
 from typing import Any
 
 from checker.mesh.apart import Ended, apart
+from checker.sandbox.files import NO_FILES, Files
 
 SECONDS_FOR_ONE = 5
 """Of processor time; the largest real file takes less than 1 s."""
@@ -17,7 +18,7 @@ SECONDS_FOR_ALL = 30.0
 _SHORTEST = 1
 
 
-def answer(request: bytes) -> bytes:
+def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     """Expand files.
 
     Args:

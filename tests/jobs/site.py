@@ -14,9 +14,9 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from checker.confined import end_with_parent
 from checker.jobs.durable.client import DurableJobs, durable_jobs
 from checker.jobs.port import Order, Stage, State
+from checker.sandbox.task import end_with_parent
 from checker.store.store import Store
 
 ROOT = Path(__file__).parent.parent.parent

@@ -12,8 +12,8 @@ from time import monotonic, sleep
 
 import pytest
 
-from checker.confined import end_with_parent
 from checker.jobs.port import Order, Stage
+from checker.sandbox.task import end_with_parent
 from tests.jobs.site import ROOT, Site, site_in
 
 WORKER = """

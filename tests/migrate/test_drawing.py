@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.migrate.drawing import answer
+from checker.confined import Limits, ask
 from checker.migrate.thumbnails import thumbnails_of
 from checker.model.sdf.reader import read_sdf
 from tests.model.robots import document
@@ -18,6 +18,7 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 FLAT = "v 0 0 0\nv 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\nf 1 3 4\n"
 ROBOT = """<sdf version="1.6"><model name="m"><link name="l"><visual name="v"><geometry>
 <mesh><uri>a.obj</uri></mesh></geometry></visual></link></model></sdf>"""
+LIMITS = Limits(60.0, 16_000_000_000, draws=True)
 NO_OPENGL = "no OpenGL is at hand (EGL or OSMesa)"
 
 
@@ -45,7 +46,10 @@ def request_of(folder: Path, mesh: str) -> bytes:
 def test_a_mesh_that_cannot_be_drawn_is_not_a_lack_of_opengl(
     tmp_path: Path, mesh: str, said: str
 ) -> None:
-    unable = json.loads(answer(request_of(tmp_path, mesh)))["unable"]
+    request, path = request_of(tmp_path, mesh), str(tmp_path / "a.obj")
+    drawn = ask("checker.migrate.drawing", request, LIMITS, [(path, mesh.encode())])
+    assert isinstance(drawn, bytes)
+    unable = json.loads(drawn)["unable"]
     assert said in unable or unable == NO_OPENGL
 
 

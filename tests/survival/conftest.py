@@ -18,9 +18,9 @@ import httpx
 import pytest
 import sqlalchemy as sa
 
-from checker.confined import end_with_parent
 from checker.jobs.durable.database import open_database
 from checker.jobs.durable.tables import CHECKS
+from checker.sandbox.task import end_with_parent
 from tests.postgres import fresh_database
 from tests.serving.conftest import (
     SECONDS,

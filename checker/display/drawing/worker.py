@@ -16,6 +16,7 @@ from typing import Any
 
 from checker.display.drawing.rehearsal import rehearsal
 from checker.display.drawing.studio import GROUND_GROUP, drawn_size, model_of, set_stage
+from checker.sandbox.files import NO_FILES, Files
 
 LARGEST = 60_000
 """Bytes of a picture."""
@@ -40,7 +41,7 @@ def load(platform: str) -> None:
     _pictures(rehearsal())
 
 
-def answer(request: bytes) -> bytes:
+def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     """Draw pictures.
 
     Args:

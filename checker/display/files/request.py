@@ -12,6 +12,7 @@ from urllib.parse import unquote
 
 from checker.cache import code_hash, key_of
 from checker.display.files.painting import FILE_LIMIT
+from checker.mesh.limits import SIZE_LIMIT
 from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
 from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh
@@ -36,6 +37,13 @@ class Asked:
 
     key: str
     request: Mapping[str, Any]
+
+    @property
+    def files(self) -> Iterator[tuple[str, int]]:
+        """What goes with the request: paths, and how many bytes each may have."""
+        yield self.request["file"], SIZE_LIMIT
+        yield from ((path, FILE_LIMIT) for path in self.request["pictures"].values())
+        yield from ((path, MATERIAL_LIMIT) for path in self.request["materials"])
 
 
 def asked_of(package: Package, file: MeshFile, key: str, mesh: Mesh, most: int) -> Asked:

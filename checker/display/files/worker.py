@@ -7,25 +7,24 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from functools import partial
 from importlib import import_module
-from pathlib import Path
 from time import monotonic
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from checker.display.early import SECONDS_FOR_ALL
 from checker.display.files.collada import collada_pieces
-from checker.display.files.painting import FILE_LIMIT, picture, sampled
+from checker.display.files.painting import picture, sampled
 from checker.display.files.piece import Piece, by_look
 from checker.display.files.thinning import joined, shares, thinned
 from checker.display.files.wavefront import wavefront_pieces
 from checker.display.files.wire import Looked, to_json
 from checker.display.surface import Surface
 from checker.mesh.apart import Ended, all_apart
-from checker.mesh.limits import SECONDS_FOR_ONE, SIZE_LIMIT
-from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
+from checker.mesh.limits import SECONDS_FOR_ONE
 from checker.mesh.reader import load_libraries, read_surface
 from checker.mesh.surface import NoSurface
-from checker.package.reading import NotReadable, read_bytes
+from checker.package.reading import NotReadable
+from checker.sandbox.files import Files
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -49,13 +48,13 @@ def prepare() -> None:
     import_module("PIL.Image")
 
 
-def answer(request: bytes) -> bytes:
+def answer(request: bytes, files: Files) -> bytes:
     """Read files.
 
     Args:
-        request: JSON: for each file `file` (absolute path, links resolved), `name` (its suffix says
-            the format), `triangles` (at most), `pictures` (their paths by the names inside),
-            `materials` (paths of material files).
+        request: JSON: for each file `file`, `name` (its suffix says the format), `triangles` (at
+            most), `pictures` (by the names inside), `materials` (material files).
+        files: All of these, under the names that the request gives them.
 
     Returns:
         JSON: what each file looks like, in the same order.
@@ -65,8 +64,8 @@ def answer(request: bytes) -> bytes:
     if any(each["pictures"] for each in asked):
         import_module("PIL.Image")
     until = monotonic() + SECONDS_FOR_ALL
-    shared = _shared_pictures(asked, until)
-    works = [partial(_as_bytes, each, shared) for each in asked]
+    shared = _shared_pictures(asked, files, until)
+    works = [partial(_as_bytes, each, files, shared) for each in asked]
     looked = all_apart(works, SECONDS_FOR_ONE, until, _LATE)
     return b"[" + b",".join(map(_said, looked)) + b"]"
 
@@ -75,11 +74,13 @@ def _said(looked: bytes | Ended) -> bytes:
     return json.dumps(to_json(looked.reason)).encode() if isinstance(looked, Ended) else looked
 
 
-def _shared_pictures(asked: Iterable[Mapping[str, Any]], until: float) -> Pictures:
+def _shared_pictures(asked: Iterable[Mapping[str, Any]], files: Files, until: float) -> Pictures:
     """Read the pictures that several files use: to decode one can take half a second."""
     uses = Counter(path for each in asked for path in set(each["pictures"].values()))
     shared = [path for path, number in uses.most_common(_SHARED) if number > 1]
-    read = all_apart([partial(_pixels, path) for path in shared], SECONDS_FOR_ONE, until, _LATE)
+    read = all_apart(
+        [partial(_pixels, files, path) for path in shared], SECONDS_FOR_ONE, until, _LATE
+    )
     return dict(zip(shared, map(_as_picture, read), strict=True))
 
 
@@ -92,59 +93,60 @@ def _as_picture(read: bytes | Ended) -> Array | None:
     return np.frombuffer(read[_HEIGHT:], np.uint8).reshape(height, -1, 4)
 
 
-def _pixels(path: str) -> bytes:
+def _pixels(files: Files, path: str) -> bytes:
     """Return a picture's height and its pixels; nothing if it cannot be read."""
-    pixels = _picture(path)
+    pixels = _picture(files, path)
     return b"" if pixels is None else len(pixels).to_bytes(_HEIGHT, "big") + pixels.tobytes()
 
 
-def _as_bytes(asked: Mapping[str, Any], shared: Pictures) -> bytes:
-    return json.dumps(to_json(look(asked, shared))).encode()
+def _as_bytes(asked: Mapping[str, Any], files: Files, shared: Pictures) -> bytes:
+    return json.dumps(to_json(look(asked, files, shared))).encode()
 
 
-def look(asked: Mapping[str, Any], shared: Pictures = MappingProxyType({})) -> Looked:
+def look(asked: Mapping[str, Any], files: Files, shared: Pictures = MappingProxyType({})) -> Looked:
     """Return what one file looks like.
 
     Args:
         asked: See `answer`.
+        files: See `answer`.
         shared: Pictures that are read already, by their path.
     """
-    data = read_bytes(Path(asked["file"]), asked["name"], SIZE_LIMIT)
+    data = files.read(asked["file"])
     if isinstance(data, NotReadable):
         return data.reason
     try:
-        pieces = by_look(_pieces(data, asked["name"], asked["materials"]))
+        pieces = by_look(_pieces(data, asked, files))
     except NoSurface as none:
         return none.reason
-    painted = [_painted(piece, asked["pictures"], shared) for piece in pieces]
+    painted = [_painted(piece, asked["pictures"], files, shared) for piece in pieces]
     most = shares([len(each.faces) for each in painted], asked["triangles"], _SMALL)
     return tuple(
         thinned(each, count) for each, count in zip(painted, most, strict=True) if count > 0
     )
 
 
-def _pieces(data: bytes, name: str, materials: Iterable[str]) -> Iterable[Piece]:
-    match name.rpartition(".")[2].lower():
+def _pieces(data: bytes, asked: Mapping[str, Any], files: Files) -> Iterable[Piece]:
+    match asked["name"].rpartition(".")[2].lower():
         case "dae":
             return collada_pieces(data)
         case "obj":
-            files = (read_bytes(Path(path), path, MATERIAL_LIMIT) for path in materials)
-            return wavefront_pieces(data, (file for file in files if isinstance(file, bytes)))
+            materials = map(files.read, asked["materials"])
+            return wavefront_pieces(data, (each for each in materials if isinstance(each, bytes)))
         case _:
-            return (Piece(corners=read_surface(data, name).corners),)
+            return (Piece(corners=read_surface(data, asked["name"]).corners),)
 
 
-def _picture(path: str) -> Array | None:
-    data = read_bytes(Path(path), path, FILE_LIMIT)
+def _picture(files: Files, path: str) -> Array | None:
+    data = files.read(path)
     return picture(data) if isinstance(data, bytes) else None
 
 
-def _painted(piece: Piece, pictures: Mapping[str, str], shared: Pictures) -> Surface:
+def _painted(piece: Piece, pictures: Mapping[str, str], files: Files, shared: Pictures) -> Surface:
     """Return the triangles with the colours of their picture; without one, with their own."""
     path = pictures.get(piece.look.picture)
     pixels = None
     if path and piece.places is not None:
-        pixels = shared[path] if path in shared else _picture(path)
+        pixels = shared[path] if path in shared else _picture(files, path)
     if pixels is None or piece.places is None:
         return joined(piece.corners, piece.look.colour, None, None)
     colours = sampled(pixels, piece.places)

@@ -78,7 +78,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     engine = open_database(options.database_url)
     prepare(engine)
     queues, roll = queues_of(engine), Roll(engine)
-    children = Children(options.store.cache, options.ahead)
+    children = Children(options.store, options.ahead)
     stages = Stages(Ledger(engine), queues, options.store, options.name, children)
     watchdog = Watchdog(roll, options.name, options.silence_seconds)
     retention = Retention(engine, queues, options.store, options.unused_seconds)

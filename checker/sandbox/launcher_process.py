@@ -1,0 +1,190 @@
+"""The process that others are forked from: `python -m checker.sandbox.launcher_process`.
+
+It is started with nothing of its parent's but a socket, puts walls up around itself, and reads
+nobody's files. Each process that it starts runs one function of one module within these walls.
+
+On the socket comes one JSON object a line (`Start` in `checker.sandbox.launcher`), with the
+descriptors of the new process: its leash, the file of its request, that of its answer, and a pipe
+for its exit code. Who lets go of the other end of the leash has the process killed. When the
+socket closes, all of them end.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import signal
+import socket
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from checker.sandbox.layers import Walls, put_up
+from checker.sandbox.task import run
+
+MESSAGE_LIMIT = 4096
+"""Bytes of one message."""
+DESCRIPTORS = 4
+"""That come with the order to start a process."""
+_GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
+_PROCESSES_LIMIT = 512
+"""Of a user that has no others."""
+
+
+class _Process:
+    """A process that was started: its leash, and where its exit code goes."""
+
+    def __init__(self, id: int, leash: int, code: int) -> None:
+        self.id, self.leash, self.code = id, leash, code
+
+
+class LauncherProcess:
+    """Starts processes until nobody asks for any more."""
+
+    def __init__(self, control: socket.socket, walls: Walls) -> None:
+        """Put the walls up, and say which of them hold."""
+        # A process within the walls asks for others by a socket of its own.
+        self._inner_client, inner = socket.socketpair()
+        self._controls = {control.fileno(): control, inner.fileno(): inner}
+        self._outer = control.fileno()
+        self._walls = walls
+        self._processes: dict[int, _Process] = {}
+        self._poll = select.poll()
+        self._woken, wake = os.pipe()
+        os.set_blocking(wake, False)
+        os.set_blocking(self._woken, False)
+        signal.signal(signal.SIGCHLD, lambda *_: None)
+        signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
+        layers = put_up(walls)
+        _limit_processes(any(each.name == "account" and each.held for each in layers))
+        said = json.dumps([[each.name, each.held, each.words] for each in layers])
+        control.sendall(said.encode() + b"\n")
+        for descriptor in (*self._controls, self._woken):
+            self._poll.register(descriptor, select.POLLIN)
+
+    def serve(self) -> None:
+        """Start and end processes as told, until the socket closes."""
+        while True:
+            for descriptor, event in self._poll.poll():
+                if descriptor == self._woken:
+                    self._reap()
+                elif descriptor in self._controls:
+                    if not self._heed(self._controls[descriptor]) and descriptor == self._outer:
+                        return
+                elif event & _GONE:
+                    self._kill(descriptor)
+
+    def _heed(self, control: socket.socket) -> bool:
+        """Do what a message asks for; False if there will be none any more."""
+        try:
+            message, descriptors, _, _ = socket.recv_fds(control, MESSAGE_LIMIT, DESCRIPTORS)
+        except ConnectionError:  # closed before all that was said to it was read
+            message, descriptors = b"", []
+        if message and len(descriptors) == DESCRIPTORS:
+            self._start(json.loads(message), descriptors)
+            return True
+        for descriptor in descriptors:
+            os.close(descriptor)
+        if not message:
+            self._poll.unregister(control.fileno())
+            del self._controls[control.fileno()]
+        return bool(message)
+
+    def _start(self, order: dict[str, Any], descriptors: Sequence[int]) -> None:
+        leash, request, answer, code = descriptors
+        id = os.fork()
+        if id == 0:
+            os._exit(self._be(order, leash, request, answer))
+        os.close(request)
+        os.close(answer)
+        self._processes[id] = _Process(id, leash, code)
+        # What is written into it is for the process; here only its end counts.
+        self._poll.register(leash, 0)
+
+    def _be(self, order: dict[str, Any], leash: int, request: int, answer: int) -> int:
+        """Be the new process; return its exit code."""
+        signal.set_wakeup_fd(-1)
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        os.setpgid(0, 0)
+        inner = self._inner_client.fileno() if order["works"] else -1
+        _close_all_but({leash, request, answer, inner})
+        return run(order, self._walls, (leash, request, answer, inner))
+
+    def _reap(self) -> None:
+        """Tell how processes ended."""
+        with suppress(BlockingIOError):
+            os.read(self._woken, MESSAGE_LIMIT)
+        for process in [*self._processes.values()]:
+            if _has_ended(process.id):
+                # What it has started, and left, goes as well: until it is waited for, nobody else
+                # can get the number of its group.
+                with suppress(OSError):
+                    os.killpg(process.id, signal.SIGKILL)
+                _, status = os.waitpid(process.id, 0)
+                self._forget(process, os.waitstatus_to_exitcode(status))
+
+    def _forget(self, process: _Process, code: int) -> None:
+        del self._processes[process.id]
+        with suppress(OSError):
+            os.write(process.code, str(code).encode())
+        with suppress(KeyError):
+            self._poll.unregister(process.leash)
+        os.close(process.leash)
+        os.close(process.code)
+
+    def _kill(self, leash: int) -> None:
+        """End the process on whose leash nobody is any more."""
+        self._poll.unregister(leash)
+        for process in self._processes.values():
+            if process.leash == leash:
+                for end in (os.killpg, os.kill):
+                    with suppress(OSError):
+                        end(process.id, signal.SIGKILL)
+
+
+def _has_ended(id: int) -> bool:
+    if not hasattr(os, "waitid"):  # macOS, before Python 3.13
+        return True
+    return os.waitid(os.P_PID, id, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
+
+
+def _close_all_but(kept: set[int]) -> None:
+    """Close what the launcher has open, so that a process has nothing but its own."""
+    last = 2
+    for descriptor in sorted(each for each in kept if each > last):
+        os.closerange(last + 1, descriptor)
+        last = descriptor
+    os.closerange(last + 1, os.sysconf("SC_OPEN_MAX"))
+
+
+def _limit_processes(alone: bool) -> None:
+    """Keep a user that has no other processes from starting too many."""
+    import resource
+
+    if alone:
+        resource.setrlimit(resource.RLIMIT_NPROC, (_PROCESSES_LIMIT, _PROCESSES_LIMIT))
+
+
+def _stand_back(niceness: int) -> None:
+    """Let come first what people wait for at this very moment: uploads, pages."""
+    os.nice(niceness)
+    # A session of its own may be a group of its own, within which alone niceness counts (sched(7)).
+    with suppress(OSError):
+        Path("/proc/self/autogroup").write_text(str(niceness), encoding="ascii")
+
+
+def main(descriptor: int, niceness: int, walls: str) -> None:
+    """Serve on a socket that was inherited."""
+    if niceness:
+        _stand_back(niceness)
+    with socket.socket(fileno=descriptor) as control:
+        LauncherProcess(control, Walls(**json.loads(walls))).serve()
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3])
+    # What is still there ends with this process; nothing is to be tidied up.
+    os._exit(0)

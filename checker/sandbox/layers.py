@@ -1,0 +1,124 @@
+"""The walls around a process: which there are, and which of them hold on this machine.
+
+Each holds by itself, as far as it goes; docs/security.md tells what each keeps from what.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+
+from checker.record import record
+from checker.sandbox import account, landlock, namespaces, program_files, seccomp
+from checker.sandbox.seccomp import NotHeld
+
+NAMESPACES, ACCOUNT, LANDLOCK, SECCOMP = "namespaces", "account", "landlock", "seccomp"
+ALL = (NAMESPACES, ACCOUNT, LANDLOCK, SECCOMP)
+
+
+@record()
+class Layer:
+    """One of the walls.
+
+    Attributes:
+        name: One of `ALL`.
+        held: Whether it stands.
+        words: How, or why not; the end of a sentence.
+    """
+
+    name: str
+    held: bool
+    words: str
+
+
+@record()
+class Walls:
+    """What to put up around a process.
+
+    Attributes:
+        names: Which of `ALL`; others than all are for tests of each alone.
+        wrapped: Whether bubblewrap has made the namespaces already.
+        account: User id to take; 0 to stay the same.
+        work: Folder that it may write in; empty for none.
+    """
+
+    names: tuple[str, ...] = ALL
+    wrapped: bool = False
+    account: int = 0
+    work: str = ""
+
+
+def put_up(walls: Walls) -> list[Layer]:
+    """Put walls up around this process and all that it will start, for good.
+
+    Those that the system does not have are left out, and the result says so.
+    """
+    return [_put_up(name, walls) for name in ALL if name in walls.names]
+
+
+def _put_up(name: str, walls: Walls) -> Layer:
+    try:
+        return Layer(name, True, _WAYS[name](walls))
+    except NotHeld as error:
+        return Layer(name, False, str(error.args[-1]))
+
+
+def _namespaces(walls: Walls) -> str:
+    if walls.wrapped:
+        return "bubblewrap: no network, no other processes, no other files"
+    namespaces.leave_network()
+    return "no network; bubblewrap would hide other processes and files"
+
+
+def _account(walls: Walls) -> str:
+    # The folder itself is the account's own.
+    around = (str(Path(walls.work).parent),) if walls.work else ()
+    account.become(walls.account, (*program_files.program_paths(), *around))
+    return f"user {walls.account}"
+
+
+def _landlock(walls: Walls) -> str:
+    seccomp.gain_nothing()
+    known = landlock.allow_only(
+        read=(*program_files.program_paths(), *program_files.MACHINE),
+        work=filter(None, (walls.work,)),
+        devices=(*program_files.DEVICES, *program_files.SCREENS),
+    )
+    return f"version {known}"
+
+
+def _seccomp(_: Walls) -> str:
+    seccomp.gain_nothing()
+    seccomp.forbid_calls()
+    return f"{len(seccomp.FORBIDDEN)} system calls are forbidden"
+
+
+_WAYS = {
+    NAMESPACES: _namespaces,
+    ACCOUNT: _account,
+    LANDLOCK: _landlock,
+    SECCOMP: _seccomp,
+}
+
+
+def narrow(walls: Walls, *, works: bool, draws: bool) -> None:
+    """Take from a process within walls what its own task does not need.
+
+    Args:
+        walls: Those around it.
+        works: Whether it may write into the working folder.
+        draws: Whether it may use graphics cards.
+    """
+    screens = program_files.SCREENS if draws else ()
+    folders = (walls.work,) if works and walls.work else ()
+    # What cannot be narrowed stays within the walls that there are.
+    if LANDLOCK in walls.names:
+        with suppress(NotHeld):
+            landlock.allow_only(
+                (*program_files.program_paths(), *program_files.MACHINE),
+                folders,
+                (*program_files.DEVICES, *screens),
+            )
+    if SECCOMP in walls.names:
+        with suppress(NotHeld):
+            seccomp.forbid_calls(signals=works)

@@ -1,0 +1,116 @@
+"""Another view of the system: without network, other processes, or files of others.
+
+Bubblewrap (bwrap) makes it where it is installed. Without it, a process can leave the network and
+what processes share by itself, but still sees files and processes: see namespaces(7).
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import shutil
+import subprocess
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from functools import cache as once
+from pathlib import Path
+
+from checker.sandbox.seccomp import NotHeld
+
+WORK = "/subt-check-work"
+"""Where a process finds the folder that it may write in."""
+_USER, _UTS, _IPC, _NET = 0x10000000, 0x04000000, 0x08000000, 0x40000000
+"""Flags of unshare(2): CLONE_NEWUSER and so on."""
+_TRY_SECONDS = 10
+
+
+def wrapped(command: Sequence[str], read: Iterable[str], work: str = "") -> list[str]:
+    """Return the command that runs a command where nothing but some files can be seen.
+
+    Args:
+        command: Program and arguments.
+        read: Files and folders that it sees, at their own paths.
+        work: Folder that it sees as `WORK` and may write in; empty for an empty one in memory.
+    """
+    paths = list(read)
+    # Made on the way to a file, they would be closed to all but root.
+    folders = dict.fromkeys(each for path in paths for each in reversed(Path(path).parents))
+    shown = [word for folder in folders if folder.name for word in ("--dir", str(folder))]
+    shown += [word for path in paths for word in _shown(path)]
+    place = ("--bind", work, WORK) if work else ("--tmpfs", WORK)
+    return [*_BWRAP, *_rights(), *_OWN, *shown, *place, "--chdir", "/", "--", *command]
+
+
+_BWRAP = (
+    *("bwrap", "--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts"),
+    *("--unshare-cgroup-try", "--new-session"),
+)
+_OWN = (
+    *("--dev", "/dev", "--dev-bind-try", "/dev/dri", "/dev/dri"),
+    *("--proc", "/proc", "--tmpfs", "/tmp"),  # noqa: S108 - its own, in memory
+)
+
+
+def _rights() -> tuple[str, ...]:
+    if os.getuid() == 0:
+        # It becomes another user itself, after Python has started.
+        return ("--cap-drop", "ALL", "--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID")
+    return ("--unshare-user", "--cap-drop", "ALL")
+
+
+def _shown(path: str) -> tuple[str, ...]:
+    if os.path.islink(path):  # noqa: PTH114 - such as /lib, where it is a part of /usr
+        return ("--symlink", os.readlink(path), path)  # noqa: PTH115
+    return ("--ro-bind-try", path, path)
+
+
+@once
+def bubblewrap() -> str:
+    """Return why bubblewrap is of no use here; empty if it is."""
+    if shutil.which("bwrap") is None:
+        return "bubblewrap (bwrap) is not installed"
+    command = wrapped(["/usr/bin/true"], ("/usr", "/lib", "/lib64", "/bin"))
+    try:
+        tried = subprocess.run(  # noqa: S603 - a fixed command
+            command, capture_output=True, timeout=_TRY_SECONDS, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return f"bubblewrap does not start: {error}"
+    words = tried.stderr.decode(errors="replace").strip()[:200]
+    return "" if tried.returncode == 0 else f"bubblewrap fails: {words or tried.returncode}"
+
+
+def leave_network() -> None:
+    """Leave the network, and the memory and names that processes share.
+
+    Call it before a library starts threads: a process of several threads cannot become another
+    user, which Linux wants of all but root (unshare(2)).
+
+    Raises:
+        NotHeld: The system, or a container, does not allow it.
+    """
+    user, group = os.getuid(), os.getgid()
+    flags = _UTS | _IPC | _NET | (0 if user == 0 else _USER)
+    libc = ctypes.CDLL(None, use_errno=True)
+    if not hasattr(libc, "unshare"):
+        raise NotHeld("the system has no namespaces")
+    if libc.unshare(flags) != 0:
+        raise NotHeld(f"the system allows no namespaces ({os.strerror(ctypes.get_errno())})")
+    if flags & _USER:
+        # In its own view it would be nobody.
+        with suppress(OSError):
+            _be_known_as(user, group)
+
+
+def _be_known_as(user: int, group: int) -> None:
+    for name, said in (
+        ("setgroups", "deny"),
+        ("uid_map", f"{user} {user} 1"),
+        ("gid_map", f"{group} {group} 1"),
+    ):
+        # In one write, as the system wants it.
+        descriptor = os.open(f"/proc/self/{name}", os.O_WRONLY)
+        try:
+            os.write(descriptor, said.encode())
+        finally:
+            os.close(descriptor)

@@ -1,0 +1,125 @@
+"""What a process within the walls does: one function of one module, and it ends.
+
+The module has `answer(request: bytes, files: Files)`, which returns bytes, or bytes and files (see
+`Answer`). Its `prepare()`, if it has one, is called before the request is there.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterable
+from contextlib import suppress
+from importlib import import_module
+from typing import Any, BinaryIO
+
+from checker.sandbox.files import Content, read, write
+from checker.sandbox.layers import Walls, narrow
+
+Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
+"""What comes back; files are made one by one, while they are written."""
+OUT_OF_MEMORY, FAILED = 71, 70
+"""Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
+INNER = "SUBT_CHECK_LAUNCHER"
+"""Name of the variable with the descriptor by which a process within the walls asks for others."""
+_PR_SET_PDEATHSIG = 1
+_REQUEST_LIMIT = 500_000_000
+_FILE_BYTES, _OPEN_FILES = 1_000_000_000, 512
+LEASH = 0
+"""Descriptor of the leash: a byte comes when the request is there."""
+DEBUG = "SUBT_CHECK_DEBUG"
+"""Name of the variable that has faults of ours told with their traces."""
+
+
+def run(order: dict[str, Any], walls: Walls, descriptors: tuple[int, int, int, int]) -> int:
+    """Do what was ordered; return the exit code.
+
+    Args:
+        order: `module`, `seconds` of processor time, `memory` in bytes, `works` (whether it writes
+            into the working folder and asks for processes) and `draws`.
+        walls: Those around this process.
+        descriptors: The leash, on which a byte comes when the request is there; the files of
+            request and answer; the socket by which to ask for processes, or -1.
+    """
+    leash, request, answer, inner = descriptors
+    try:
+        end_with_parent()
+        _speak_to_nobody(leash)
+        os.chdir(walls.work if order["works"] and walls.work else "/")
+        if inner >= 0:
+            os.environ[INNER] = str(inner)
+        hold_to(order["seconds"], order["memory"])
+        narrow(walls, works=order["works"], draws=order["draws"])
+        module = import_module(order["module"])
+        if hasattr(module, "prepare"):
+            module.prepare()
+        if os.read(LEASH, 1):
+            said, files = read(request, _REQUEST_LIMIT)
+            with os.fdopen(answer, "wb") as file:
+                _write(file, module.answer(said, files))
+    except MemoryError:
+        return OUT_OF_MEMORY
+    except BaseException:  # noqa: BLE001 - who waits for the answer is told that there is none
+        if os.environ.get(DEBUG):
+            import traceback
+
+            traceback.print_exc()
+        return FAILED
+    return 0
+
+
+def _write(file: BinaryIO, answer: Answer) -> None:
+    if isinstance(answer, bytes):
+        write(file, answer)
+    else:
+        write(file, *answer)
+
+
+def _speak_to_nobody(leash: int) -> None:
+    """Lead what libraries print nowhere; the leash becomes the standard input."""
+    os.dup2(leash, LEASH)
+    os.close(leash)
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for stream in (1,) if os.environ.get(DEBUG) else (1, 2):
+        os.dup2(nowhere, stream)
+    os.close(nowhere)
+
+
+def end_with_parent() -> None:
+    """Have this process killed when its parent ends, where the system can (Linux: prctl)."""
+    import ctypes
+
+    with suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def hold_to(seconds: int, memory: int) -> None:
+    """Take from this process what it shall not use; no limit that it has already is raised."""
+    import resource
+
+    for kind, soft, hard in (
+        (resource.RLIMIT_CPU, max(seconds, 1), max(seconds, 1) + 1),
+        (resource.RLIMIT_AS, memory, memory),
+        (resource.RLIMIT_CORE, 0, 0),
+        (resource.RLIMIT_FSIZE, _FILE_BYTES, _FILE_BYTES),
+        (resource.RLIMIT_NOFILE, _OPEN_FILES, _OPEN_FILES),
+    ):
+        resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
+
+
+def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
+    """Return the soft and the hard limit to set where others are set already: the tighter of each.
+
+    Args:
+        given: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
+        soft: The soft limit that is wanted.
+        hard: The hard limit that is wanted, not below `soft`.
+    """
+    return tighter(given[0], soft), tighter(given[1], hard)
+
+
+def tighter(limit: int, wanted: int) -> int:
+    """Return what is wanted, or the limit that there is if it allows less."""
+    from resource import RLIM_INFINITY
+
+    return wanted if limit == RLIM_INFINITY else min(limit, wanted)
