@@ -7,13 +7,15 @@ started within the walls of `checker.sandbox`, and given no path.
 
 from __future__ import annotations
 
+import json
 import os
 import select
 import tempfile
 from collections.abc import Iterable
 from contextlib import suppress
+from pathlib import Path
 from time import monotonic
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from checker.record import record
 from checker.sandbox import files as handed
@@ -73,6 +75,7 @@ class Child:
         starter: Launcher | None = None,
         *,
         works: bool = False,
+        folder: Path | None = None,
     ) -> None:
         """Start it.
 
@@ -84,12 +87,13 @@ class Child:
             contents: Files that go with the request: their names, and what is in them.
             starter: Starts it; that of this process when None.
             works: Whether it writes into the working folder, and asks for processes itself.
+            folder: On whose disk request and answer lie; that of temporary files when None.
         """
         self.limits = limits
         self.deadline = monotonic() + limits.clock_seconds
         # No names: one that is killed leaves none, and nobody else can open them.
-        self._request: BinaryIO = tempfile.TemporaryFile()  # noqa: SIM115 - closed by `stop`
-        self._answer: BinaryIO = tempfile.TemporaryFile()  # noqa: SIM115
+        self._request: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
+        self._answer: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
         order = Order(module, int(limits.seconds), limits.memory, works, limits.draws)
         self._started = (starter or launcher()).start(order, self._request, self._answer)
         self.code: int | None = None
@@ -175,6 +179,22 @@ def ask(
 ) -> bytes | Died:
     """Let a process do the work of a module and wait for the answer; see `Child`."""
     return Child(module, request, limits, contents).answer()
+
+
+NONSENSE = (AttributeError, IndexError, KeyError, TypeError, ValueError)
+"""What reading an answer raises that has not the form that was asked for."""
+
+
+def from_json(answer: bytes) -> Any:
+    """Return what an answer says as JSON; who answered may have been taken over.
+
+    Raises:
+        ValueError: It is no JSON, or nests too deeply.
+    """
+    try:
+        return json.loads(answer)
+    except RecursionError:
+        raise ValueError("nests too deeply") from None
 
 
 def _cause(code: int, limits: Limits) -> str:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import base64
-import json
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
 from checker.cache import NO_CACHE, Cache, code_hash, key_of
-from checker.confined import Child, Died
+from checker.confined import Child, Died, from_json
 from checker.display.drawing.request import Shot, request_of
 from checker.display.drawing.shots import ground_of, shots_of
 from checker.display.early import PLATFORMS, artist
@@ -86,7 +85,7 @@ class Drawing:
 
 def _read(answer: bytes | Died) -> Any:
     with suppress(ValueError):
-        return None if isinstance(answer, Died) else json.loads(answer)
+        return None if isinstance(answer, Died) else from_json(answer)
     return None
 
 

@@ -37,7 +37,7 @@ from checker.recall import program_parts
 from checker.report.artefacts import ARTEFACT_NAME
 from checker.report.wording import plain
 from checker.sandbox.files import Content, Files
-from checker.sandbox.task import OUT_OF_MEMORY
+from checker.sandbox.task import FAULT_LIMIT, OUT_OF_MEMORY
 from checker.store.store import RESULT_LIMIT, SUMMARY, Store
 
 LIMITS: Mapping[Stage, StageLimits] = {
@@ -118,7 +118,7 @@ def stored_result(store: Store, order: Order, stage: Stage) -> Checked | None:
 
 
 def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLimits) -> Outcome:
-    match _parsed(ended.answer):
+    match _parsed(ended.answer) if ended.code == 0 else None:
         case {"refused": str(reason)}:
             return Refused(plain(reason))
         case {"crashed": bool(crashed)} as answer:
@@ -126,7 +126,9 @@ def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLi
             checked = read_summary(secrets.token_hex(32) if crashed else key, answer)
             if checked is not None:
                 return _kept(store, order, checked, ended)
-    _LOG.error("the child ended with code %s, overdue: %s", ended.code, ended.overdue)
+    last_words = repr(ended.answer[-FAULT_LIMIT:].decode(errors="replace"))
+    how = "overdue" if ended.overdue else f"code {ended.code}"
+    _LOG.error("the child ended (%s) and said: %s", how, last_words)
     return Died(_cause(ended, limits))
 
 

@@ -31,7 +31,7 @@ class Ended:
 
     Attributes:
         code: Exit code of its process; of a signal, its negative number; None if it has none.
-        answer: What it says, where it says something.
+        answer: What it says, where it says something; of one that failed, why.
         files: What it has made.
         overdue: It took too long and was stopped.
         cancelled: It was no longer wanted and was stopped.
@@ -56,7 +56,9 @@ class _Place:
             starter = OwnLauncher(folder, account=account, niceness=NICENESS)
             held.enter_context(closing(starter))
             self._starter = starter
-            self.child = Child(MODULE, None, limits, starter=starter, works=True)
+            self.child = Child(
+                MODULE, None, limits, starter=starter, works=True, folder=folder.parent
+            )
             held.callback(self.child.stop)
             self._held = held.pop_all()
 
@@ -153,10 +155,10 @@ _PROCESSOR_SECONDS = 3600.0
 def _watched(child: Child, seconds: float, cancelled: Callable[[], bool]) -> Ended:
     """Wait for a process, and return how it ended."""
     deadline = monotonic() + seconds
+    unwanted = cancelled()
     while not child.ends(min(_LOOK, max(0.0, deadline - monotonic()))):
-        if monotonic() >= deadline:
-            return Ended(None, overdue=True)
-        if cancelled():
-            return Ended(None, cancelled=True)
-    answered = child.answered(ANSWER_LIMIT) if child.code == 0 else None
+        unwanted = unwanted or cancelled()
+        if unwanted or monotonic() >= deadline:
+            return Ended(None, overdue=not unwanted, cancelled=unwanted)
+    answered = child.answered(ANSWER_LIMIT)
     return Ended(child.code, *answered) if isinstance(answered, tuple) else Ended(child.code)

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from checker.confined import Child, Died
+from checker.confined import NONSENSE, Child, Died, from_json
 
 T = TypeVar("T")
 
 
-def all_read(child: Child, number: int, from_json: Callable[[Any], T]) -> list[T] | str:
+def all_read(child: Child, number: int, decode: Callable[[Any], T]) -> list[T] | str:
     """Wait for a child that reads mesh files.
 
     Args:
         child: It answers with a JSON list.
         number: Of files that it was given.
-        from_json: Makes what was read of an entry; raises TypeError or ValueError for nonsense.
+        decode: Makes what was read of an entry; what it raises for nonsense is in `NONSENSE`.
 
     Returns:
         What was read, in the order of the files; else why it was not, the end of a sentence.
@@ -26,7 +25,7 @@ def all_read(child: Child, number: int, from_json: Callable[[Any], T]) -> list[T
     if isinstance(answer, Died):
         return f"was not read: its reader {answer.reason}"
     try:
-        read = [from_json(each) for each in json.loads(answer)]
-    except (TypeError, ValueError):
+        read = [decode(each) for each in from_json(answer)]
+    except NONSENSE:
         read = []
     return read if len(read) == number else "was not read: its reader answered with nonsense"

@@ -10,7 +10,7 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from checker.confined import Died, Limits, ask
+from checker.confined import NONSENSE, Died, Limits, ask, from_json
 from checker.mesh.limits import SIZE_LIMIT
 from checker.model.components import Visual
 from checker.model.robot import Robot
@@ -55,11 +55,14 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     said = ask("checker.migrate.drawing", request, limits, from_disk(files.items()))
     if isinstance(said, Died):
         return Thumbnails(trouble=_trouble(f"the process that draws {said.reason}"))
-    answer = json.loads(said)
-    if "pictures" not in answer:
-        return Thumbnails(trouble=_trouble(str(answer.get("unable", "no picture came"))))
-    pictures = (base64.b64decode(each) for each in answer["pictures"])
-    return Thumbnails(dict(zip(NAMES, pictures, strict=True)))
+    try:
+        answer = from_json(said)
+        if "pictures" not in answer:
+            return Thumbnails(trouble=_trouble(str(answer.get("unable", "no picture came"))))
+        pictures = (base64.b64decode(each) for each in answer["pictures"])
+        return Thumbnails(dict(zip(NAMES, pictures, strict=True)))
+    except NONSENSE:
+        return Thumbnails(trouble=_trouble("the process that draws answered with nonsense"))
 
 
 def _trouble(reason: str) -> str:

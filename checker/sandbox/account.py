@@ -62,7 +62,9 @@ def account_for(folder: Path) -> int:
     account = free_account()
     try:
         if account:
-            os.chown(folder, account, account)
+            # Root's group stays, for a process that does not become that user: it has no rights.
+            folder.chmod(0o770)
+            os.chown(folder, account, -1)
     except OSError:  # root without its rights, in a container
         return 0
     return account

@@ -24,6 +24,8 @@ INNER = "SUBT_CHECK_LAUNCHER"
 """Name of the variable with the descriptor by which a process within the walls asks for others."""
 _PR_SET_PDEATHSIG = 1
 _REQUEST_LIMIT = 500_000_000
+FAULT_LIMIT = 4_000
+"""Bytes of what is told of a fault."""
 _FILE_BYTES, _OPEN_FILES = 1_000_000_000, 512
 LEASH = 0
 """Descriptor of the leash: a byte comes when the request is there."""
@@ -55,17 +57,28 @@ def run(order: dict[str, Any], walls: Walls, descriptors: tuple[int, int, int, i
             module.prepare()
         if os.read(LEASH, 1):
             said, files = read(request, _REQUEST_LIMIT)
-            with os.fdopen(answer, "wb") as file:
+            with os.fdopen(os.dup(answer), "wb") as file:
                 _write(file, module.answer(said, files))
     except MemoryError:
         return OUT_OF_MEMORY
     except BaseException:  # noqa: BLE001 - who waits for the answer is told that there is none
-        if os.environ.get(DEBUG):
-            import traceback
-
-            traceback.print_exc()
+        _tell_fault(answer)
         return FAILED
     return 0
+
+
+def _tell_fault(answer: int) -> None:
+    """Leave what went wrong in place of an answer, for a log."""
+    import sys
+    import traceback
+
+    words = traceback.format_exc()
+    if os.environ.get(DEBUG):
+        sys.stderr.write(words)
+    with suppress(OSError), open(answer, "wb") as file:
+        file.truncate(0)
+        file.seek(0)
+        write(file, words.encode(errors="replace")[-FAULT_LIMIT:])
 
 
 def _write(file: BinaryIO, answer: Answer) -> None:

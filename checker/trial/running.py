@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from checker.cache import Cache, code_hash, key_of
-from checker.confined import Child, Died, Limits
+from checker.confined import NONSENSE, Child, Died, Limits, from_json
 from checker.model.robot import Robot
 from checker.trial.drivers.planning import plan_of
 from checker.trial.scene import build_scene
@@ -52,9 +52,13 @@ class Pending:
     def _read(self, answer: bytes | Died) -> Trial | str:
         if isinstance(answer, Died):
             return f"the trial {answer.reason}"
-        said = json.loads(answer)
+        try:
+            said = from_json(answer)
+            trial = Trial.from_json(said)
+        except NONSENSE:
+            return "the trial was answered with nonsense"
         self._cache.put(_KIND, self._key, said)
-        return Trial.from_json(said)
+        return trial
 
 
 def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Pending:

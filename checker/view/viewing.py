@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from checker.cache import Cache, code_hash, key_of
-from checker.confined import Child, Died, Limits
+from checker.confined import Child, Died, Limits, from_json
 from checker.mesh.limits import MEMORY, SIZE_LIMIT
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
@@ -128,7 +128,7 @@ def _answered(pending: _Pending) -> dict[str, Any] | str:
     if isinstance(told, Died):
         return f"what the sensors see was not worked out: it {told.reason}"
     try:
-        known = _checked(json.loads(told), pending.asked)
+        known = _checked(from_json(told), pending.asked)
     except ValueError:
         known = None
     return known or "what the sensors see was not worked out: the answer was nonsense"

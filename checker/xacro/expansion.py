@@ -7,13 +7,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from checker.cache import Cache, code_hash, key_of
-from checker.confined import Child, Died, Limits
+from checker.confined import Child, Died, Limits, from_json
 from checker.model.urdf.files import XacroFault, XacroFaultKind
 from checker.package.package import Package
 from checker.record import record
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
 from checker.versions import version_of
+from checker.xacro.answers import is_answer
 from checker.xacro.expanded import expanded_document
 from checker.xacro.gathering import Gathered
 from checker.xacro.paths import path_of
@@ -101,7 +102,7 @@ class Expansions:
 
     def _known(self, key: str) -> Any:
         found = self._cache.get(_KIND, key)
-        return found if isinstance(found, dict) else None
+        return found if is_answer(found) else None
 
     def _open_jobs(self) -> list[int]:
         return [number for number, answer in enumerate(self._answers) if answer is None]
@@ -160,5 +161,10 @@ def _read(said: bytes | Died, number: int) -> list[dict[str, Any]]:
     """Return as many answers as were asked for."""
     if isinstance(said, Died):
         return [{"unread": f"the process that expands it {said.reason}"}] * number
-    answers = json.loads(said)
-    return answers if len(answers) == number else [{"unread": "no answer came"}] * number
+    try:
+        answers = from_json(said)
+    except ValueError:
+        answers = None
+    if isinstance(answers, list) and len(answers) == number and all(map(is_answer, answers)):
+        return answers
+    return [{"unread": "the process that expands it answered with nonsense"}] * number

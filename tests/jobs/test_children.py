@@ -7,19 +7,21 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import closing, suppress
+from contextlib import closing
 from pathlib import Path
-from time import monotonic, sleep
 
 import pytest
 
 from checker.jobs.checking import check_upload
 from checker.jobs.children import Children
-from checker.jobs.isolation import StageLimits
+from checker.jobs.limits import NICENESS
 from checker.jobs.outcome import Checked, Outcome
 from checker.jobs.port import Order, Stage
+from checker.sandbox.launcher import OwnLauncher
+from checker.sandbox.layers import NAMESPACES
 from checker.store.store import Store
 from tests.conftest import SAMPLES
+from tests.jobs.launched import is_alive, launchers, tasks, wait_for
 from tests.web.server import eventually
 from tests.web.service import zip_of
 
@@ -29,12 +31,13 @@ WAITS = """
 import sys, time
 from pathlib import Path
 from checker.jobs.children import Children
-children = Children(Path(sys.argv[1]))
+from checker.store.store import Store
+children = Children(Store(Path(sys.argv[1])))
 children.get_ready()
 time.sleep(600)
 """
-READER = "checker.mesh.worker"
-MAY_LEAVE = "import ctypes; raise SystemExit(ctypes.CDLL(None).unshare(0x50000000))"
+WAITING = 2
+"""Processes that wait: one that checks, and one that reads meshes beside it."""
 
 
 @pytest.fixture
@@ -44,45 +47,14 @@ def store(tmp_path: Path) -> Store:
 
 @pytest.fixture
 def children(store: Store) -> Iterator[Children]:
-    with closing(Children(store.cache)) as made:
+    with closing(Children(store)) as made:
         yield made
-
-
-def started_by(parent: int, module: str = "checker.jobs.checking_child") -> list[int]:
-    """Return the children of a process that run a module and are not dead."""
-    found = []
-    for each in Path("/proc").glob("[0-9]*"):
-        try:
-            state, its_parent = (each / "stat").read_text().rpartition(")")[2].split()[:2]
-            ours = module.encode() in (each / "cmdline").read_bytes()
-        except OSError:
-            continue
-        if ours and int(its_parent) == parent and state != "Z":
-            found.append(int(each.name))
-    return found
-
-
-def is_alive(process: int) -> bool:
-    """Whether a process is there and no zombie."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
 
 
 def killed(process: int) -> None:
     """Kill a process, and wait until it has died: the system takes its time."""
     os.kill(process, signal.SIGKILL)
     assert eventually(lambda: not is_alive(process))
-
-
-def the_one(parent: int, module: str = "checker.jobs.checking_child") -> int:
-    """Wait until a process has one child that runs a module, and return it."""
-    deadline = monotonic() + 20
-    while len(started_by(parent, module)) != 1 and monotonic() < deadline:
-        sleep(0.02)
-    (child,) = started_by(parent, module)
-    return child
 
 
 def check(store: Store, children: Children, look: Callable[[], object]) -> Outcome:
@@ -106,59 +78,65 @@ def check_file(
     return check_upload(store, children, order, Stage.STATIC, never)
 
 
-def children_in(store: Store, children: Children) -> set[int]:
-    """Check, and return the children that were seen meanwhile."""
+def seen_in(store: Store, children: Children) -> set[int]:
+    """Check, and return the processes that were seen meanwhile."""
     seen: set[int] = set()
-    outcome = check(store, children, lambda: seen.update(started_by(os.getpid())))
+    outcome = check(store, children, lambda: seen.update(tasks()))
     assert isinstance(outcome, Checked)
     return seen
 
 
 def nicenesses(process: int) -> set[int]:
     """Return how nice the threads of a process are."""
-    tasks = Path(f"/proc/{process}/task").iterdir()
-    fields = [(task / "stat").read_text().rpartition(")")[2].split() for task in tasks]
+    threads = Path(f"/proc/{process}/task").iterdir()
+    fields = [(thread / "stat").read_text().rpartition(")")[2].split() for thread in threads]
     return {int(field[16]) for field in fields}
 
 
 def test_one_that_waits_takes_the_next_check(store: Store, children: Children) -> None:
     children.get_ready()
-    first = the_one(os.getpid())
-    assert children_in(store, children) == {first}
-    second = the_one(os.getpid())
-    assert first != second
-    assert children_in(store, children) == {second}
+    first = wait_for(WAITING)
+    assert first[0] in seen_in(store, children)
+    second = wait_for(WAITING)
+    assert not {*first} & {*second}
+    assert second[0] in seen_in(store, children)
 
 
-def test_one_that_died_is_not_missed(store: Store, children: Children) -> None:
+@pytest.mark.parametrize("whom", [tasks, launchers])
+def test_one_that_died_is_not_missed(
+    whom: Callable[[], list[int]], store: Store, children: Children
+) -> None:
     children.get_ready()
-    first = the_one(os.getpid())
-    killed(first)
-    seen = children_in(store, children)
+    first = wait_for(WAITING)
+    killed(whom()[0])
+    seen = seen_in(store, children)
     assert seen
-    assert first not in seen
+    assert first[0] not in seen
 
 
 def test_all_of_its_threads_stand_back_behind_the_service(store: Store, children: Children) -> None:
     seen: list[set[int]] = []
-    outcome = check(store, children, lambda: seen.extend(map(nicenesses, started_by(os.getpid()))))
+    outcome = check(store, children, lambda: seen.extend(map(nicenesses, tasks())))
     assert isinstance(outcome, Checked)
-    assert seen[-1] == {min(os.getpriority(os.PRIO_PROCESS, 0) + 10, 19)}
+    assert seen[-1] == {min(os.getpriority(os.PRIO_PROCESS, 0) + NICENESS, 19)}
 
 
 def test_one_that_waits_knows_no_secret_and_has_no_network(
     children: Children, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if subprocess.run([sys.executable, "-c", MAY_LEAVE], check=False).returncode != 0:
-        pytest.skip("this system does not let processes leave the network")
     monkeypatch.setenv("SUBT_CHECK_TOKENS", "hunter2")
+    monkeypatch.setenv("SUBT_CHECK_DATABASE_URL", "postgresql://x:hunter2@x/x")
     children.get_ready()
-    child, deadline = Path(f"/proc/{the_one(os.getpid())}"), monotonic() + 20
     own = Path("/proc/self/ns/net").readlink()
-    while (child / "ns/net").readlink() == own and monotonic() < deadline:
-        sleep(0.02)
-    assert (child / "ns/net").readlink() != own
-    assert b"hunter2" not in (child / "environ").read_bytes()
+    for process in wait_for(WAITING):
+        assert b"hunter2" not in Path(f"/proc/{process}/environ").read_bytes()
+        network = Path(f"/proc/{process}/ns/net").readlink()
+        assert network != own or not may_leave_the_network()
+
+
+def may_leave_the_network() -> bool:
+    with closing(OwnLauncher(names=(NAMESPACES,))) as tried:
+        return tried.layers[0].held
 
 
 def test_one_that_reads_meshes_waits_beside_it(
@@ -166,24 +144,12 @@ def test_one_that_reads_meshes_waits_beside_it(
 ) -> None:
     archive = zip_of([SAMPLES / "husky_description"], tmp_path / "husky.zip").read_bytes()
     children.get_ready()
-    child = the_one(os.getpid())
-    reader = the_one(child, READER)
-    held = f"Max open files            {StageLimits(1.0).open_files}"
+    _, reader = wait_for(WAITING)
     seen: set[int] = set()
-    limits = ""
-
-    def look() -> None:
-        nonlocal limits
-        while is_alive(reader) and held not in limits:
-            with suppress(OSError):
-                limits = Path(f"/proc/{reader}/limits").read_text()
-        seen.update(started_by(child, READER))
-
-    outcome = check_file(store, children, look, archive, "husky.zip")
+    outcome = check_file(store, children, lambda: seen.update(tasks()), archive, "husky.zip")
     assert isinstance(outcome, Checked)
-    assert seen <= {reader}
-    assert held in limits
-    assert list((store.cache / "mesh").rglob("*.json"))
+    assert reader in seen
+    assert list((store.folder / "parts").glob("*/*/cache/mesh/*/*.json"))
     assert not is_alive(reader)
 
 
@@ -192,36 +158,46 @@ def test_one_that_reads_meshes_and_died_is_not_missed(
 ) -> None:
     archive = zip_of([SAMPLES / "husky_description"], tmp_path / "husky.zip").read_bytes()
     children.get_ready()
-    killed(the_one(the_one(os.getpid()), READER))
+    killed(wait_for(WAITING)[1])
     outcome = check_file(store, children, lambda: None, archive, "husky.zip")
     assert isinstance(outcome, Checked)
-    assert list((store.cache / "mesh").rglob("*.json"))
-
-
-def test_one_that_reads_meshes_ends_with_the_service(children: Children) -> None:
-    children.get_ready()
-    reader = the_one(the_one(os.getpid()), READER)
-    children.close()
-    assert eventually(lambda: not is_alive(reader))
+    assert list((store.folder / "parts").glob("*/*/cache/mesh/*/*.json"))
 
 
 def test_none_waits_after_the_end_and_a_check_goes_on(store: Store, children: Children) -> None:
     children.get_ready()
-    the_one(os.getpid())
+    wait_for(WAITING)
     assert isinstance(check(store, children, children.close), Checked)
     children.close()
-    assert not started_by(os.getpid())
+    assert not tasks()
+    assert not list((store.folder / "incoming").iterdir())
 
 
-def test_one_that_waits_ends_with_the_service(children: Children) -> None:
+def test_one_that_waits_ends_with_the_service(store: Store, children: Children) -> None:
     children.get_ready()
-    the_one(os.getpid())
+    wait_for(WAITING)
     children.close()
-    assert not started_by(os.getpid())
+    assert eventually(lambda: not tasks())
+    assert not launchers()
+    assert not list((store.folder / "incoming").iterdir())
 
 
 def test_one_that_waits_ends_with_its_worker(tmp_path: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", WAITS, str(tmp_path)]) as worker:
-        child = Path(f"/proc/{the_one(worker.pid)}")
+        processes = wait_for(WAITING, worker.pid)
         worker.kill()
-    assert eventually(lambda: not child.exists())
+    assert eventually(lambda: not any(map(is_alive, processes)))
+
+
+def test_what_a_check_has_worked_out_serves_the_same_upload_alone(
+    store: Store, children: Children, tmp_path: Path
+) -> None:
+    """One that was taken over could keep wrong results: of its own upload, and of no other."""
+    archive = zip_of([SAMPLES / "husky_description"], tmp_path / "husky.zip").read_bytes()
+    for data in (archive, archive + b"\0"):
+        assert isinstance(check_file(store, children, lambda: None, data, "a.zip"), Checked)
+    kept = [
+        {path.name for path in each.rglob("mesh/*/*")} for each in store.folder.glob("parts/*/*")
+    ]
+    assert len(kept) == 2
+    assert kept[0] == kept[1] != set()

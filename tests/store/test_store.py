@@ -15,7 +15,6 @@ from blake3 import blake3
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.cache import Cache
 from checker.store.store import SUMMARY, Store, TooLarge
 
 KEY = "ab" * 32
@@ -204,13 +203,15 @@ def test_what_is_used_again_does_not_expire(store: Store) -> None:
 
 
 def test_parts_of_checks_are_kept_a_day_longer(store: Store) -> None:
-    paths = [store.cache / "mesh" / "ab" / f"{name}.json" for name in ("old", "new")]
-    paths[0].parent.mkdir(parents=True)
-    for path, seconds in zip(paths, (90_000, 80_000), strict=True):
-        path.write_text("{}")
+    paths = [store.parts(digit * 64) for digit in "ab"]
+    shared = store.folder / "cache" / "mesh"
+    for path, seconds in zip((*paths, shared), (90_000, 80_000, 0), strict=True):
+        assert path is not None
+        path.mkdir(parents=True)
         age(path, seconds)
     store.expire(time.time(), ())
-    assert [path.exists() for path in paths] == [False, True]
+    assert [path is not None and path.exists() for path in paths] == [False, True]
+    assert not shared.parent.exists()
 
 
 @pytest.fixture
@@ -223,7 +224,6 @@ def lax_umask() -> Iterator[None]:
 @pytest.mark.usefixtures("lax_umask")
 def test_others_cannot_read_it(store: Store) -> None:
     hash = uploaded(store, b"mine")
-    Cache(store.cache).put("mesh", KEY, {})
     with store.workplace() as place:
         for path in (store.folder, *store.folder.rglob("*"), place):
             assert path.stat().st_mode & 0o077 == 0, path
