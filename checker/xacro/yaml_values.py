@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from typing import Any
 
 import yaml
@@ -11,10 +12,11 @@ from xacro import ConstructUnits, YamlListWrapper
 from checker.xacro.expression.bounds import Budget, ExpressionLimit
 from checker.xacro.expression.values import weigh
 
-LENGTH_LIMIT = 100_000
+LENGTH_LIMIT = 50_000
 """Characters of one file."""
 NODES_LIMIT = 10_000
 """Values and keys of one file, those that merging adds included."""
+_LEVELS_LIMIT = 50
 _NUMBER_LIMIT = 400
 """Characters of a number."""
 _MERGE = "tag:yaml.org,2002:merge"
@@ -25,10 +27,14 @@ class _Loader(yaml.SafeLoader):
     """PyYAML's loader of plain values, which counts the nodes that it makes."""
 
     nodes = 0
+    levels = 0
 
     def compose_node(self, parent: Any, index: Any) -> Any:
         self._count(1)
-        node = super().compose_node(parent, index)
+        self.levels += 1
+        _check_levels(self.levels)
+        node: Any = super().compose_node(parent, index)
+        self.levels -= 1
         is_number = isinstance(node, yaml.ScalarNode) and node.tag in _NUMBERS
         if is_number and len(node.value) > _NUMBER_LIMIT:
             raise ExpressionLimit(f"reads a number of more than {_NUMBER_LIMIT} characters")
@@ -64,6 +70,21 @@ def read(text: str, budget: Budget) -> Any:
     """
     if len(text) > LENGTH_LIMIT:
         raise ExpressionLimit(f"reads YAML of more than {LENGTH_LIMIT} characters")
+    budget.spend(len(text))
+    _check_brackets(text)
     value = yaml.load(io.StringIO(text), _Loader)  # noqa: S506 - a loader of plain values
     weigh(value, budget)
     return YamlListWrapper.wrap(value)
+
+
+def _check_levels(levels: int) -> None:
+    if levels > _LEVELS_LIMIT:
+        raise ExpressionLimit(f"reads YAML that is nested more than {_LEVELS_LIMIT} levels deep")
+
+
+def _check_brackets(text: str) -> None:
+    """Count brackets before they are read, for which PyYAML takes the square of their number."""
+    levels = 0
+    for bracket in re.findall(r"[\[{\]}]", text):
+        levels = levels + 1 if bracket in "[{" else max(levels - 1, 0)
+        _check_levels(levels)

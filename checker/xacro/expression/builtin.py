@@ -82,9 +82,6 @@ def keyed(kind: type) -> Work:
 
 def hashable(budget: Budget, items: Any) -> Any:
     """Return items that are going to be keys, once their hashes are paid for."""
-    if type(items) in MAPPINGS:
-        budget.spend_on_copy(len(items))
-        return items
     if type(items) in LAZY:
         items = list(items)
     weigh(items, budget)
@@ -103,17 +100,21 @@ def mapping(kind: type) -> Work:
     return work
 
 
-def pairs(budget: Budget, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return what a dictionary is made of, once the hashes of its keys are paid for."""
+def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[Any, ...]:
+    """Return what goes into a dictionary, once the hashes of its keys are paid for.
+
+    Args:
+        budget: To take the steps from.
+        arguments: Those of `dict` or `update`, but for the named ones.
+        among: How many keys the dictionary has.
+    """
     found = tuple(list(each) if type(each) in LAZY else each for each in arguments)
     for each in found:
-        if type(each) in MAPPINGS:
-            budget.spend_on_copy(len(each))
-            continue
         weigh(each, budget)
+        keys = each if type(each) in MAPPINGS else []
         if type(consumed(each, budget)) in SEQUENCES:
             keys = [pair[0] for pair in each if type(pair) in SEQUENCES and pair]
-            spend_on_keys(keys, len(keys), budget)
+        spend_on_keys(keys, among + len(keys), budget)
     return found
 
 

@@ -10,6 +10,7 @@ from typing import Any
 from xacro import NameSpace, YamlDictWrapper
 
 from checker.xacro.expression.bounds import RefusedExpression
+from checker.xacro.expression.builtin import is_of
 from checker.xacro.expression.function import Function, counting
 from checker.xacro.expression.interpreter import Handler, Interpreter, Scope
 from checker.xacro.expression.methods import METHODS, TAKING_A_KEY, method_of
@@ -24,10 +25,9 @@ def _call(run: Interpreter, node: ast.Call, scope: Scope | None) -> Any:
     if type(node.func) is ast.Attribute:
         work, takes = _through_dot(run, node.func, scope)
     else:
-        found = resolve(run, node.func, scope)
-        work, takes = _function(found)
-        if type(found) is Function and found.name == "isinstance" and len(node.args) == 2:
-            return work(run.budget, run.data(node.args[0], scope), _kinds(run, node.args[1], scope))
+        work, takes = _function(resolve(run, node.func, scope))
+    if work is is_of and len(node.args) == 2:
+        return work(run.budget, run.data(node.args[0], scope), _kinds(run, node.args[1], scope))
     return work(
         run.budget, *_positional(run, node, scope, takes), **_named(run, node, scope, takes)
     )

@@ -26,7 +26,7 @@ _CONVERSIONS: Mapping[str, Callable[[Any], str]] = MappingProxyType(
 _DIGITS = 20
 
 
-def check_spec(spec: str, values: Sequence[Any]) -> None:
+def check_spec(spec: str, values: Sequence[Any], budget: Budget) -> None:
     """Refuse what follows the colon of a format, if it is not one of numbers or text.
 
     Raises:
@@ -39,7 +39,7 @@ def check_spec(spec: str, values: Sequence[Any]) -> None:
     found = _SPEC.fullmatch(spec)
     if found is None:
         raise ValueError(f"Invalid format specifier {spec[:40]!r}")
-    _check_widths(found)
+    _spend_on_widths(found, budget)
 
 
 def formatted(value: Any, conversion: str, spec: str, budget: Budget) -> str:
@@ -47,7 +47,7 @@ def formatted(value: Any, conversion: str, spec: str, budget: Budget) -> str:
     weigh(value, budget)
     if conversion:
         value = _CONVERSIONS[conversion](value)
-    check_spec(spec, [value])
+    check_spec(spec, [value], budget)
     return format(value, spec)
 
 
@@ -72,7 +72,7 @@ def format_method(
             raise RefusedExpression("a format whose width is computed")
         for value in values:
             weigh(value, budget)
-        check_spec(spec or "", values)
+        check_spec(spec or "", values, budget)
     return text.format(*positional, **named)
 
 
@@ -89,7 +89,7 @@ def percent(text: str, values: Any, budget: Budget) -> str:
         found = _PERCENT.match(text, position)
         if found is None:
             raise RefusedExpression(f"the format {text[position : position + 10]!r}")
-        _check_widths(found)
+        _spend_on_widths(found, budget)
         budget.spend(weight)
         position = text.find("%", found.end())
     return str(text % values)
@@ -103,7 +103,9 @@ def text_of(value: Any, budget: Budget) -> str:
     return str(value)
 
 
-def _check_widths(found: re.Match[str]) -> None:
+def _spend_on_widths(found: re.Match[str], budget: Budget) -> None:
     for digits in (found["width"], found["precision"]):
         if digits:
-            check_width(int(digits[:_DIGITS]))
+            width = int(digits[:_DIGITS])
+            check_width(width)
+            budget.spend(width // 2)

@@ -15,7 +15,7 @@ from checker.xacro.expression.values import NUMBERS, weigh
 
 _READING = (
     *("acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "copysign"),
-    *("cos", "cosh", "degrees", "dist", "erf", "erfc", "exp", "exp2", "expm1", "fabs", "floor"),
+    *("cos", "cosh", "degrees", "erf", "erfc", "exp", "exp2", "expm1", "fabs", "floor"),
     *("fmod", "frexp", "gamma", "gcd", "hypot", "isclose", "isfinite", "isinf", "isnan"),
     *("isqrt", "ldexp", "lgamma", "log", "log10", "log1p", "log2", "modf", "nextafter", "pow"),
     *("radians", "remainder", "sin", "sinh", "sqrt", "tan", "tanh", "trunc", "ulp"),
@@ -53,6 +53,13 @@ def _sum(budget: Budget, items: Any, /) -> float:
     return math.fsum(found)
 
 
+def _distance(budget: Budget, *points: Any) -> float:
+    found = [listed(budget, each) for each in points]
+    for each in found:
+        weigh(each, budget)
+    return math.dist(*found)
+
+
 def _product(budget: Budget, items: Any, /, *, start: Any = 1) -> Any:
     found = listed(budget, items)
     if not all(type(each) in NUMBERS for each in (*found, start)):
@@ -67,7 +74,7 @@ _GROWING = ("comb", "factorial", "lcm", "perm")
 _WORKS: Mapping[str, Work] = MappingProxyType(
     {name: weighed(getattr(math, name)) for name in _READING if hasattr(math, name)}
     | {name: _growing(name) for name in _GROWING}
-    | {"fsum": _sum, "prod": _product}
+    | {"dist": _distance, "fsum": _sum, "prod": _product}
 )
 _PUBLIC = tuple(name for name in vars(math) if not name.startswith("_"))
 CONSTANTS: Mapping[str, float] = MappingProxyType(

@@ -22,6 +22,7 @@ SCALARS = NUMBERS | {str, NoneType, range, date, datetime}
 MAPPINGS = frozenset({dict, YamlDictWrapper})
 _VIEWS = frozenset({type({}.keys()), type({}.values()), type({}.items())})
 SEQUENCES = frozenset({list, YamlListWrapper, tuple})
+HASHED = MAPPINGS | {set, frozenset}
 COLLECTIONS = SEQUENCES | {set, frozenset} | _VIEWS
 PLAIN = SCALARS | COLLECTIONS | MAPPINGS
 """Types of data: what a list may hold, and what an expression may come to."""
@@ -76,6 +77,8 @@ def weigh(value: Any, budget: Budget) -> int:
             elif kind in SCALARS:
                 steps += 1
             else:
+                if kind in HASHED:
+                    spend_on_keys(each, len(each), budget)
                 below_it = _held(each)
                 budget.spend(len(below_it))
                 taken += len(below_it)
