@@ -135,6 +135,11 @@ REFUSED = (
 """Outside of the language."""
 
 LIMITED = (
+    "sorted([1, 2], key=lambda x: [a for a in [p] " + "for a in [[a, a]] " * 60 + "])",
+    "max([1, 2], key=lambda x: [a for a in [p] " + "for a in [[a, a]] " * 60 + "])",
+    "p.sort(key=lambda x: [a for a in [p] " + "for a in [[a, a]] " * 60 + "])",
+    "max(p, key=lambda x: p.append(x) or x)",
+    "p.sort(key=lambda x: [0] * 10**6)",
     "'x' * 10**10",
     "10**10 * 'x'",
     "[0] * 10**10",

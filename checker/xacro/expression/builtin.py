@@ -121,23 +121,45 @@ def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[A
 def in_order(budget: Budget, items: Any, /, *, key: Any = None, reverse: Any = False) -> list[Any]:
     """Do what `sorted` does."""
     found = listed(budget, items)
-    spend_on_sorting(budget, found)
-    return sorted(found, key=key, reverse=plain(reverse))
+    return sorted(found, key=sorting_key(budget, found, key), reverse=plain(reverse))
 
 
-def spend_on_sorting(budget: Budget, items: list[Any]) -> None:
-    """Take the steps of comparing items with one another."""
-    budget.spend(weigh(items, budget) * len(items).bit_length() // 4)
+def sorting_key(budget: Budget, items: list[Any], key: Any) -> Any:
+    """Take the steps of comparing items with one another; return a key that takes those of its own.
+
+    Args:
+        budget: To take the steps from.
+        items: To sort.
+        key: What to sort them by, or None.
+    """
+    rounds = 1 + len(items).bit_length() // 4
+    budget.spend(rounds * weigh(items, budget))
+    return paid(budget, key, rounds)
+
+
+def paid(budget: Budget, key: Any, rounds: int = 1) -> Any:
+    """Return a key function that takes the steps of comparing what it returns, so many times."""
+    if not callable(key):
+        return key
+
+    def called(item: Any) -> Any:
+        found = key(item)
+        budget.spend(rounds * weigh(found, budget))
+        return found
+
+    return called
 
 
 def extreme(native: Any) -> Work:
     """Return what `min` and `max` do."""
 
-    def work(budget: Budget, *arguments: Any, **named: Any) -> Any:
-        values = [list(each) if type(each) in LAZY else each for each in arguments]
+    def work(budget: Budget, *arguments: Any, key: Any = None, **named: Any) -> Any:
+        values = arguments
+        if len(arguments) == 1 and type(arguments[0]) in LAZY:
+            values = (list(arguments[0]),)
         for each in values:
             weigh(consumed(each, budget), budget)
-        return native(*values, **named)
+        return native(*values, key=paid(budget, key), **named)
 
     return work
 

@@ -14,8 +14,10 @@ from checker.xacro.expression.values import PLAIN, called, weigh
 
 _PERCENT = re.compile(
     r"%(?:\((?P<name>[^()%]{0,200})\))?[-+ #0]*(?P<width>[0-9]*)(?:\.(?P<precision>[0-9]*))?"
-    r"[hlL]?[diouxXeEfFgGcrsa%]"
+    r"[hlL]?(?P<kind>.?)",
+    re.DOTALL,
 )
+"""Any kind: Python says which ones there are not."""
 _SPEC = re.compile(
     r"(?:.?[<>=^])?[-+ ]?z?#?0?(?P<width>\d*)[_,]?(?:\.(?P<precision>\d+))?[bcdeEfFgGnosxX%]?",
     re.DOTALL,
@@ -87,7 +89,7 @@ def percent(text: str, values: Any, budget: Budget) -> str:
     position = text.find("%")
     while position >= 0:
         found = _PERCENT.match(text, position)
-        if found is None:
+        if found is None or found["kind"] in ("*", "("):
             raise RefusedExpression(f"the format {text[position : position + 10]!r}")
         _spend_on_widths(found, budget)
         budget.spend(weight)

@@ -9,7 +9,7 @@ from typing import Any
 from xacro import YamlDictWrapper, YamlListWrapper
 
 from checker.xacro.expression.bounds import Budget, RefusedExpression
-from checker.xacro.expression.builtin import hashable, pairs, spend_on_sorting
+from checker.xacro.expression.builtin import hashable, pairs, sorting_key
 from checker.xacro.expression.operators import spend_on_search
 from checker.xacro.expression.texts import TEXTS
 from checker.xacro.expression.values import (
@@ -68,8 +68,7 @@ def _extend(budget: Budget, value: Any, *arguments: Any) -> Any:
 
 
 def _sort(budget: Budget, value: Any, *, key: Any = None, reverse: Any = False) -> Any:
-    spend_on_sorting(budget, value)
-    return value.sort(key=key, reverse=plain(reverse))
+    return value.sort(key=sorting_key(budget, value, key), reverse=plain(reverse))
 
 
 def _update(budget: Budget, value: Any, *arguments: Any, **named: Any) -> Any:
