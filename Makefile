@@ -48,6 +48,8 @@ bench: .venv/tested $(VIEWER)
 	$(BIN)/python -m bench.uploads
 	$(BIN)/python -m bench.uploads --postgres
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python -m bench.batch
+	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS)) \
+	  $(BIN)/python -m bench.xacro
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)

@@ -126,6 +126,8 @@ class Expansions:
             return document or Unread(f"{shown} was expanded into what cannot be read")
         if "kind" in answer:
             return self._fault(file, answer)
+        if "refused" in answer:
+            return Unread(f"{shown} is not expanded: {self._refusal(answer)}")
         if "missing" in answer:
             return Unread(f"{shown} includes too many files by computed names")
         return Unread(f"{shown} is not expanded: {answer.get('unread', 'no answer came')}")
@@ -149,6 +151,15 @@ class Expansions:
             else:
                 span = self._element(path, number) or span
         return XacroFault(XacroFaultKind(answer["kind"]), source.file, span, message, hint)
+
+    def _refusal(self, answer: Mapping[str, Any]) -> str:
+        """Say what an expression uses that is not evaluated, and where it stands."""
+        said = f"expression uses {answer['refused']}: '{answer['expression']}'"
+        span = self._element(*answer["at"]) if answer.get("at") else None
+        if span is None:
+            return said
+        place = span.place()
+        return f"{said} at {place.file}:{place.line}"
 
     def _element(self, path: str, number: int) -> Span | None:
         document = self._gathered.documents.get(path)

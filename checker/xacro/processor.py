@@ -8,32 +8,46 @@ from __future__ import annotations
 
 import encodings.utf_8
 import fnmatch
-import io
+import keyword
 import posixpath
 import re
-from collections.abc import Callable, Mapping
+import unicodedata
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import wraps
 from typing import Any
 from xml.dom import expatbuilder, minidom
 
 import xacro
-import yaml
 from xacro import substitution_args
 
-from checker.xacro.expressions import RefusedExpression, evaluate
+from checker.xacro.expression.bounds import (
+    Allowance,
+    Budget,
+    ExpressionLimit,
+    RefusedExpression,
+)
+from checker.xacro.expression.evaluation import evaluate
+from checker.xacro.expression.function import functions
+from checker.xacro.expression.interpreter import Names
 from checker.xacro.paths import ROOT
+from checker.xacro.symbols import EvalNames, global_symbols
+from checker.xacro.texts import text_value
+from checker.xacro.yaml_values import read
 
 NODES_LIMIT = 100_000
 """Elements made while expanding one file; the largest real robot has 3 000."""
 SIZE_LIMIT = 20_000_000
 """Characters of the expanded document."""
-_LAZY = (expatbuilder, encodings.utf_8)
+_LAZY = (expatbuilder, encodings.utf_8, unicodedata)
 """Modules that parsing would load later, when nothing can be loaded any more."""
 _ORIGIN = "origin"
 _PACKAGE = re.compile(r"[A-Za-z][\w.-]{0,200}")
 _CAUSES = 20
 _TOO_DEEP = "is nested too deeply: does a macro, or a file, use itself?"
 _MESSAGE_LIMIT = 600
+_SHOWN = 60
+"""Characters of an expression that a message shows."""
 
 
 class _Stopped(BaseException):
@@ -50,7 +64,8 @@ def expand(given: Mapping[str, Any], file: str, args: Mapping[str, str]) -> dict
     Returns:
         `xml` and `origins` (file and element number of each element, in order) with `files`; or
         `kind`, `message`, `at` and `through` of what is wrong; or `missing`, a path to give as
-        well; or `unread`, why it cannot be known.
+        well; or `unread`, why it cannot be known; or `refused`, what an expression uses that is
+        outside of the language, with the `expression` and `at`.
     """
     expansion = _Expansion(given)
     try:
@@ -112,6 +127,7 @@ class _Expansion:
         self._at: tuple[int, int] | None = None
         self._failed_at: tuple[int, int] | None = None
         self._through: list[str] = []
+        self._allowance = Allowance()
 
     def run(self, file: str, args: dict[str, str]) -> dict[str, Any]:
         """Expand the file with arguments by name."""
@@ -128,24 +144,28 @@ class _Expansion:
     def fault(self, kind: str, message: str) -> dict[str, Any]:
         """Return the outcome of an expansion that failed."""
         at = self._failed_at or self._at
-        place = None if at is None else [self._files[at[0]], at[1]]
+        place = self._place(at)
         return {"kind": kind, "message": message, "at": place, "through": self._through[-5:]}
+
+    def _place(self, at: tuple[int, int] | None) -> list[Any] | None:
+        return None if at is None else [self._files[at[0]], at[1]]
 
     def _lead_here(self) -> None:
         """Replace in xacro what reaches out of the process. It is not used for anything else."""
         xacro.root_dir = ROOT
         xacro.parse = self._parse
-        xacro.load_yaml = self._load_yaml
         xacro.glob = self
-        xacro.safe_eval = evaluate
-        xacro._global_symbols = xacro.create_global_symbols()
+        xacro.safe_eval = self._evaluate
+        xacro.eval_text = self._text_value
+        xacro.is_valid_name = _is_name
+        xacro._global_symbols = global_symbols(self._load_yaml)
         for name in ("eval_all", "handle_macro_call"):
             setattr(xacro, name, self._watched(getattr(xacro, name)))
         xacro.check_attrs = self._noting(xacro.check_attrs)
         substitution_args._eval_find = _folder_of_package
         substitution_args._eval_env = _refuse_environment
         substitution_args._eval_optenv = _default_of
-        substitution_args._eval = _substituted_expression
+        substitution_args._eval = self._substituted
 
     def glob(self, pattern: str) -> list[str]:
         """Return the given paths that match a pattern: what `glob.glob` is to xacro."""
@@ -192,11 +212,38 @@ class _Expansion:
         if copy is not None:
             copy.setUserData(key, data, self)
 
-    def _load_yaml(self, path: str) -> Any:
-        path = xacro.abs_filename_spec(path)
-        for unit in xacro.ConstructUnits:
-            yaml.SafeLoader.add_constructor(unit.value.tag, unit.constructor)
-        return xacro.YamlListWrapper.wrap(yaml.safe_load(io.StringIO(self._text(path))))
+    def _evaluate(self, expression: str, names: Names) -> Any:
+        """Evaluate `${…}`: what `safe_eval` is to xacro."""
+        with self._ending(expression):
+            return evaluate(expression, names, self._allowance)
+
+    def _text_value(self, text: str, symbols: Any) -> Any:
+        with self._ending(text):
+            return text_value(text, symbols, self._allowance)
+
+    def _substituted(self, expression: str, context: dict[str, Any]) -> str:
+        """Evaluate `$(eval …)`, in which args are names of their own."""
+        if "__" in expression:
+            message = "$(eval ...) may not contain double underscore expressions"
+            raise substitution_args.SubstitutionException(message)
+        return str(self._evaluate(expression, EvalNames(context, _OF_EVAL)))
+
+    @contextmanager
+    def _ending(self, expression: str) -> Iterator[None]:
+        """End the expansion where an expression leaves the language, or its bounds."""
+        try:
+            yield
+        except RefusedExpression as refusal:
+            shown = _shortened(expression)
+            at = self._place(self._at)
+            raise _Stopped({"refused": str(refusal), "expression": shown, "at": at}) from None
+        except ExpressionLimit as limit:
+            self._through = _macros()
+            message = f"the expression '{_shortened(expression)}' {limit}"
+            raise _Stopped(self.fault("limit", message)) from None
+
+    def _load_yaml(self, filename: str, budget: Budget) -> Any:
+        return read(self._text(xacro.abs_filename_spec(filename)), budget)
 
     def _origins(self, root: Any) -> list[tuple[int, int]]:
         return [element.getUserData(_ORIGIN) or (-1, -1) for element in _elements(root)]
@@ -213,7 +260,7 @@ class _Expansion:
             except Exception:
                 if self._failed_at is None:
                     self._failed_at = self._at
-                    self._through = [_macro_name(macro) for macro in xacro.macrostack or ()]
+                    self._through = _macros()
                 raise
             self._at = before
             return result
@@ -233,8 +280,21 @@ class _Expansion:
         self._at = origin or self._at
 
 
-def _macro_name(macro: Any) -> str:
-    return str(macro.body.getAttribute("name"))[:80]
+def _macros() -> list[str]:
+    """Return the names of the macros that are being expanded, outermost first."""
+    return [str(macro.body.getAttribute("name"))[:80] for macro in xacro.macrostack or ()]
+
+
+def _shortened(expression: str) -> str:
+    shown = " ".join(expression[: 10 * _SHOWN].split())
+    return shown if len(shown) <= _SHOWN else f"{shown[:_SHOWN]}…"
+
+
+def _is_name(name: str) -> bool:
+    """Say whether a property may have that name: what xacro has Python's parser find out."""
+    if not name.isidentifier() or keyword.iskeyword(name):
+        return False
+    return name.isascii() or unicodedata.normalize("NFKC", name) == name
 
 
 def _elements(root: Any) -> list[Any]:
@@ -267,23 +327,11 @@ def _default_of(_: str, default: str = "") -> str:
     return default
 
 
-_PLAIN = {"true": True, "false": False, "True": True, "False": False}
-_TYPES = {kind.__name__: kind for kind in (list, dict, map, str, float, int)}
-
-
-def _substituted_expression(expression: str, context: dict[str, Any]) -> str:
-    """Evaluate `$(eval …)`, in which args are names of their own."""
-    import math
-
-    args = context.setdefault("arg", {})
-
-    def value(name: str) -> Any:
-        return substitution_args.convert_value(substitution_args._eval_arg(name, args), "auto")
-
-    known = {name: getattr(math, name) for name in dir(math) if not name.startswith("_")}
-    known |= {**_PLAIN, **_TYPES, "arg": value, "find": _folder_of_package}
-    known |= {"env": _refuse_environment, "optenv": _default_of}
-    own = {name: value(name) for name in args if name not in known}
-    if "__" in expression:
-        raise RefusedExpression("$(eval …) may not hold double underscores")
-    return str(evaluate(expression, known, own))
+_OF_EVAL = functions(
+    [
+        ("find", lambda _, name: _folder_of_package(name)),
+        ("env", lambda _, name: _refuse_environment(name)),
+        ("optenv", lambda _, name, default="": _default_of(name, default)),
+    ]
+)
+"""What `$(eval …)` may call besides."""
