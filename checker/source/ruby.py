@@ -18,7 +18,7 @@ from checker.source.text import SourceText, Span
 if TYPE_CHECKING:
     import tree_sitter
 
-MAX_SECONDS = 0.5
+MAX_SECONDS = 0.3
 """Processor time of one parse; real spawners take 5 ms.
 
 For every literal that is never closed, the parser looks through the rest of the text: 100 kB of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-MAX_FILE_LENGTH = 100_000
+MAX_FILE_LENGTH = 60_000
 """Characters of one Ruby or YAML file."""
 MAX_STEPS = 100_000
 """Nodes evaluated in one call; what makes, reads or compares much costs several steps."""
@@ -23,8 +23,8 @@ MAX_PATH_LENGTH = 4096
 """Characters of a path; Linux opens no longer one."""
 
 CHARACTERS_PER_STEP = 100
-CHARACTERS_PARSED_PER_STEP = 3
-ITEMS_PER_STEP = 10
+CHARACTERS_PARSED_PER_STEP = 2
+ITEMS_PER_STEP = 5
 
 
 class LimitReached(Exception):

@@ -1,0 +1,16 @@
+"""No spawner takes more than a second, or runs away with the memory; none makes the reader raise."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.evaluated.conftest import Measure
+from tests.evaluated.spawners import SPAWNERS
+
+REFUSED = ("takes more than", "makes a", "calls ", "uses ", "raises ", "returns ", "runs ", "holds ")
+REFUSED += ("takes too long", "reads ", "compares ", "defines no")
+
+
+@pytest.mark.parametrize("name", SPAWNERS)
+def test_it_ends_within_a_second_and_with_a_reason(bounded: Measure, name: str) -> None:
+    assert bounded("reading_spawners", name).startswith(REFUSED)
