@@ -55,7 +55,8 @@ def main() -> None:
     }
     for line in sys.stdin:
         group, name = json.loads(line)
-        print(_forked(attacks[group][name]), flush=True)
+        sys.stdout.write(f"{_forked(attacks[group][name])}\n")
+        sys.stdout.flush()
 
 
 if __name__ == "__main__":

@@ -54,7 +54,9 @@ def _markdown(text: str) -> str:
 
 def _png(width: int, height: int) -> bytes:
     def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        return (
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        )
 
     header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
     packed = zlib.compress(bytes(20_000_000))
@@ -63,9 +65,9 @@ def _png(width: int, height: int) -> bytes:
 
 PICTURES = {
     "a picture of a thousand million pixels": _png(30_000, 30_000),
-    "a picture in PostScript": b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n(%pipe%id) (r) file\n",
+    "a picture in PostScript": b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n(%pipe%id)",
     "a picture in TIFF": b"II*\0\x08\0\0\0\xff\xff" + b"\xff" * 4000,
-    "a picture in GIF": b"GIF89a\xff\xff\xff\xff\x00\x00\x00,\x00\x00\x00\x00\xff\xff\xff\xff\x00\x02\x00;",
+    "a picture in GIF": b"GIF89a\xff\xff\xff\xff\0\0\0,\0\0\0\0\xff\xff\xff\xff\0\2\0;",
 }
 
 ATTACKS = {

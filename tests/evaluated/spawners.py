@@ -84,7 +84,9 @@ BODIES = {
     # Code
     "a block that is left at once": f"while true; [1].each {{ |x| next; {'x;' * 28_000} }}; end",
     "a block of many parameters": f"while true; [1].each {{ |{_parameters(8_000)}| 1 }}; end",
-    "a branch that is not taken": "while true\n if _name == 'x'\n" + "y = 1\n" * 9_000 + " end\nend",
+    "a branch that is not taken": "while true\n if _name == 'x'\n"
+    + "y = 1\n" * 9_000
+    + " end\nend",
     "a variable that is looked for": "if false\n z0 = 1\nend\n"
     + "y = 1\n" * 9_000
     + "while true; z0; end",

@@ -6,8 +6,8 @@ import pytest
 
 from checker.report.html.page import environment, with_code
 from tests.evaluated.conftest import Measure
-from tests.evaluated.reading_files import ATTACKS, PICTURES
 from tests.evaluated.files import SAID
+from tests.evaluated.reading_files import ATTACKS, PICTURES
 
 TEMPLATES = ("{{ 7 * 7 }}", "{% include '/etc/passwd' %}", "{{ ''.__class__.__mro__ }}", "${7*7}")
 

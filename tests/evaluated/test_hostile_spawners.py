@@ -1,4 +1,4 @@
-"""No spawner takes more than a second, or runs away with the memory; none makes the reader raise."""
+"""No spawner takes a second, or runs away with the memory; none makes the reader raise."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ import pytest
 from tests.evaluated.conftest import Measure
 from tests.evaluated.spawners import SPAWNERS
 
-REFUSED = ("takes more than", "makes a", "calls ", "uses ", "raises ", "returns ", "runs ", "holds ")
-REFUSED += ("takes too long", "reads ", "compares ", "defines no")
+REFUSED = (
+    *("calls ", "compares ", "defines no", "holds ", "is longer", "makes a", "raises ", "reads "),
+    *("returns ", "runs ", "takes more than", "takes too long", "uses "),
+)
 
 
 @pytest.mark.parametrize("name", SPAWNERS)

@@ -7,8 +7,8 @@ from itertools import pairwise
 from typing import Any
 
 from checker.spawner.arithmetic import calculate
-from checker.spawner.methods.call import Call, Methods
 from checker.spawner.limits import CHARACTERS_PER_STEP
+from checker.spawner.methods.call import Call, Methods
 from checker.spawner.methods.iteration import items_of, listed
 from checker.spawner.values import NIL, RubyHash, RubyString, Value, class_name, is_number
 

@@ -86,7 +86,10 @@ def _value(
         result = RubyHash()
         for key_node, value_node in node.value:
             key = _value(call, key_node, source, span, maker)
-            result.entries[key_of(key, call.run.budget)] = (key, _value(call, value_node, source, span, maker))
+            result.entries[key_of(key, call.run.budget)] = (
+                key,
+                _value(call, value_node, source, span, maker),
+            )
         return Value(result, call.run.influences)
     if len(node.value) > MAX_NUMBER_LENGTH and not node.tag.endswith(":str"):
         raise call.refuse(f"but {source.file} holds a number that is too long")
