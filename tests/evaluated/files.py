@@ -72,7 +72,12 @@ MARKDOWN = {
     "comments that are never closed": "<!-- " * 40_000,
     "tags that are never closed": "<a " * 60_000,
 }
+NUMBERS = {
+    "digits, and no number": "1" * 400_000 + "x",
+    "digits and a point, and no number": "1" * 200_000 + "." + "1" * 200_000 + "e",
+}
 SAID = {
+    **dict.fromkeys(NUMBERS, "is not a number"),
     "args that double by eval": "grows beyond",
     "args that double": "grows beyond",
     "params of a long arg": "steps to follow",

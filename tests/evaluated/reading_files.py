@@ -11,13 +11,14 @@ from pathlib import Path
 from checker.display.files.painting import picture
 from checker.errors import InvalidSettings
 from checker.model.launch.expand import expand_launch
+from checker.model.values import ValueReader
 from checker.settings import FILE_NAME, find_settings
 from checker.source.cmake import read_cmake
 from checker.source.markdown import read_markdown
-from checker.source.text import SourceText
+from checker.source.text import Located, SourceText
 from checker.source.xml import XmlDocument, parse_xml
 from checker.source.yaml import read_yaml
-from tests.evaluated.files import CMAKE, LAUNCH, MARKDOWN, SETTINGS, YAML
+from tests.evaluated.files import CMAKE, LAUNCH, MARKDOWN, NUMBERS, SETTINGS, YAML
 
 
 def _launch(content: str) -> str:
@@ -52,6 +53,12 @@ def _markdown(text: str) -> str:
     return f"{len(sheet.passages)} passages"
 
 
+def _numbers(text: str) -> str:
+    reader, source = ValueReader(), SourceText("model.sdf", text)
+    reader.numbers_in(Located(text, source.whole()))
+    return str([each.message for each in reader.faults])
+
+
 def _png(width: int, height: int) -> bytes:
     def chunk(kind: bytes, data: bytes) -> bytes:
         return (
@@ -76,5 +83,6 @@ ATTACKS = {
     **{name: partial(_cmake, text) for name, text in CMAKE.items()},
     **{name: partial(_settings, text) for name, text in SETTINGS.items()},
     **{name: partial(_markdown, text) for name, text in MARKDOWN.items()},
+    **{name: partial(_numbers, text) for name, text in NUMBERS.items()},
     **{name: partial(picture, data) for name, data in PICTURES.items()},
 }
