@@ -13,15 +13,20 @@ class CheckerError(Exception):
     """Something that the user can mend; its text is one sentence and reaches the terminal."""
 
 
+_LONGEST = 1000
+"""Characters of a problem."""
+
+
 class InvalidSettings(CheckerError):
     """Settings that name what does not exist, or have the wrong type.
 
     Attributes:
         path: The settings file; None when the command line says it.
-        problem: What is wrong, and what is known instead.
+        problem: What is wrong, and what is known instead; it may repeat what a stranger wrote.
     """
 
     def __init__(self, path: Path | None, problem: str) -> None:
+        problem = problem if len(problem) <= _LONGEST else f"{problem[: _LONGEST - 1]}…"
         super().__init__(path, problem)
         self.path = path
         self.problem = problem

@@ -6,6 +6,7 @@ in its own folder or in the nearest folder above that has one.
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
@@ -25,7 +26,10 @@ from checker.suppression.entries import SettingsEntry, entries_of
 
 FILE_NAME = "subt-check.toml"
 SHARED_FILE_NAME = "pyproject.toml"
-SIZE_LIMIT = 1_000_000
+SIZE_LIMIT = 200_000
+_LARGEST = 10**300
+_DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){20}""")
+"""A key of many parts: reading one takes the square of their number."""
 URDF_PROFILE = "urdf"
 """Judges URDF packages and files where the user names no profile."""
 DEVICES_LIMIT = 100
@@ -155,9 +159,11 @@ def _read_toml(path: Path) -> dict[str, Any]:
     source = read_text(path.resolve(), path.name, SIZE_LIMIT)
     if isinstance(source, NotReadable):
         raise InvalidSettings(path, source.reason)
+    if _DOTTED.search(source.text):
+        raise InvalidSettings(path, "has a key of more than 20 parts")
     try:
         return tomllib.loads(source.text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:
         raise InvalidSettings(path, f"is no TOML: {error}") from None
     except RecursionError:
         raise InvalidSettings(path, "is nested too deeply") from None
@@ -190,6 +196,8 @@ def parse_settings(content: object, path: Path) -> Settings:
     Raises:
         InvalidSettings: A key is unknown or a value has the wrong type.
     """
+    if _is_huge(content):
+        raise InvalidSettings(path, "holds a number of more than 300 digits")
     values: dict[str, Any] = {}
     for key, value in _table("tool.subt-check", content, path).items():
         if key not in _KEYS:
@@ -197,6 +205,20 @@ def parse_settings(content: object, path: Path) -> Settings:
         values[_KEYS[key]] = _convert(key, value, path)
     chosen = "profile" in values
     return replace(Settings(), **values, profile_chosen=chosen, source=path)
+
+
+def _is_huge(content: object) -> bool:
+    """Whether a number is in it that neither a float holds nor a message shows."""
+    waiting = [content]
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, dict):
+            waiting += value.values()
+        elif isinstance(value, list):
+            waiting += value
+        elif isinstance(value, int) and abs(value) > _LARGEST:
+            return True
+    return False
 
 
 def _convert(key: str, value: Any, path: Path) -> Any:

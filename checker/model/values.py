@@ -11,7 +11,7 @@ from checker.source.markup import blank_markup
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\Z", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(?:\d++\.?\d*+|\.\d++)(?:[eE][+-]?\d++)?\Z", re.ASCII)
 _INFINITE = {"inf", "+inf", "-inf", "infinity", "-infinity"}
 _WORD = re.compile(r"[^ \t\r\n]+")
 _TRUE = {"1", "true"}

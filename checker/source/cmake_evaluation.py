@@ -16,6 +16,8 @@ from checker.source.text import Located, Span
 MAX_STEPS = 20_000
 MAX_DEPTH = 20
 MAX_LENGTH = 10_000
+WORDS_PER_STEP = 10
+CHARACTERS_PER_STEP = 1000
 _REFERENCE = re.compile(r"(?<!\\)\$\{([^${}]*)\}")
 _HERE = ("CMAKE_SOURCE_DIR", "CMAKE_CURRENT_SOURCE_DIR", "CMAKE_CURRENT_LIST_DIR")
 _BLOCKS = {
@@ -61,6 +63,7 @@ class _Evaluation:
         self._ends = _block_ends(commands, faults)
         self._variables: dict[str, str] = dict.fromkeys(_HERE, ".")
         self._steps = MAX_STEPS
+        self._ended = False
 
     def run(self, start: int, end: int, *, conditional: bool, depth: int = 0) -> None:
         """Run the commands from `start` up to, not including, `end`."""
@@ -81,13 +84,15 @@ class _Evaluation:
                     unsure.append(block_end)
                 self._call(command, conditional=conditional or bool(unsure))
             index += 1
-        if self._steps == 0:
-            self._steps = -1
+        if self._steps <= 0 and not self._ended:
+            self._ended = True
             span = self._commands[start].span
             self._faults.append(CMakeFault(span, f"takes more than {MAX_STEPS} steps to follow"))
 
     def _call(self, command: Command, *, conditional: bool) -> None:
         words = tuple(self._words(command.arguments))
+        self._steps -= (len(command.arguments) + len(words)) // WORDS_PER_STEP
+        self._steps -= sum(len(word.value) + 1 for word in words) // CHARACTERS_PER_STEP
         call = Call(command.name.value, words, conditional, command.span)
         self.calls.append(call)
         if not words:

@@ -22,6 +22,7 @@ MAX_LENGTH = 200_000
 _TAG = re.compile(r"<(/?)([A-Za-z][\w-]*)[^<>\n]{0,500}>")
 _HIDDEN = re.compile(r"https?://[^\s)>\]]+|\]\([^()\n]{0,1000}\)|[\[\]`\\]|\*\*|__")
 _EMPHASIS = re.compile(r"(?<!\w)[*_](?=\w)|(?<=\w)[*_](?!\w)")
+_UNDERLINE = re.compile(r"^[\s>]*#+|(?<![#=\s-])[#=\s-]++$")
 _DASH = re.compile(r"&[mn]dash;")
 _MARKER = re.compile(r"[\s>]*(?:[-*+]|\d{1,9}[.)])(?=\s)")
 _STRUCK = (("~~", "~~"), ("<del>", "</del>"), ("<s>", "</s>"), ("<strike>", "</strike>"))
@@ -122,7 +123,7 @@ def _passages(
             kind = PassageKind.PARAGRAPH
             if heading:
                 kind = PassageKind.HEADING
-                block = re.sub(r"^[\s>]*#+|[#=\s-]+$", _blanks, block)
+                block = _UNDERLINE.sub(_blanks, block)
             elif opens_item:
                 kind = PassageKind.ITEM
                 block = _MARKER.sub(_blanks, block, count=1)

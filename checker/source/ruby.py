@@ -6,14 +6,29 @@ and every heredoc's opening (`<<~XML`) is joined to its body.
 
 from __future__ import annotations
 
+import time
 from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import accumulate
+from typing import TYPE_CHECKING
 
 from checker.source.text import SourceText, Span
 
+if TYPE_CHECKING:
+    import tree_sitter
+
+MAX_SECONDS = 0.3
+"""Processor time of one parse; real spawners take 5 ms.
+
+For every literal that is never closed, the parser looks through the rest of the text: 100 kB of
+them take it half a minute."""
+_CHUNK = 4096
 _LEFT_OUT = frozenset({"comment", "heredoc_body", "empty_statement", "uninterpreted"})
+
+
+class ParsesTooSlowly(Exception):
+    """A text takes more than `MAX_SECONDS` to parse."""
 
 
 @dataclass(eq=False, slots=True)
@@ -70,12 +85,12 @@ class RubyNode:
 
 
 def parse_ruby(source: SourceText) -> RubyNode:
-    """Parse a Ruby text; what the grammar cannot parse becomes nodes of the type `ERROR`."""
-    import tree_sitter
-    import tree_sitter_ruby
+    """Parse a Ruby text; what the grammar cannot parse becomes nodes of the type `ERROR`.
 
-    language = tree_sitter.Language(tree_sitter_ruby.language())
-    tree = tree_sitter.Parser(language).parse(source.text.encode("utf-8"))
+    Raises:
+        ParsesTooSlowly: It takes too long.
+    """
+    tree = _tree(source.text.encode("utf-8"))
     to_chars = _byte_to_char(source.text)
     cursor = tree.walk()
     path: list[RubyNode] = []
@@ -100,6 +115,22 @@ def parse_ruby(source: SourceText) -> RubyNode:
             path.pop()
         path.pop()
     raise AssertionError("a cursor always stands on a node")
+
+
+def _tree(text: bytes) -> tree_sitter.Tree:
+    import tree_sitter
+    import tree_sitter_ruby
+
+    end = time.thread_time() + MAX_SECONDS
+    parser = tree_sitter.Parser(tree_sitter.Language(tree_sitter_ruby.language()))
+    try:
+        return parser.parse(
+            # It asks how it goes on only of a text that it reads in parts.
+            lambda at, _position: text[at : at + _CHUNK],
+            progress_callback=lambda *_progress: time.thread_time() > end,
+        )
+    except ValueError:  # it was stopped
+        raise ParsesTooSlowly from None
 
 
 def _attach(parent: RubyNode, node: RubyNode, field_name: str | None) -> None:

@@ -7,6 +7,7 @@ are counted at their full size, so a small file cannot stand for a huge one.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from yaml import (
@@ -30,6 +31,8 @@ from checker.source.text import SourceText, Span
 MAX_LENGTH = 1_000_000
 MAX_NODES = 100_000
 MAX_DEPTH = 100
+MAX_NUMBER_LENGTH = 200
+"""Characters of a number: to read one takes the square of its length, and these have a float."""
 
 Plain = str | int | float | bool | None
 _PLAIN_TAGS = {f"tag:yaml.org,2002:{name}" for name in ("null", "bool", "int", "float")}
@@ -175,11 +178,17 @@ class _Builder:
         tag = event.tag or resolve(ScalarNode, event.value, event.implicit)
         value: Plain = event.value
         if tag in _PLAIN_TAGS:
-            try:
-                value = self._constructor.construct_object(ScalarNode(tag, event.value))
-            except (ValueError, KeyError, IndexError, OverflowError):
-                self.fault(self._span(event), f"{event.value[:40]!r} does not read as {tag}")
+            value = self._number(event, tag)
         return self._remember(event, YamlNode("scalar", self._span(event), scalar=value))
+
+    def _number(self, event: ScalarEvent, tag: str) -> Plain:
+        """Read a number, a truth value or nothing; its text when it cannot be read."""
+        with suppress(ValueError, KeyError, IndexError, OverflowError):
+            if len(event.value) <= MAX_NUMBER_LENGTH:
+                value: Plain = self._constructor.construct_object(ScalarNode(tag, event.value))
+                return value
+        self.fault(self._span(event), f"{event.value[:40]!r} does not read as {tag}")
+        return str(event.value)
 
     def _alias(self, event: AliasEvent) -> YamlNode:
         named = self._anchors.get(event.anchor or "")

@@ -87,9 +87,11 @@ def inspect(data: Data, budget: Budget, depth: int = 0) -> str:
     if depth > _MAX_NESTING:
         raise NotWritable("arrays nested too deeply")
     if isinstance(data, RubyString):
+        budget.spend_text(len(data.text))
         return _quoted(data.text)
     if isinstance(data, Symbol):
         name = data.name
+        budget.spend_text(len(name))
         return f":{name}" if _PLAIN_SYMBOL.match(name) else f":{_quoted(name)}"
     if isinstance(data, RubyArray):
         return f"[{', '.join(inspect(item.data, budget, depth + 1) for item in data.items)}]"

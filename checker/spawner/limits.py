@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-MAX_FILE_LENGTH = 1_000_000
+MAX_FILE_LENGTH = 60_000
 """Characters of one Ruby or YAML file."""
-MAX_STEPS = 200_000
-"""Nodes evaluated in one call; long texts and long lists cost several steps."""
-MAX_TEXT_LENGTH = 5_000_000
+MAX_STEPS = 100_000
+"""Nodes evaluated in one call; what makes, reads or compares much costs several steps."""
+MAX_TEXT_LENGTH = 500_000
 """Characters of one string."""
 MAX_DEPTH = 110
 """Nested evaluations, so that Python's own stack (1000 frames) is never used up."""
@@ -17,8 +17,14 @@ MAX_CALLS = 40
 MAX_INTEGER_BITS = 1000
 """Below the largest exponent of a double, so that every integer has a float."""
 
-CHARACTERS_PER_STEP = 250
-ITEMS_PER_STEP = 50
+MAX_NUMBER_LENGTH = 400
+"""Characters of a number in YAML: reading one takes the square of its length."""
+MAX_PATH_LENGTH = 4096
+"""Characters of a path; Linux opens no longer one."""
+
+CHARACTERS_PER_STEP = 100
+CHARACTERS_PARSED_PER_STEP = 2
+ITEMS_PER_STEP = 5
 
 
 class LimitReached(Exception):
@@ -51,8 +57,16 @@ class Budget:
             raise LimitReached(f"makes a text of more than {MAX_TEXT_LENGTH} characters")
         self.spend(length // CHARACTERS_PER_STEP + pieces // ITEMS_PER_STEP)
 
+    def spend_parsing(self, length: int) -> None:
+        """Take off what parsing a text costs.
+
+        Raises:
+            LimitReached: No steps are left.
+        """
+        self.spend(length // CHARACTERS_PARSED_PER_STEP)
+
     def spend_items(self, count: int) -> None:
-        """Take off what making a list costs.
+        """Take off what making a list, or walking through one, costs.
 
         Raises:
             LimitReached: No steps are left.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from checker.record import record
-from checker.source.ruby import RubyNode, parse_ruby
+from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
 from checker.source.text import SourceText
 from checker.spawner.emitted import EmittedText
 from checker.spawner.evaluator.calls import entry_call
@@ -131,10 +131,14 @@ class _Program:
     functions: dict[str, Function] = field(default_factory=dict)
 
     @cached_property
-    def _tree(self) -> RubyNode | None:
+    def _tree(self) -> RubyNode | str:
+        """The entry's tree, or the reason why there is none."""
         if len(self.entry.text) > MAX_FILE_LENGTH:
-            return None
-        tree = self.trees[self.path] = parse_ruby(self.entry)
+            return f"is longer than {MAX_FILE_LENGTH} characters"
+        try:
+            tree = self.trees[self.path] = parse_ruby(self.entry)
+        except ParsesTooSlowly:
+            return "takes too long to parse"
         for node in tree.parts:
             if node.type == "method" and "name" in node.fields:
                 function = function_of(node, self.path)
@@ -146,8 +150,8 @@ class _Program:
     ) -> EmittedText | Unread:
         """Run the file, then one of its functions, from a clean start."""
         whole = self.entry.whole()
-        if self._tree is None:
-            return Unread(whole, f"is longer than {MAX_FILE_LENGTH} characters")
+        if isinstance(self._tree, str):
+            return Unread(whole, self._tree)
         run = Interpreter(self.files, HANDLERS, self.trees)
         run.globals[GROUND_TRUTH] = Value(ground_truth, frozenset({GROUND_TRUTH}))
         run.sources[self.path] = self.entry

@@ -29,12 +29,12 @@ def syntax_faults(tree: RubyNode) -> tuple[SyntaxFault, ...]:
 def _open_heredoc(
     tree: RubyNode, nodes: list[RubyNode], _errors: list[RubyNode], first: int
 ) -> SyntaxFault | None:
+    last = {line.strip(): at for at, line in enumerate(tree.source.text.split("\n"), 1)}
     for node in nodes:
         if node.type != "heredoc_beginning" or node.start >= first:
             continue
         word = heredoc_identifier(node)
-        lines = tree.source.text[node.end :].split("\n")[1:]
-        if word and not any(line.strip() == word for line in lines):
+        if word and last.get(word, 0) <= tree.source.position(node.end)[0]:
             return node.span, f"the heredoc {node.text} is never closed by a line '{word}'"
     return None
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from checker.record import record
 from checker.source.ruby import RubyNode
+from checker.spawner.limits import CHARACTERS_PER_STEP, Budget
 from checker.spawner.traced import NO_PARAMETERS, TracedString
 
 if TYPE_CHECKING:
@@ -64,8 +65,13 @@ class RubyRange:
 
     @property
     def numbers(self) -> range:
-        """The numbers in it."""
+        """The numbers in it; there may be more than `len` can say."""
         return range(self.first, self.last if self.exclusive else self.last + 1)
+
+    @property
+    def count(self) -> int:
+        """How many numbers are in it."""
+        return max(0, self.numbers.stop - self.first)
 
 
 @record(slots=True)
@@ -159,39 +165,52 @@ def is_number(value: Value) -> bool:
     return type(value.data) in {int, float}
 
 
-def key_of(value: Value, depth: int = 0) -> Hashable:
+_SAFE_INTEGER = 2**60
+"""Python's hashes of integers repeat at 2**61 - 1; those of texts cannot be foreseen."""
+
+
+def key_of(value: Value, budget: Budget, depth: int = 0) -> Hashable:
     """Return what makes two hash keys equal: 1 and 1.0 are two keys, 'a' and :a as well.
 
     Raises:
+        LimitReached: No steps are left.
         ValueError: Nested arrays or hashes are no keys that spawners use.
     """
     data = value.data
+    budget.spend()
     if isinstance(data, RubyString):
+        budget.spend_text(len(data.text))
         return "String", data.text
     if isinstance(data, RubyArray) and depth == 0:
-        return "Array", tuple(key_of(item, 1) for item in data.items)
+        return "Array", tuple([key_of(item, budget, 1) for item in data.items])
     if isinstance(data, (RubyArray, RubyHash)):
         raise ValueError(class_name(data))
+    if isinstance(data, int) and abs(data) > _SAFE_INTEGER:
+        return class_name(data), hex(data)
     return class_name(data), data
 
 
-def equal(left: Data, right: Data, depth: int = 0) -> bool:
+def equal(left: Data, right: Data, budget: Budget, depth: int = 0) -> bool:
     """Compare as Ruby's `==` does.
 
     Raises:
+        LimitReached: No steps are left.
         ValueError: Arrays or hashes are nested too deeply to compare.
     """
     if depth > 8:
         raise ValueError("nested too deeply")
+    budget.spend()
     if isinstance(left, RubyString) and isinstance(right, RubyString):
+        budget.spend(min(len(left.text), len(right.text)) // CHARACTERS_PER_STEP)
         return left.text == right.text
     if isinstance(left, RubyArray) and isinstance(right, RubyArray):
         return len(left.items) == len(right.items) and all(
-            equal(a.data, b.data, depth + 1) for a, b in zip(left.items, right.items, strict=True)
+            equal(a.data, b.data, budget, depth + 1)
+            for a, b in zip(left.items, right.items, strict=True)
         )
     if isinstance(left, RubyHash) and isinstance(right, RubyHash):
         return left.entries.keys() == right.entries.keys() and all(
-            equal(entry[1].data, right.entries[key][1].data, depth + 1)
+            equal(entry[1].data, right.entries[key][1].data, budget, depth + 1)
             for key, entry in left.entries.items()
         )
     if isinstance(left, bool) or isinstance(right, bool):

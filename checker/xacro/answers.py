@@ -16,6 +16,8 @@ def is_answer(said: Any) -> bool:
             return all(map(_is_place, origins)) and all(isinstance(each, str) for each in files)
         case {"kind": str(kind), "message": str()}:
             return kind in _KINDS and _is_told(said.get("at"), said.get("through"))
+        case {"refused": str(), "expression": str()}:
+            return _is_told(said.get("at"), None)
         case {"missing": str()} | {"unread": str()}:
             return True
     return False

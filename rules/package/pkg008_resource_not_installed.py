@@ -7,8 +7,10 @@ Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`.
 Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo look for them there.
 """
 
+import re
 from collections.abc import Iterator, Sequence
 from fnmatch import fnmatch
+from itertools import islice
 
 from checker.finding import Fix
 from checker.package.kind import PackageKind
@@ -29,6 +31,9 @@ FOLDERS = {
     "thumbnails": Severity.WARNING,
 }
 _CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
+_PATTERN = re.compile(r"[*?\[]")
+_PATTERN_LIMIT, _PATTERNS_LIMIT = 100, 100
+"""Characters of a pattern that is tried, and how many: each is compiled."""
 MODEL_FILES = ("model.sdf", "model.config")
 
 
@@ -106,9 +111,10 @@ def _paths(build: CMakeFile) -> Iterator[str]:
 
 def _covers(installed: set[str], path: str) -> bool:
     """Say whether a path, or anything in it, is installed; what a variable hides counts."""
-    return any(
-        fnmatch(path, item) or item.startswith(f"{path}/") or "$" in item for item in installed
-    )
+    if path in installed or any(i.startswith(f"{path}/") or "$" in i for i in installed):
+        return True
+    patterns = (item for item in installed if len(item) < _PATTERN_LIMIT and _PATTERN.search(item))
+    return any(fnmatch(path, item) for item in islice(patterns, _PATTERNS_LIMIT))
 
 
 GOOD = [

@@ -20,7 +20,7 @@ from checker.rule import Context, Findings, Severity, finding, rule
 from checker.source.cmake import CMakeFile
 from checker.source.text import Located
 
-_VERSION = re.compile(r"\d+\Z")
+_VERSION = re.compile(r"(?<!\d)\d+\Z")
 _REQUIRED = {"REQUIRED", "COMPONENTS"}
 
 

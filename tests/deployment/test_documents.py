@@ -17,6 +17,7 @@ from tests.deployment.image import ROOT
 
 SERVICE = (ROOT / "docs/service.md").read_text("utf-8")
 SECURITY = (ROOT / "docs/security.md").read_text("utf-8")
+EVALUATED = SECURITY.partition("## Where a stranger's text is evaluated")[2].partition("\n## ")[0]
 NAMED_TESTS = re.findall(r"`(tests/[\w/.]+)::(\w+)`", SECURITY)
 
 
@@ -31,7 +32,8 @@ def rows(document: str) -> list[list[str]]:
     """Return the cells of all tables, without heads."""
     lines = [line for line in document.splitlines() if line.startswith("| ")]
     cells = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines]
-    return [row for row in cells if row[0] not in {"threat", "variable", "what", "address"}]
+    heads = {"threat", "variable", "what", "address", "place"}
+    return [row for row in cells if row[0] not in heads]
 
 
 @pytest.mark.parametrize("file", sorted({file for file, _ in NAMED_TESTS}))
@@ -41,9 +43,15 @@ def test_every_test_that_is_named_exists(file: str) -> None:
 
 
 def test_every_threat_has_what_holds_it_and_a_test() -> None:
-    threats = rows(SECURITY)
+    threats = rows(SECURITY.replace(EVALUATED, ""))
     assert len(threats) > 20
     assert all(len(row) == 3 and row[1] and "::test_" in row[2] for row in threats)
+
+
+def test_every_place_of_evaluation_has_what_bounds_it_and_a_test() -> None:
+    places = rows(EVALUATED)
+    assert len(places) > 15
+    assert all(len(row) == 4 and all(row) and "::test_" in row[3] for row in places)
 
 
 def test_every_variable_is_explained() -> None:

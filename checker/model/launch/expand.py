@@ -234,7 +234,9 @@ class _Expansion:
         written = element.attribute("args") or left_outside(element).get("args")
         if written is None or not self._reader.charge(element, len(written.value) // 100):
             return ()
-        return tuple(words(written, scope))
+        found = tuple(words(written, scope))
+        self._reader.charge(element, len(found))
+        return found
 
     def _read_bridges(self, node: Node) -> None:
         for read in read_bridges(node, node.words):

@@ -13,6 +13,8 @@ from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 MAX_STEPS = 100_000
+CHARACTERS_PER_STEP = 100
+"""Of texts that substitutions make."""
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 _WORD = re.compile(r"(?:\$\([^()]*\)|\S)+")
 
@@ -62,6 +64,7 @@ class Reader:
                 start, end = span.start + fault.start, span.start + fault.end
                 span = Span(span.source, start, end, span.holder)
             self.fault(fault.kind, span, fault.message)
+        self.charge(element, len(result.text) // CHARACTERS_PER_STEP)
         return Located(result.text, written.span)
 
     def value(self, element: Element, attribute: str, scope: Scope, default: str = "") -> str:

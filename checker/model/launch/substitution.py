@@ -65,10 +65,7 @@ def substitute(text: str, args: Mapping[str, str], directory: str) -> Substitute
         last = found.end()
         length += len(parts[-2]) + len(parts[-1])
         if length > MAX_LENGTH:
-            message = f"the text grows beyond {MAX_LENGTH} characters"
-            return Substituted(
-                text, (SubstitutionFault(LaunchFaultKind.LIMIT, 0, len(text), message),)
-            )
+            return _too_long(text)
     return Substituted("".join((*parts, text[last:])), tuple(faults))
 
 
@@ -89,6 +86,11 @@ def _value(content: str, args: Mapping[str, str], directory: str) -> str | Subst
     return SubstitutionFault(LaunchFaultKind.SUBSTITUTION, 0, 0, message)
 
 
+def _too_long(text: str) -> Substituted:
+    message = f"the text grows beyond {MAX_LENGTH} characters"
+    return Substituted(text, (SubstitutionFault(LaunchFaultKind.LIMIT, 0, len(text), message),))
+
+
 def undeclared(name: str) -> SubstitutionFault:
     """Return the fault of using an arg that is not declared."""
     message = f"the arg {name!r} is used but not declared"
@@ -104,4 +106,5 @@ def _substitute_expression(text: str, args: Mapping[str, str]) -> Substituted:
         if result.undeclared:
             kind = LaunchFaultKind.UNDECLARED_ARG
         return Substituted(text, (SubstitutionFault(kind, 0, len(text), result.message),))
-    return Substituted(str(result))
+    value = str(result)
+    return Substituted(value) if len(value) <= MAX_LENGTH else _too_long(text)

@@ -94,7 +94,7 @@ _AXIS_WORDS = (
     (re.compile(r"\b(?:vertical|climb\w*|turn\w*|yaw)\b", re.IGNORECASE), "z"),
 )
 _RADIUS = re.compile(
-    rf"\bturning\s+radius\s+(?:of|is|=|:)\s*(?:about\s|approximately\s|~)?\s*({NUMBER})"
+    rf"\bturning\s+radius\s+(?:of|is|=|:)\s{{0,5}}(?:about\s|approximately\s|~)?\s{{0,5}}({NUMBER})"
     r"(?!\s?[\w%]*\d)(?:\s{0,5}(m|met(?:er|re)s?|cm)\b)?",
     re.IGNORECASE,
 )

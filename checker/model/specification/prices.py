@@ -24,9 +24,9 @@ _SUM = re.compile(
 )
 # `$200 - D435`, `* Base vehicle: $12,000`, `| body | USD 2,000 |`: a price and what it is for.
 _ITEM = re.compile(
-    r"\s*(?:[-*+]\s+)?(?:[^|:]{0,200}:\s*)?(?:~|about|approx\.?)?\s*$", re.IGNORECASE
+    r"\s*+(?:[-*+]\s++)?(?:[^|:]{0,200}:\s*+)?(?:~|about|approx\.?)?\s*+$", re.IGNORECASE
 )
-_CELL = re.compile(r"\s*\|.{0,300}\|\s*(?:~|about)?\s*$", re.IGNORECASE)
+_CELL = re.compile(r"\s*+\|.{0,300}\|\s*+(?:~|about)?\s*+$", re.IGNORECASE)
 
 
 @record(eq=False)

@@ -11,7 +11,7 @@ from checker.record import record
 from checker.source.markdown import Passage
 from checker.source.text import Span
 
-NUMBER = r"\d+(?:,\d{3})*(?:\.\d+)?|\.\d+"
+NUMBER = r"\d{1,15}(?:,\d{3}){0,5}(?:\.\d{1,15})?|\.\d{1,15}"
 MAX_SENTENCE = 2000
 _NUMBER_WORDS = (
     *("one", "two", "three", "four", "five", "six"),

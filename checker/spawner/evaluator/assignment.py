@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
 from checker.source.ruby import RubyNode
@@ -10,11 +10,12 @@ from checker.spawner.evaluator.expressions import elements, store
 from checker.spawner.evaluator.interpreter import Handler, Interpreter
 from checker.spawner.evaluator.operators import operate
 from checker.spawner.files import absolute, folder_of
+from checker.spawner.limits import ITEMS_PER_STEP
 from checker.spawner.methods.call import Call
 from checker.spawner.methods.table import invoke_method
 from checker.spawner.ruby_errors import ERROR_CLASSES
 from checker.spawner.signals import RubyError, Unreadable
-from checker.spawner.values import Constant, RubyArray, RubyHash, Value
+from checker.spawner.values import NIL, Constant, RubyArray, RubyHash, Value
 
 _MODULES = frozenset(
     {"File", "YAML", "Psych", "Math", "Hash", "Array", "String", "Float", "Integer", "Numeric"}
@@ -43,28 +44,36 @@ def _read(run: Interpreter, value: Value) -> Value:
 def _assigned_above(run: Interpreter, node: RubyNode, name: str) -> bool:
     scope = run.scope
     while True:
-        for found in assigned_names(scope.body):
-            if found.text == name and found.end <= node.start and found.source is node.source:
-                return True
+        end = _assigned(run, scope.body).get(name)
+        if end is not None and end <= node.start and scope.body.source is node.source:
+            return True
         if scope.parent is None:
             return False
         scope = scope.parent
 
 
-def assigned_names(body: RubyNode) -> list[RubyNode]:
-    """Return the targets of all plain assignments (`=`) below a node."""
-    found = []
+def _assigned(run: Interpreter, body: RubyNode) -> Mapping[str, int]:
+    """Return the variables that plain assignments (`=`) below a node set, looked for once."""
+    found = run.assigned.get(body)
+    if found is None:
+        found = run.assigned[body] = {}
+        for target in _targets(run, body):
+            found[target.text] = min(target.end, found.get(target.text, target.end))
+    return found
+
+
+def _targets(run: Interpreter, body: RubyNode) -> Iterator[RubyNode]:
     waiting = [body]
     while waiting:
         node = waiting.pop()
+        run.budget.spend(len(node.children) // ITEMS_PER_STEP)
         if node.type == "method" and node is not body:
             continue
         if node.type in {"assignment", "operator_assignment", "for"}:
             target = node.fields.get("left") or node.fields.get("pattern")
             if target is not None:
-                found += target.parts if target.type == "left_assignment_list" else [target]
+                yield from target.parts if target.type == "left_assignment_list" else [target]
         waiting.extend(node.children)
-    return found
 
 
 def mark_untaken(run: Interpreter, branch: RubyNode, influences: frozenset[str]) -> None:
@@ -137,6 +146,7 @@ def assign(run: Interpreter, target: RubyNode, value: Value) -> None:
 
 def _assign_many(run: Interpreter, target: RubyNode, value: Value) -> None:
     items = value.data.items if isinstance(value.data, RubyArray) else [value]
+    run.budget.spend_items(len(items))
     for index, part in enumerate(target.parts):
         if part.type in {"rest_assignment", "splat_argument"}:
             behind = len(target.parts) - index - 1
@@ -158,13 +168,14 @@ def _set_element(run: Interpreter, target: RubyNode, value: Value) -> None:
     if data.frozen:
         raise RubyError("FrozenError", "can't modify frozen Array or Hash", target.span)
     if isinstance(data, RubyHash):
-        store(data, keys[0], value, target)
+        store(run, data, keys[0], value, target)
         return
     index = keys[0].data
     if type(index) is not int or not -len(data.items) <= index <= len(data.items) + 1000:
         raise Unreadable(target.span, "sets an element far behind the end of an array")
-    while index >= len(data.items):
-        data.items.append(Value(None))
+    missing = max(0, index + 1 - len(data.items))
+    run.budget.spend_items(missing)
+    data.items += [NIL] * missing
     data.items[index] = value
 
 

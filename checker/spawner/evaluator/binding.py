@@ -17,6 +17,7 @@ def bind(call: Call, function: Function, scope: Scope) -> None:
         RubyError: Ruby refuses the number or the names of the arguments.
         Unreadable: A kind of parameter that is not read.
     """
+    call.run.budget.spend_items(len(function.parameters))
     for parameter in function.parameters:
         if parameter.kind not in _KNOWN:
             raise Unreadable(parameter.span, f"has the parameter {parameter.span.text[:40]}")
@@ -80,6 +81,7 @@ def _bind_keywords(call: Call, function: Function, scope: Scope) -> None:
 def _keywords(call: Call) -> dict[object, tuple[Value, Value]]:
     data = call.keywords.data if call.keywords else None
     entries = data.entries if isinstance(data, RubyHash) else {}
+    call.run.budget.spend_items(len(entries))
     if any(isinstance(key.data, RubyString) for key, _ in entries.values()):
         raise Unreadable(call.span, "passes a string as the name of an argument")
     return dict(entries)

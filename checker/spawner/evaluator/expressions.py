@@ -11,7 +11,7 @@ from checker.spawner.heredoc import heredoc_body
 from checker.spawner.limits import MAX_INTEGER_BITS
 from checker.spawner.literals import Range, decode_double, decode_raw, decode_single
 from checker.spawner.signals import Unreadable
-from checker.spawner.traced import TracedString, joined
+from checker.spawner.traced import TracedString
 from checker.spawner.values import (
     RubyArray,
     RubyHash,
@@ -48,7 +48,8 @@ def _frozen_literals(run: Interpreter, node: RubyNode) -> bool:
     tree = run.trees.get(run.scope.path)
     if tree is None or any(part.type == "interpolation" for part in node.children):
         return False
-    head = node.source.text[: node.source.text.find("\n", tree.start) + 1][:2000]
+    text = node.source.text
+    head = text[: min(text.find("\n", tree.start) + 1, 2000)]
     return "frozen_string_literal: true" in head or "frozen-string-literal: true" in head
 
 
@@ -80,11 +81,15 @@ def _assembled(
     run: Interpreter, node: RubyNode, parts: list[list[Range] | RubyNode], *, raw: bool
 ) -> TracedString:
     decode = decode_raw if raw else decode_double
-    return joined(
-        _interpolation(run, part)
-        if isinstance(part, RubyNode)
-        else decode(node.source, part, run.influences)
-        for part in parts
+    lines = [part for part in parts if not isinstance(part, RubyNode)]
+    run.budget.spend(sum(map(len, lines)))
+    return run.joined(
+        *(
+            _interpolation(run, part)
+            if isinstance(part, RubyNode)
+            else decode(node.source, part, run.influences)
+            for part in parts
+        )
     )
 
 
@@ -106,7 +111,7 @@ def _heredoc(run: Interpreter, node: RubyNode) -> Value:
 
 
 def _chained(run: Interpreter, node: RubyNode) -> Value:
-    return run.string(joined(string_content(run, part) for part in node.parts))
+    return run.string(run.joined(*(string_content(run, part) for part in node.parts)))
 
 
 def _character(run: Interpreter, node: RubyNode) -> Value:
@@ -146,14 +151,15 @@ def elements(run: Interpreter, nodes: list[RubyNode]) -> list[Value]:
             items.append(run.evaluate(node))
             continue
         value = run.run(node.parts)
+        run.budget.spend_items(len(items))
         if isinstance(value.data, RubyRange):
-            run.budget.spend_items(len(value.data.numbers))
+            run.budget.spend(value.data.count)
             items += [run.value(number, value) for number in value.data.numbers]
         elif isinstance(value.data, RubyArray):
+            run.budget.spend_items(len(value.data.items))
             items += value.data.items
         else:
             raise Unreadable(node.span, "takes apart something that is no array")
-        run.budget.spend_items(len(items))
     return items
 
 
@@ -176,7 +182,7 @@ def hash_of(run: Interpreter, nodes: list[RubyNode]) -> Value:
         if node.type != "pair" or value_node is None:
             raise Unreadable(node.span, "holds a hash entry that is not read")
         key = _pair_key(run, node)
-        store(result, key, run.evaluate(value_node), node)
+        store(run, result, key, run.evaluate(value_node), node)
     return Value(result, run.influences)
 
 
@@ -190,10 +196,10 @@ def _pair_key(run: Interpreter, pair: RubyNode) -> Value:
     return run.evaluate(key)
 
 
-def store(target: RubyHash, key: Value, value: Value, node: RubyNode) -> None:
+def store(run: Interpreter, target: RubyHash, key: Value, value: Value, node: RubyNode) -> None:
     """Set an entry; a string key is copied, as Ruby does."""
     try:
-        identity = key_of(key)
+        identity = key_of(key, run.budget)
     except ValueError as error:
         raise Unreadable(node.span, f"uses {error} as the key of a hash") from None
     if isinstance(key.data, RubyString):

@@ -7,11 +7,17 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from checker.source.ruby import RubyNode, parse_ruby
+from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
 from checker.source.text import SourceText, Span
 from checker.spawner.files import SpawnerFiles
 from checker.spawner.formatting import NotWritable, to_s
-from checker.spawner.limits import MAX_DEPTH, MAX_FILE_LENGTH, Budget, LimitReached
+from checker.spawner.limits import (
+    ITEMS_PER_STEP,
+    MAX_DEPTH,
+    MAX_FILE_LENGTH,
+    Budget,
+    LimitReached,
+)
 from checker.spawner.scope import Function, Scope
 from checker.spawner.signals import Unreadable
 from checker.spawner.traced import NO_PARAMETERS, TracedString, computed, joined
@@ -38,6 +44,8 @@ class Interpreter:
         scope: Variables that the present code sees.
         depth: Evaluations that wait for each other.
         calls: Ruby functions that wait for each other.
+        assigned: Variables that a piece of code sets, by the code's node, with the end of the
+            first such place.
     """
 
     files: SpawnerFiles
@@ -53,6 +61,7 @@ class Interpreter:
     scope: Scope = field(init=False)
     depth: int = 0
     calls: int = 0
+    assigned: dict[RubyNode, Mapping[str, int]] = field(default_factory=dict)
 
     def evaluate(self, node: RubyNode) -> Value:
         """Return the value of an expression or statement.
@@ -68,7 +77,7 @@ class Interpreter:
             raise Unreadable(node.span, f"is nested deeper than {MAX_DEPTH} levels")
         self.depth += 1
         try:
-            self.budget.spend()
+            self.budget.spend(1 + len(node.children) // ITEMS_PER_STEP)
             return handler(self, node)
         except LimitReached as limit:
             raise Unreadable(node.span, str(limit)) from None
@@ -121,7 +130,7 @@ class Interpreter:
         """
         if not isinstance(value.data, RubyString):
             raise Unreadable(span, "needs a string here")
-        self.budget.spend(len(value.data.content.pieces) // 50)
+        self.budget.spend(len(value.data.content.pieces) // ITEMS_PER_STEP)
         return value.data.content.influenced(value.parameters).rooted(span)
 
     def written(self, value: Value, span: Span) -> TracedString:
@@ -182,11 +191,19 @@ class Interpreter:
         self.sources[path] = source
         return source
 
+    def _parsed(self, path: str, span: Span) -> RubyNode:
+        source = self.read(path, span)
+        self.budget.spend_parsing(len(source.text))
+        try:
+            return parse_ruby(source)
+        except ParsesTooSlowly:
+            raise Unreadable(span, f"reads {path}, which takes too long to parse") from None
+
     def run_file(self, path: str, span: Span) -> None:
         """Run a Ruby file of the workspace: its definitions, and its other statements."""
         tree = self.trees.get(path)
         if tree is None:
-            tree = self.trees[path] = parse_ruby(self.read(path, span))
+            tree = self.trees[path] = self._parsed(path, span)
         else:
             self.sources[path] = tree.source
         self.loaded.add(path)

@@ -97,7 +97,7 @@ def _to_float(call: Call, value: Value) -> Value:
 
 def _to_integer(call: Call, value: Value) -> Value:
     if is_number(value):
-        return call.run.value(int(call.number(value)), value)
+        return call.run.value(call.whole(call.number(value)), value)
     number = whole_number(call.text(value))
     if number is None:
         raise call.refuse("with a text that is no plain integer")

@@ -65,22 +65,23 @@ def operate(run: Interpreter, node: RubyNode, sign: str, left: Value, right: Val
         RubyError: Ruby refuses them.
     """
     if sign in {"==", "!="}:
-        return run.value(_equal(node, left, right) is (sign == "=="), left, right)
+        return run.value(_equal(run, node, left, right) is (sign == "=="), left, right)
     if isinstance(left.data, (int, float)) and not isinstance(left.data, bool):
         return _numeric(run, node, sign, left.data, left, right)
     if sign in _COMPARISONS and isinstance(left.data, RubyString):
         if not isinstance(right.data, RubyString):
             message = f"comparison of String with {class_name(right.data)} failed"
             raise RubyError("ArgumentError", message, node.span)
+        run.budget.spend_text(len(left.data.text))
         return run.value(_COMPARISONS[sign](left.data.text, right.data.text), left, right)
     if isinstance(left.data, (RubyString, RubyArray, RubyHash, Symbol)):
         return invoke_method(Call(run, node, sign, left, [right]))
     raise Unreadable(node.span, f"uses {sign} on {class_name(left.data)}")
 
 
-def _equal(node: RubyNode, left: Value, right: Value) -> bool:
+def _equal(run: Interpreter, node: RubyNode, left: Value, right: Value) -> bool:
     try:
-        return equal(left.data, right.data)
+        return equal(left.data, right.data, run.budget)
     except ValueError as error:
         raise Unreadable(node.span, f"compares arrays {error}") from None
 

@@ -137,7 +137,7 @@ def _case(run: Interpreter, node: RubyNode) -> Value:
             break
         patterns = elements(run, [p.parts[0] for p in clause.parts if p.type == "pattern"])
         deciding = deciding.union(*(pattern.influences for pattern in patterns))
-        if any(_matches(pattern, value, clause) for pattern in patterns):
+        if any(_matches(run, pattern, value, clause) for pattern in patterns):
             taken = clause.fields.get("body")
             break
     with run.influenced_by(Value(None, deciding)):
@@ -148,7 +148,7 @@ def _case(run: Interpreter, node: RubyNode) -> Value:
     return Value(result.data, result.parameters | deciding)
 
 
-def _matches(pattern: Value, value: Value | None, node: RubyNode) -> bool:
+def _matches(run: Interpreter, pattern: Value, value: Value | None, node: RubyNode) -> bool:
     """Compare as `pattern === value` does; without a value, the pattern is the condition."""
     if value is None:
         return pattern.truthy
@@ -165,7 +165,7 @@ def _matches(pattern: Value, value: Value | None, node: RubyNode) -> bool:
             ("Numeric", "Float"),
         }
     try:
-        return equal(pattern.data, value.data)
+        return equal(pattern.data, value.data, run.budget)
     except ValueError as error:
         raise Unreadable(node.span, f"compares arrays {error}") from None
 

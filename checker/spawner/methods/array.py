@@ -21,7 +21,7 @@ def _at(call: Call, index: Value, count: Value | None = None) -> Value:
         return _part(call, index, count)
     number = index.data
     if isinstance(number, float):
-        number = int(number)
+        number = call.whole(number)
     if type(number) is not int:
         raise call.refuse("with something else than an integer")
     found = items[number] if -len(items) <= number < len(items) else NIL
@@ -108,14 +108,14 @@ def _times(call: Call, factor: Value) -> Value:
     if count < 0:
         raise call.refuse("with a negative number")
     call.run.budget.spend_items(len(_items(call)) * count)
-    return call.run.array(_items(call) * count, call.receiver, factor)
+    return call.run.array(_items(call) * (count if _items(call) else 0), call.receiver, factor)
 
 
 def _join(call: Call, separator: Value | None = None) -> Value:
     between = call.traced(separator) if separator is not None else TracedString()
     parts: list[TracedString] = []
     for text in _written(call, _items(call), 0):
-        call.run.budget.spend(len(between.pieces) // 50)
+        call.run.budget.spend_items(len(between.pieces))
         parts += [between, text] if parts else [text]
     return call.run.string(joined(parts).influenced(call.receiver.parameters))
 

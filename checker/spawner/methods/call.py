@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
@@ -87,12 +88,17 @@ class Call:
         return value.data
 
     def text(self, value: Value) -> str:
-        """Return the characters of an argument that has to be a string."""
-        return self.string(value).text
+        """Return the characters of an argument that has to be a string.
+
+        What is done with them takes a time that grows with their number.
+        """
+        text = self.string(value).text
+        self.run.budget.spend_text(len(text))
+        return text
 
     def traced(self, value: Value) -> TracedString:
         """Return the pieces of an argument that has to be a string."""
-        self.text(value)
+        self.string(value)
         return self.run.traced(value, self.span)
 
     def integer(self, value: Value) -> int:
@@ -106,6 +112,17 @@ class Call:
         if isinstance(value.data, bool) or not isinstance(value.data, (int, float)):
             raise self.refuse(f"with {class_name(value.data)} instead of a number")
         return value.data
+
+    def whole(self, number: int | float) -> int:
+        """Return a number without what stands behind its point.
+
+        Raises:
+            RubyError: It is not finite.
+        """
+        if not math.isfinite(number):
+            text = "NaN" if math.isnan(number) else "Infinity" if number > 0 else "-Infinity"
+            raise RubyError("FloatDomainError", text, self.span)
+        return int(number)
 
     def array(self, value: Value) -> RubyArray:
         """Return an argument that has to be an array."""
@@ -121,9 +138,8 @@ class Call:
 
     def equal(self, left: Value, right: Value) -> bool:
         """Compare two values as `==` does."""
-        self.run.budget.spend()
         try:
-            return equal(left.data, right.data)
+            return equal(left.data, right.data, self.run.budget)
         except ValueError as error:
             raise self.refuse(f"which compares arrays {error}") from None
 
@@ -178,7 +194,9 @@ def invoke_block(call: Call, arguments: list[Value]) -> Value:
     around = block.scope
     scope = Scope(around.path, block.node, {}, around, around.call, block)
     parameters = block.node.fields.get("parameters")
-    _bind(call, scope, parameters.parts if parameters else [], arguments)
+    targets = parameters.parts if parameters else []
+    run.budget.spend_items(len(targets))
+    _bind(call, scope, targets, arguments)
     body = block.node.fields.get("body")
     try:
         with run.inside(scope):
@@ -192,6 +210,7 @@ def invoke_block(call: Call, arguments: list[Value]) -> Value:
 def _bind(call: Call, scope: Scope, targets: list[RubyNode], arguments: list[Value]) -> None:
     if len(arguments) == 1 and isinstance(arguments[0].data, RubyArray) and _several(targets):
         whole = arguments[0]
+        call.run.budget.spend_items(len(arguments[0].data.items))
         arguments = [
             Value(item.data, item.parameters | whole.parameters) for item in arguments[0].data.items
         ]
@@ -205,6 +224,7 @@ def _bind(call: Call, scope: Scope, targets: list[RubyNode], arguments: list[Val
                 scope.variables[name.text] = call.run.array(arguments[index:])
         elif target.type == "destructured_parameter":
             items = value.data.items if isinstance(value.data, RubyArray) else [value]
+            call.run.budget.spend_items(len(items))
             _bind(call, scope, target.parts, list(items))
         else:
             raise Unreadable(target.span, f"has the block parameter {target.text[:40]}")

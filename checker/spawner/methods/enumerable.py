@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
+from checker.spawner.arithmetic import calculate
+from checker.spawner.limits import CHARACTERS_PER_STEP
 from checker.spawner.methods.call import Call, Methods
 from checker.spawner.methods.iteration import items_of, listed
 from checker.spawner.values import NIL, RubyHash, RubyString, Value, class_name, is_number
@@ -85,7 +88,7 @@ def _sum(call: Call, start: Value | None = None) -> Value:
     if any(isinstance(number, float) for number in [total, *numbers]):
         total = _compensated(total, numbers)
     else:
-        total += sum(numbers)
+        total = calculate("+", total, sum(numbers)) or 0
     return call.value(total, *items)
 
 
@@ -132,7 +135,9 @@ def _sort_key(call: Call, items: list[Value]) -> Callable[[Value], Any]:
     if all(is_number(item) for item in items):
         return lambda item: item.data
     if all(isinstance(item.data, RubyString) for item in items):
-        return call.text
+        texts = [call.text(item) for item in items]
+        call.run.budget.spend(sum(map(len, texts)) // CHARACTERS_PER_STEP)
+        return lambda item: call.string(item).text
     raise call.refuse("with mixed values")
 
 
@@ -147,9 +152,9 @@ def _sort_by(call: Call) -> Value:
     items = _all(call)
     keys = [call.each(item) for item in items]
     key = _sort_key(call, keys)
-    if len({key(value) for value in keys}) < len(keys):
-        raise call.refuse("with equal keys")
     order = sorted(range(len(items)), key=lambda index: key(keys[index]))
+    if any(key(keys[one]) == key(keys[next_one]) for one, next_one in pairwise(order)):
+        raise call.refuse("with equal keys")
     return call.run.array([items[index] for index in order], call.receiver)
 
 

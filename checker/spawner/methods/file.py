@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 
 from checker.spawner.files import expanded, folder_of, joined_path, workspace_path
+from checker.spawner.limits import MAX_PATH_LENGTH
 from checker.spawner.methods.call import Call, Methods
 from checker.spawner.traced import computed
 from checker.spawner.values import RubyArray, Value
@@ -17,6 +18,8 @@ def resolve(call: Call, path: Value) -> str:
         Unreadable: It is relative to where Ruby runs, or lies outside the workspace.
     """
     text = call.text(path)
+    if len(text) > MAX_PATH_LENGTH:
+        raise call.refuse(f"with a path of more than {MAX_PATH_LENGTH} characters")
     found = workspace_path(text)
     if found is None:
         where = "outside the workspace" if text.startswith("/") else "relative to where Ruby runs"

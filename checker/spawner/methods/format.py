@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
 
@@ -24,8 +25,9 @@ def formatted(call: Call, template: Value, values: list[Value]) -> Value:
         Unreadable: A directive that is not read (`%<name>s`, `%p`, `*`).
         RubyError: There are too few values.
     """
-    text, waiting, parts, at = call.text(template), list(values), [], 0
+    text, waiting, parts, at = call.text(template), iter(values), [], 0
     for found in _DIRECTIVE.finditer(text):
+        call.run.budget.spend_text(_width(found))
         parts += [text[at : found.start()], _directive(call, found, waiting)]
         at = found.end()
         call.run.budget.spend()
@@ -33,15 +35,20 @@ def formatted(call: Call, template: Value, values: list[Value]) -> Value:
     return call.run.computed("".join(parts), call.span, template, *values)
 
 
-def _directive(call: Call, found: re.Match[str], waiting: list[Value]) -> str:
+def _width(directive: re.Match[str]) -> int:
+    """Return how many characters it may write; a digit behind the point costs like ten."""
+    return int(directive.group(2) or 0) + 10 * int(directive.group(3) or 0)
+
+
+def _directive(call: Call, found: re.Match[str], waiting: Iterator[Value]) -> str:
     flags, width, precision, kind = found.groups()
     if found.group() == "%%":
         return "%"
     if kind is None or kind not in "diufFgGeEsx" or "#" in flags:
         raise call.refuse(f"with the directive {found.group()[:20]}")
-    if not waiting:
+    value = next(waiting, None)
+    if value is None:
         raise RubyError("ArgumentError", "too few arguments", call.span)
-    value = waiting.pop(0)
     dot = f".{precision}" if precision is not None else ""
     if kind == "s":
         return f"%{flags.replace('0', '')}{width}{dot}s" % _text(call, value)
@@ -76,6 +83,8 @@ def _on_limit(number: float, kind: str, digits: int) -> bool:
 
 def _text(call: Call, value: Value) -> str:
     try:
-        return to_s(value.data, call.run.budget)
+        text = to_s(value.data, call.run.budget)
     except NotWritable as error:
         raise call.refuse(f"with {error}") from None
+    call.run.budget.spend_text(len(text))
+    return text

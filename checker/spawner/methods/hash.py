@@ -15,7 +15,7 @@ def _hash(call: Call) -> RubyHash:
 
 def _identity(call: Call, key: Value) -> Hashable:
     try:
-        return key_of(key)
+        return key_of(key, call.run.budget)
     except ValueError as error:
         raise call.refuse(f"with {error} as a key") from None
 
@@ -100,6 +100,7 @@ def _column(index: int) -> Callable[[Call], Value]:
 
 def _each_column(index: int) -> Callable[[Call], Value]:
     def each(call: Call) -> Value:
+        call.run.budget.spend_items(len(_hash(call).entries))
         for entry in list(_hash(call).entries.values()):
             call.each(entry[index])
         return call.receiver
@@ -109,6 +110,7 @@ def _each_column(index: int) -> Callable[[Call], Value]:
 
 def _kept(wanted: bool) -> Callable[[Call], Value]:
     def keep(call: Call) -> Value:
+        call.run.budget.spend_items(len(_hash(call).entries))
         entries = list(_hash(call).entries.items())
         kept = {i: pair for i, pair in entries if call.each(*pair).truthy is wanted}
         return Value(RubyHash(kept), call.receiver.parameters)
@@ -117,6 +119,7 @@ def _kept(wanted: bool) -> Callable[[Call], Value]:
 
 
 def _each_pair(call: Call) -> Value:
+    call.run.budget.spend_items(len(_hash(call).entries))
     for key, value in list(_hash(call).entries.values()):
         call.each(call.run.array([key, value]))
     return call.receiver

@@ -33,6 +33,7 @@ def items_of(run: Interpreter, collection: Value, node: RubyNode) -> Iterator[Va
             yield run.value(number, collection)
     elif isinstance(data, RubyHash):
         size = len(data.entries)
+        run.budget.spend_items(size)
         for key, value in list(data.entries.values()):
             yield run.array([key, value], collection)
             if len(data.entries) > size:
@@ -45,7 +46,7 @@ def listed(run: Interpreter, collection: Value, node: RubyNode) -> list[Value]:
     """Return all elements at once."""
     data = collection.data
     if isinstance(data, RubyRange):
-        run.budget.spend_items(len(data.numbers))
+        run.budget.spend(data.count)
     elif isinstance(data, RubyArray):
         run.budget.spend_items(len(data.items))
     elif isinstance(data, RubyHash):

@@ -17,9 +17,7 @@ def _own(call: Call) -> int | float:
 
 def _finite(call: Call) -> int | float:
     number = _own(call)
-    if not math.isfinite(number):
-        text = "NaN" if math.isnan(number) else "Infinity" if number > 0 else "-Infinity"
-        raise RubyError("FloatDomainError", text, call.span)
+    call.whole(number)
     return number
 
 
@@ -43,7 +41,7 @@ def _div(call: Call, other: Value) -> Value:
     number = call.number(other)
     if number == 0:
         raise RubyError("ZeroDivisionError", "divided by 0", call.span)
-    return call.value(int(_finite(call) // number), other)
+    return call.value(call.whole(_finite(call) // number), other)
 
 
 def _fdiv(call: Call, other: Value) -> Value:

@@ -20,6 +20,6 @@ RANGE: Methods = {
     "begin": lambda call: call.value(_range(call).first),
     "end": _last,
     "last": _last,
-    "size": lambda call: call.value(len(_range(call).numbers)),
+    "size": lambda call: call.value(_range(call).count),
     "cover?": lambda call, n: call.value(call.integer(n) in _range(call).numbers, n),
 }

@@ -101,7 +101,7 @@ def _times(call: Call, factor: Value) -> Value:
         raise call.refuse("with a negative number")
     content = _own(call)
     call.run.budget.spend_text(len(content.text) * count, len(content.pieces) * count)
-    return call.run.string(TracedString(content.pieces * count))
+    return call.run.string(TracedString(content.pieces * (count if content.pieces else 0)))
 
 
 def _occurrences(call: Call, wanted: str) -> Iterator[tuple[int, int]]:
@@ -200,8 +200,9 @@ def _pad(adjust: Callable[[str, int, str], str]) -> Callable[..., Value]:
         fill = call.text(filler) if filler else " "
         if len(fill) != 1:
             raise call.refuse("with a filler of several characters")
-        call.run.budget.spend_text(max(0, call.integer(width)))
-        text = adjust(_text(call), call.integer(width), fill)
+        length = max(0, call.integer(width))
+        call.run.budget.spend_text(length)
+        text = adjust(_text(call), length, fill)
         return call.run.computed(text, call.span, call.receiver)
 
     return method

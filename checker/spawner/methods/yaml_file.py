@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from checker.source.text import SourceText, Span
-from checker.spawner.limits import MAX_INTEGER_BITS
+from checker.spawner.limits import MAX_FILE_LENGTH, MAX_INTEGER_BITS, MAX_NUMBER_LENGTH
 from checker.spawner.methods.call import Call, Methods
 from checker.spawner.methods.file import resolve
 from checker.spawner.traced import Piece, TracedString
@@ -42,7 +42,9 @@ def _parse(call: Call, source: SourceText, span: Span | None = None) -> Value:
     import yaml
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    call.run.budget.spend(len(source.text) // 20)
+    if len(source.text) > MAX_FILE_LENGTH:
+        raise call.refuse(f"but {source.file} is longer than {MAX_FILE_LENGTH} characters")
+    call.run.budget.spend_parsing(len(source.text))
     try:
         _check(call, source, yaml.parse(source.text, Loader=loader))
         node = yaml.compose(source.text, Loader=loader)
@@ -84,8 +86,13 @@ def _value(
         result = RubyHash()
         for key_node, value_node in node.value:
             key = _value(call, key_node, source, span, maker)
-            result.entries[key_of(key)] = (key, _value(call, value_node, source, span, maker))
+            result.entries[key_of(key, call.run.budget)] = (
+                key,
+                _value(call, value_node, source, span, maker),
+            )
         return Value(result, call.run.influences)
+    if len(node.value) > MAX_NUMBER_LENGTH and not node.tag.endswith(":str"):
+        raise call.refuse(f"but {source.file} holds a number that is too long")
     data = maker.construct_object(node)
     if isinstance(data, str):
         here = span or Span(source, node.start_mark.index, node.end_mark.index)

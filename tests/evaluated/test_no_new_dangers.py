@@ -1,0 +1,114 @@
+"""Nothing in the checker evaluates, loads or opens a stranger's text but what is known here."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from tests.evaluated.dangers import dangers_in
+
+ROOT = Path(__file__).parents[2]
+FILES = sorted([*ROOT.glob("checker/**/*.py"), *ROOT.glob("rules/**/*.py")])
+
+CODE, MODULE = "code made of a text", "a module by its name"
+ATTRIBUTE, PATTERN = "an attribute by its name", "a pattern that is put together"
+TEMPLATE, FORMAT = "a template made of a text", "a format that is put together"
+XPATH, GLOB = "an XPath that is put together", "a pattern of file names"
+BYTES = "a module that makes objects of bytes"
+
+ALLOWED: Mapping[tuple[str, str], str] = {
+    ("checker/sandbox/landlock.py", BYTES): "system calls that put up a wall",
+    ("checker/sandbox/namespaces.py", BYTES): "system calls that put up a wall",
+    ("checker/sandbox/seccomp.py", BYTES): "system calls that put up a wall",
+    ("checker/sandbox/task.py", BYTES): "a system call that ends it with its parent",
+    ("checker/sandbox/task.py", MODULE): "named by the parent, before anything is read",
+    ("checker/discovery.py", MODULE): "the modules of installed packages of rules",
+    ("checker/doctor/importing.py", MODULE): "what our own distribution requires",
+    ("checker/jobs/checking_child.py", MODULE): "a list of our own modules",
+    ("checker/mesh/reader.py", MODULE): "one of two libraries, named there",
+    ("checker/commands.py", ATTRIBUTE): "options of the command line, named there",
+    ("checker/jobs/neutral.py", ATTRIBUTE): "fields of our own dataclass",
+    ("checker/migrate/texts.py", ATTRIBUTE): "fields of our own dataclass",
+    ("checker/record.py", ATTRIBUTE): "fields of our own dataclass",
+    ("checker/report/json_report.py", ATTRIBUTE): "fields that are named there",
+    ("checker/trial/simulate.py", ATTRIBUTE): "warnings of MuJoCo that are named there",
+    ("checker/web/logs.py", ATTRIBUTE): "a constant",
+    ("checker/xacro/processor.py", ATTRIBUTE): "functions of xacro and of math, named there",
+    ("checker/jobs/neutral.py", PATTERN): "a folder of ours, escaped",
+    ("checker/migrate/texts.py", PATTERN): "tags that are named there",
+    (
+        "checker/model/device_form.py",
+        PATTERN,
+    ): "a user's: no repetition, few choices",
+    ("checker/model/devices.py", PATTERN): "of our table of devices",
+    ("checker/model/plugin_library.py", PATTERN): "of our table of plugins",
+    ("checker/source/explanation.py", PATTERN): "a name, escaped",
+    ("checker/spawner/literals.py", PATTERN): "quotes of a literal, escaped",
+    ("rules/documentation/doc005_lines_moved.py", PATTERN): "words that are named there",
+    ("rules/ros/ros005_unusual_ros_name.py", PATTERN): "of our table of channels",
+    ("checker/display/drawing/studio.py", TEMPLATE): "no template: MuJoCo's XML of our studio",
+    ("checker/starting/command.py", TEMPLATE): "of our own folder `templates`",
+    ("checker/source/xml.py", XPATH): "every caller writes it out, which is tested as well",
+    ("checker/suppression/entries.py", GLOB): "a user's: 200 of 1000 characters, none goes back",
+    ("rules/package/pkg008_resource_not_installed.py", GLOB): "100 patterns of 100 characters",
+    ("rules/package/pkg011_junk_file.py", GLOB): "names of junk, named there",
+    ("rules/geometry/geo006_wheels_uneven.py", FORMAT): "one of two texts, named there",
+    ("rules/geometry/geo015_parts_inside_each_other.py", FORMAT): "an example of the rule",
+}
+"""By file and danger: why it is none there."""
+
+INNOCENT = (
+    "import yaml\nyaml.compose(text, Loader=yaml.CSafeLoader)",
+    "Image.open(file, formats=('PNG',))",
+    "etree.XMLParser(resolve_entities=False, no_network=True)",
+    "Environment(loader=loader, autoescape=True)",
+    "re.compile('a')",
+    "subprocess.run(['ls'])",
+)
+GUILTY = (
+    *("eval(text)", "exec(text)", "compile(text, '', 'exec')", "__import__(name)"),
+    *("import pickle", "from marshal import loads", "import shelve", "from ctypes import CDLL"),
+    *("os.system(text)", "os.popen(text)", "subprocess.run(text, shell=True)", "os.execv(a, b)"),
+    *("yaml.load(text)", "yaml.unsafe_load(text)", "yaml.compose(text)"),
+    *("Image.open(file)", "Image.open(file, formats=None)"),
+    *("jinja2.Template(text)", "environment.from_string(text)", "Environment(loader=loader)"),
+    *("importlib.import_module(name)", "getattr(thing, name)", "setattr(thing, name, 1)"),
+    *("etree.fromstring(text)", "etree.parse(file)", "ET.fromstring(text)", "minidom.parse(file)"),
+    "etree.XMLParser(no_network=True)",
+    "etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=True)",
+    *("document.find_all(f'link[{name}]')", "etree.XPath(name)", "tree.xpath('a' + name)"),
+    *("np.load(file)", "np.loadtxt(file)", "trimesh.load(file)", "archive.extractall(folder)"),
+    *("text.format(name)", "text.format_map(names)", "datetime.strptime(a, b)"),
+    *("re.search(text, name)", "fnmatch(name, text)", "tempfile.mktemp()"),
+)
+
+
+def _found(file: Path) -> set[tuple[str, str]]:
+    path = file.relative_to(ROOT).as_posix()
+    return {(path, danger) for danger, _ in dangers_in(file.read_text("utf-8"))}
+
+
+def test_every_danger_is_known_and_has_its_reason() -> None:
+    unknown = [
+        f"{file.relative_to(ROOT)}:{line}: {danger}"
+        for file in FILES
+        for danger, line in dangers_in(file.read_text("utf-8"))
+        if (file.relative_to(ROOT).as_posix(), danger) not in ALLOWED
+    ]
+    assert not unknown
+
+
+def test_what_is_allowed_is_still_there() -> None:
+    assert set().union(*map(_found, FILES)) == set(ALLOWED)
+
+
+@pytest.mark.parametrize("text", GUILTY)
+def test_a_danger_is_seen(text: str) -> None:
+    assert list(dangers_in(f"def function():\n    {text}"))
+
+
+@pytest.mark.parametrize("text", INNOCENT)
+def test_what_is_safe_is_let_be(text: str) -> None:
+    assert not list(dangers_in(text))
