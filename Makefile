@@ -67,7 +67,7 @@ golden: .venv/tested $(VIEWER)
 	@touch $@
 
 .venv/tested: .venv/installed
-	scripts/require ruby=ruby git=git chromium=chromium \
+	scripts/require ruby=ruby git=git chromium=chromium bwrap=bubblewrap \
 	  "libEGL.so.1=libegl1 libgl1-mesa-dri" libOpenGL.so.0=libopengl0
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-dev.txt
 	scripts/schemas $(BIN)/python

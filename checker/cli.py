@@ -194,7 +194,8 @@ def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "serve",
         help="start the web service with its workers",
         description="Start the web service with its workers. On another address than this "
-        "machine's own it wants SUBT_CHECK_TOKENS, separated by commas, or --public.",
+        "machine's own it wants SUBT_CHECK_TOKENS, separated by commas, or --public; with either, "
+        "walls around what others upload, of which `subt-check doctor` tells.",
     )
     serve.add_argument("--host", default="127.0.0.1", help="address (default: 127.0.0.1)")
     serve.add_argument(
@@ -204,6 +205,12 @@ def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--workers", type=_count, metavar="N", help="processes; 0: elsewhere (default: 2 or fewer)"
     )
     serve.add_argument("--public", action="store_true", help="let everybody upload")
+    serve.add_argument(
+        "--without-walls",
+        action="store_true",
+        help="take uploads of others where no wall hides files: a package that takes over its "
+        "reader then reads all that this user can",
+    )
     _add_data(serve)
     serve.add_argument(
         "--base-url", metavar="URL", default="", help="where people reach it, if not at its address"

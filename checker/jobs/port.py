@@ -8,6 +8,7 @@ from dataclasses import field
 from typing import Any, Protocol
 
 from checker.record import record
+from checker.sandbox.layers import Layer
 
 
 class Stage(enum.StrEnum):
@@ -103,11 +104,22 @@ class Alive:
         workers: Seconds since each worker's last sign of life, by its name.
         waiting: Checks that wait, by queue.
         running: Checks that run.
+        layers: Of the walls around what each worker checks; older versions do not say them.
     """
 
     workers: Mapping[str, float]
     waiting: Mapping[str, int]
     running: int
+    layers: Mapping[str, Sequence[Layer]] = field(default_factory=dict)
+
+    @property
+    def living(self) -> Mapping[str, Sequence[Layer]]:
+        """The workers that have not been silent for too long, with their layers."""
+        return {
+            name: self.layers.get(name, ())
+            for name, seconds in self.workers.items()
+            if seconds <= SILENCE_SECONDS
+        }
 
 
 class Jobs(Protocol):

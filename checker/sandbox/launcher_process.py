@@ -60,7 +60,7 @@ class LauncherProcess:
         signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
         layers = put_up(walls)
         _limit_processes(any(each.name == "account" and each.held for each in layers))
-        said = json.dumps([[each.name, each.held, each.words] for each in layers])
+        said = json.dumps([[each.name, each.held, each.words, each.hides] for each in layers])
         control.sendall(said.encode() + b"\n")
         for descriptor in (*self._controls, self._woken):
             self._poll.register(descriptor, select.POLLIN)

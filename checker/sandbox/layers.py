@@ -5,6 +5,7 @@ Each holds by itself, as far as it goes; docs/security.md tells what each keeps 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
@@ -24,11 +25,13 @@ class Layer:
         name: One of `ALL`.
         held: Whether it stands.
         words: How, or why not; the end of a sentence.
+        hides: Whether it keeps files of others out of reach.
     """
 
     name: str
     held: bool
     words: str
+    hides: bool = False
 
 
 @record()
@@ -58,9 +61,17 @@ def put_up(walls: Walls) -> list[Layer]:
 
 def _put_up(name: str, walls: Walls) -> Layer:
     try:
-        return Layer(name, True, _WAYS[name](walls))
+        words = _WAYS[name](walls)
     except NotHeld as error:
         return Layer(name, False, str(error.args[-1]))
+    # Without bubblewrap, namespaces hide the network alone.
+    hides = walls.wrapped if name == NAMESPACES else name in (ACCOUNT, LANDLOCK)
+    return Layer(name, True, words, hides)
+
+
+def hides_files(layers: Iterable[Layer]) -> bool:
+    """Say whether a process that was taken over would not reach the files of who started it."""
+    return any(each.held and each.hides for each in layers)
 
 
 def _namespaces(walls: Walls) -> str:

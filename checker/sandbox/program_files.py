@@ -41,4 +41,7 @@ def _candidates() -> Iterator[str]:
 
 def _private(path: str) -> bool:
     """Say whether a folder holds the home of the user, or is it: no place for libraries."""
-    return Path.home().is_relative_to(path)
+    try:
+        return Path.home().is_relative_to(path)
+    except RuntimeError:  # a user without a home, as in a container
+        return False

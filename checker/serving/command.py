@@ -8,7 +8,7 @@ import secrets
 import signal
 import socket
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +19,7 @@ from checker.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
 from checker.private import UMASK
 from checker.sandbox.launcher import module_path
 from checker.serving.child import CHILD
-from checker.serving.exposure import address_of, listening, warning_of
+from checker.serving.exposure import address_of, listening, risk_of, warning_of
 from checker.serving.supervisor import Pace, Process, keep_running, stop_all
 from checker.store.place import data_folder
 
@@ -39,12 +39,11 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
             for makes no sense.
     """
     _refuse_without_extra()
-    _data_made(options)
+    store = _data_made(options)
     _refuse_without_database()
     environment = _environment(options)
     with listening(options.host, options.port) as bound:
-        warning = warning_of(bound, environment)
-        if warning:
+        for warning in filter(None, _warnings(options, bound, environment, store)):
             _say(warning)
         stop, at_once = _signals()
         processes = _processes(options, bound, environment)
@@ -107,7 +106,23 @@ def _environment(options: argparse.Namespace) -> Mapping[str, str]:
     """Return the variables of the processes: those of here, and what the options say."""
     said = {"SUBT_CHECK_BASE_URL": options.base_url} if options.base_url else {}
     said |= {"SUBT_CHECK_PUBLIC": "1"} if options.public else {}
+    said |= {"SUBT_CHECK_WITHOUT_WALLS": "1"} if options.without_walls else {}
     return {**os.environ, "PYTHONPATH": module_path(), **said}
+
+
+def _warnings(
+    options: argparse.Namespace, bound: socket.socket, environment: Mapping[str, str], store: Store
+) -> Iterator[str]:
+    """Yield what to say aloud of who may upload, and of what that risks.
+
+    Raises:
+        CheckerError: It is more than somebody has allowed.
+    """
+    from checker.jobs.walls import layers_of_checks
+
+    yield warning_of(bound, environment)
+    if options.workers != 0:  # those elsewhere say by themselves which walls they have
+        yield risk_of(environment, lambda: layers_of_checks(store))
 
 
 def _data_made(options: argparse.Namespace) -> Store:

@@ -1,13 +1,17 @@
-"""Who can reach the service: the address that it listens at, and what that asks for."""
+"""Who can reach the service: the address that it listens at, and what that asks for.
+
+What others upload is read within walls (`checker.sandbox`), unless somebody takes the risk.
+"""
 
 from __future__ import annotations
 
 import socket
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from checker.errors import CheckerError
 from checker.loopback import is_loopback
 from checker.report.wording import plain, shortened
+from checker.sandbox.layers import SECCOMP, Layer, hides_files
 from checker.web.config import config_from
 
 
@@ -64,3 +68,37 @@ def warning_of(bound: socket.socket, environment: Mapping[str, str]) -> str:
             "tokens of those who may upload, or let everybody by --public"
         )
     return ""
+
+
+def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]]) -> str:
+    """Return what to say aloud where uploads of others are read without walls; else nothing.
+
+    Args:
+        environment: Says who may upload, and whether the risk is taken.
+        layers: Says which walls hold; asked only if it matters.
+
+    Raises:
+        CheckerError: No wall hides files, and nobody said that it goes without.
+    """
+    config = config_from(environment)
+    if config.only_here:
+        return ""
+    found = layers()
+    if hides_files(found):
+        return ""
+    if config.without_walls:
+        return f"no wall hides files: {_RISK} (--without-walls)"
+    raise CheckerError(
+        f"no wall hides files from what others upload ({_missing(found)}); install bubblewrap or "
+        "use a kernel with Landlock, of which `subt-check doctor` tells more, or take the risk by "
+        f"--without-walls: {_RISK}"
+    )
+
+
+_RISK = "a package that takes over its reader reads all that this user can, uploads of others too"
+
+
+def _missing(layers: Sequence[Layer]) -> str:
+    """Return why none of the walls that could hide files does."""
+    said = [f"{each.name}: {each.words}" for each in layers if each.name != SECCOMP]
+    return plain(shortened("; ".join(said) or "the process that keeps them ends at once", 300))

@@ -33,6 +33,7 @@ class Config:
         idle_seconds: That an upload may stand still.
         upload_seconds: That an upload may last.
         slowest: Bytes per second that an upload brings on average.
+        without_walls: Whether workers may check uploads of others without walls around them.
         base_url: Where people reach it, such as `https://check.example`; empty for what they asked.
     """
 
@@ -46,6 +47,7 @@ class Config:
     idle_seconds: float = 20.0
     upload_seconds: float = 900.0
     slowest: int = 10_000
+    without_walls: bool = False
     base_url: str = ""
 
     @property
@@ -70,11 +72,16 @@ def config_from(environment: Mapping[str, str] = os.environ) -> Config:
     return Config(
         tokens=_tokens(environment.get("SUBT_CHECK_TOKENS", "")),
         upload_limit=number("SUBT_CHECK_UPLOAD_LIMIT", plain.upload_limit, 1),
-        public=environment.get("SUBT_CHECK_PUBLIC", "").lower() in _YES,
+        public=_says_yes(environment, "SUBT_CHECK_PUBLIC"),
         retention_days=number("SUBT_CHECK_RETENTION_DAYS", plain.retention_days, 1, _CENTURY),
         uploads_per_minute=number("SUBT_CHECK_UPLOADS_PER_MINUTE", plain.uploads_per_minute),
+        without_walls=_says_yes(environment, "SUBT_CHECK_WITHOUT_WALLS"),
         base_url=_base_url(environment.get("SUBT_CHECK_BASE_URL", "")),
     )
+
+
+def _says_yes(environment: Mapping[str, str], name: str) -> bool:
+    return environment.get(name, "").lower() in _YES
 
 
 def _number(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
@@ -14,6 +14,7 @@ from starlette.responses import PlainTextResponse, Response
 from checker.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
 from checker.loopback import is_loopback
 from checker.record import record
+from checker.sandbox.layers import hides_files
 from checker.web.answers import Problem
 from checker.web.gate import bearer
 from checker.web.refusal import Refused, not_found
@@ -31,6 +32,17 @@ class Well(BaseModel):
     status: str = "ok"
 
 
+class Ready(Well):
+    """A check that is ordered now would be done.
+
+    Attributes:
+        walls: Names of those that hold around what each living worker checks; said only to this
+            machine and to those with a token.
+    """
+
+    walls: Mapping[str, Sequence[str]] | None = None
+
+
 def router(services: Services) -> APIRouter:
     """Return the routes for those who look after the service."""
     from fastapi import APIRouter
@@ -41,7 +53,13 @@ def router(services: Services) -> APIRouter:
         503: {"model": Problem, "description": "Not ready, and why."}
     }
     made.add_api_route("/healthz", health.lives, response_model=Well)
-    made.add_api_route("/readyz", health.ready, response_model=Well, responses=no)
+    made.add_api_route(
+        "/readyz",
+        health.ready,
+        response_model=Ready,
+        response_model_exclude_none=True,
+        responses=no,
+    )
     made.add_api_route("/metrics", health.figures, include_in_schema=False)
     return made
 
@@ -56,22 +74,20 @@ class Health:
         """Tell that the web process answers."""
         return Well()
 
-    def ready(self) -> Well:
-        """Tell whether a check that is ordered now would be done."""
-        reasons = " ".join(self._reasons())
+    def ready(self, request: Request) -> Ready:
+        """Tell whether a check that is ordered now would be done, within walls."""
+        alive = self._alive()
+        reasons = " ".join((*self._of_workers(alive), *self._of_disk()))
         if reasons:
             advice = "See the logs of the service and its workers."
             raise Refused(503, reasons, advice, "not ready", {"Retry-After": "10"})
-        return Well()
+        return Ready(walls=_walls(alive) if self._may_see(request) else None)
 
     async def figures(self, request: Request) -> Response:
         """Return the metrics, to this machine and to those with a token."""
         if not self._may_see(request):
             raise not_found()
-        try:
-            alive: Alive | None = await run_in_threadpool(self.services.jobs.alive)
-        except JobsUnreachable:
-            alive = None
+        alive = await run_in_threadpool(self._alive)
         return PlainTextResponse(self.services.metrics.text(alive), media_type=_TEXT_FORMAT)
 
     def _may_see(self, request: Request) -> bool:
@@ -82,15 +98,25 @@ class Health:
             return True
         return self.services.gate.knows(bearer(request))
 
-    def _reasons(self) -> Iterator[str]:
-        """Yield sentences about what is amiss."""
+    def _alive(self) -> Alive | None:
         try:
-            workers = self.services.jobs.alive().workers
+            return self.services.jobs.alive()
         except JobsUnreachable:
+            return None
+
+    def _of_workers(self, alive: Alive | None) -> Iterator[str]:
+        """Yield sentences about what is amiss with those who check."""
+        config = self.services.config
+        takes_risk = config.only_here or config.without_walls
+        if alive is None:
             yield "The database does not answer."
-        else:
-            if not any(seconds <= SILENCE_SECONDS for seconds in workers.values()):
-                yield f"No worker has given a sign of life for {SILENCE_SECONDS:g} s."
+        elif not alive.living:
+            yield f"No worker has given a sign of life for {SILENCE_SECONDS:g} s."
+        elif not (takes_risk or all(map(hides_files, alive.living.values()))):
+            yield "A worker has no wall that hides files from what it checks."
+
+    def _of_disk(self) -> Iterator[str]:
+        """Yield sentences about what is amiss with the data folder."""
         least = self.services.config.room
         try:
             free = shutil.disk_usage(self.services.store.folder).free
@@ -99,3 +125,10 @@ class Health:
         else:
             if free < least:
                 yield f"The disk has {free / 1e6:.0f} MB free, expected {least / 1e6:.0f} MB."
+
+
+def _walls(alive: Alive | None) -> Mapping[str, Sequence[str]]:
+    living = alive.living if alive else {}
+    return {
+        worker: [each.name for each in layers if each.held] for worker, layers in living.items()
+    }

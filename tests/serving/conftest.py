@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -94,10 +94,12 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
     """Start the service at a free port; it ends with the test."""
     started: list[Serving] = []
 
-    def start(*options: object, **environment: str) -> Serving:
+    def start(
+        *options: object, program: Sequence[str] = ("-m", "checker.cli"), **environment: str
+    ) -> Serving:
         folder = tmp_path / f"serving-{len(started)}"
         folder.mkdir()
-        command = [sys.executable, "-m", "checker.cli", "serve", "--port", "0"]
+        command = [sys.executable, *program, "serve", "--port", "0"]
         with (folder / "stdout").open("wb") as out, (folder / "stderr").open("wb") as err:
             process = subprocess.Popen(
                 [*command, *map(str, options)],

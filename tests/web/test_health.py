@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.jobs.port import Alive, JobsUnreachable, State
+from checker.sandbox.layers import Layer
 from checker.store.store import Store
 from checker.web.app import create_app
 from checker.web.config import Config
@@ -65,6 +66,45 @@ def test_it_is_not_ready_without_room_for_uploads(tmp_path: Path) -> None:
     answer = client_for(tmp_path, Engine(), upload_limit=10**18).get("/readyz")
     assert answer.status_code == 503
     assert "MB free" in answer.json()["error"]
+
+
+WALL, FILTER = Layer("landlock", True, "version 7", hides=True), Layer("seccomp", True, "")
+NETWORK, NO_ACCOUNT = Layer("namespaces", True, "no network"), Layer("account", False, "no root")
+WALLED, BARE = (WALL, NO_ACCOUNT, FILTER), (NETWORK, NO_ACCOUNT, FILTER)
+MIXED = Alive({"one": 3.0, "two": 3.0}, {}, 0, {"one": WALLED, "two": BARE})
+
+
+@pytest.mark.parametrize(
+    ("told", "allowed", "status"),
+    [
+        (MIXED, {"public": True}, 503),
+        (MIXED, {"tokens": ("s3cret",)}, 503),
+        (MIXED, {"public": True, "without_walls": True}, 200),
+        (MIXED, {}, 200),
+        (Alive({"one": 3.0, "two": 61.0}, {}, 0, MIXED.layers), {"public": True}, 200),
+        (Alive({"old": 3.0}, {}, 0), {"public": True}, 503),
+    ],
+)
+def test_it_is_not_ready_for_others_with_a_worker_without_walls(
+    tmp_path: Path, told: Alive, allowed: dict[str, object], status: int
+) -> None:
+    answer = client_for(tmp_path, Engine(told=told), **allowed).get("/readyz")
+    assert answer.status_code == status
+    assert ("no wall that hides files" in answer.text) == (status == 503)
+
+
+def test_walls_are_named_to_this_machine_and_to_tokens(tmp_path: Path) -> None:
+    config = Config(tokens=("s3cret",), without_walls=True, upload_limit=1_000)
+    app = create_app(Engine(told=MIXED), Store(tmp_path), config)
+    here = TestClient(app, base_url="http://localhost", client=("127.0.0.1", 5_000))
+    there = TestClient(app, base_url="http://localhost", client=("192.0.2.1", 5_000))
+    walls = {"one": ["landlock", "seccomp"], "two": ["namespaces", "seccomp"]}
+    told = {"status": "ok", "walls": walls}
+    assert here.get("/readyz").json() == told
+    assert here.get("/readyz", headers={"X-Forwarded-For": "::1"}).json() == {"status": "ok"}
+    assert there.get("/readyz").json() == {"status": "ok"}
+    token = {"Authorization": "Bearer s3cret"}
+    assert there.get("/readyz", headers=token).json() == told
 
 
 def test_metrics_count_requests_by_route(tmp_path: Path) -> None:

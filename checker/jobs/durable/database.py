@@ -10,7 +10,7 @@ from typing import Any
 
 import sqlalchemy as sa
 
-from checker.jobs.durable.tables import METADATA
+from checker.jobs.durable.tables import make_tables
 from checker.jobs.durable.upgrade import hash_clear_ids
 from checker.jobs.port import JobsUnreachable
 from checker.private import tighten
@@ -104,7 +104,7 @@ def prepare(engine: sa.Engine) -> None:
                 connection.exec_driver_sql("BEGIN IMMEDIATE")
             else:
                 connection.execute(sa.select(sa.func.pg_advisory_xact_lock(_MIGRATION_LOCK)))
-            METADATA.create_all(connection)
+            make_tables(connection)
         hash_clear_ids(engine)
 
 

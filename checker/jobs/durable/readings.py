@@ -10,6 +10,7 @@ import sqlalchemy as sa
 from checker.jobs.durable.database import now
 from checker.jobs.durable.tables import CHECKS, EVENTS, WORKERS
 from checker.jobs.port import Alive, Event, Order, Stage, State
+from checker.sandbox.layers import Layer
 
 EVENTS_AT_ONCE = 100
 _BEFORE_TRIAL = (Stage.QUEUED.value, Stage.STATIC.value)
@@ -44,7 +45,8 @@ def events_of(connection: sa.Connection, id: str, after: int) -> Sequence[Event]
 
 def alive(engine: sa.Engine, connection: sa.Connection) -> Alive:
     """Return who works and how much there is to do."""
-    beats = connection.execute(sa.select(WORKERS.c.name, now(engine) - WORKERS.c.beat))
+    silence = (now(engine) - WORKERS.c.beat).label("silence")
+    workers = connection.execute(sa.select(WORKERS.c.name, silence, WORKERS.c.layers)).all()
     final = [stage.value for stage in Stage if stage.is_final]
     in_hand = CHECKS.c.worker != ""
     open_checks = connection.execute(
@@ -56,9 +58,10 @@ def alive(engine: sa.Engine, connection: sa.Connection) -> Alive:
     for stage, taken, number in open_checks:
         waiting["static" if stage in _BEFORE_TRIAL else "trial"] += 0 if taken else number
     return Alive(
-        workers={name: max(0.0, seconds) for name, seconds in beats},
+        workers={each.name: max(0.0, each.silence) for each in workers},
         waiting=waiting,
         running=sum(number for _, taken, number in open_checks if taken),
+        layers={each.name: [Layer(**said) for said in each.layers or ()] for each in workers},
     )
 
 

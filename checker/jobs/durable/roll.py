@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import asdict
+
 import sqlalchemy as sa
 
 from checker.jobs.durable.database import now
 from checker.jobs.durable.tables import WORKERS
 from checker.record import record
+from checker.sandbox.layers import Layer
 
 
 @record()
 class Roll:
-    """The roll of workers."""
+    """The roll of workers.
+
+    Attributes:
+        engine: Of the database.
+        layers: Of the walls around what is checked here, for who shows a sign of life.
+    """
 
     engine: sa.Engine
+    layers: Sequence[Layer] = ()
 
     def beat(self, worker: str) -> None:
         """Show a sign of life."""
-        alive = {"beat": now(self.engine)}
+        alive = {"beat": now(self.engine), "layers": [asdict(each) for each in self.layers]}
         with self.engine.begin() as connection:
             mine = sa.update(WORKERS).where(WORKERS.c.name == worker).values(alive)
             if connection.execute(mine).rowcount == 0:

@@ -46,5 +46,15 @@ WORKERS = sa.Table(
     METADATA,
     sa.Column("name", sa.String(128), primary_key=True),
     sa.Column("beat", sa.Double, nullable=False),
+    sa.Column("layers", sa.JSON),
 )
-"""The last sign of life of each worker, by the clock of the database."""
+"""The last sign of life of each worker, by the clock of the database, and the layers of its walls;
+version 0.1.0 knows none."""
+
+
+def make_tables(connection: sa.Connection) -> None:
+    """Make what is missing: tables, and the column that those of version 0.1.0 lack."""
+    METADATA.create_all(connection)
+    known = {column["name"] for column in sa.inspect(connection).get_columns(WORKERS.name)}
+    if WORKERS.c.layers.name not in known:
+        connection.exec_driver_sql("ALTER TABLE subt_workers ADD COLUMN layers JSON")

@@ -8,7 +8,7 @@ import secrets
 import signal
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import field
 
@@ -23,8 +23,10 @@ from checker.jobs.durable.roll import Roll
 from checker.jobs.durable.stages import Stages
 from checker.jobs.durable.watchdog import Watchdog
 from checker.jobs.port import SILENCE_SECONDS, JobsUnreachable
+from checker.jobs.walls import layers_of_checks
 from checker.recall import program_parts
 from checker.record import record
+from checker.sandbox.layers import Layer, hides_files
 from checker.store.store import Store
 
 _LOG = logging.getLogger(__name__)
@@ -77,7 +79,9 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     """
     engine = open_database(options.database_url)
     prepare(engine)
-    queues, roll = queues_of(engine), Roll(engine)
+    layers = layers_of_checks(options.store)
+    _tell_of(layers)
+    queues, roll = queues_of(engine), Roll(engine, layers)
     children = Children(options.store, options.ahead)
     stages = Stages(Ledger(engine), queues, options.store, options.name, children)
     watchdog = Watchdog(roll, options.name, options.silence_seconds)
@@ -100,6 +104,13 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     landed.set()
     with suppress(JobsUnreachable), reachable():
         roll.strike(options.name)
+
+
+def _tell_of(layers: Sequence[Layer]) -> None:
+    said = ", ".join(f"{each.name} ({each.words})" for each in layers if each.held)
+    _LOG.info("walls around what is checked: %s", said or "none")
+    if not hides_files(layers):
+        _LOG.warning("no wall hides files: what takes over a check reads all that this user can")
 
 
 def work(options: WorkerOptions) -> None:
