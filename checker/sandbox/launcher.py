@@ -25,7 +25,7 @@ from checker.sandbox import layers, namespaces
 from checker.sandbox.account import free_account
 from checker.sandbox.layers import Layer, Walls
 from checker.sandbox.program_files import program_paths
-from checker.sandbox.task import DEBUG, INNER
+from checker.sandbox.task import DEBUG
 
 _HELLO_LIMIT = 10_000
 _ENDS_SECONDS = 10.0
@@ -177,9 +177,20 @@ def launcher() -> Launcher:
     """Return what starts processes for this one; without any, it is started now."""
     with _LOCK:
         found = _launchers(os.getpid())
-        if isinstance(found[0], OwnLauncher) and not found[0].alive:
-            found[0] = OwnLauncher()
+        if found and isinstance(found[0], OwnLauncher) and not found[0].alive:
+            found.clear()
+        if not found:
+            found.append(OwnLauncher())
         return found[0]
+
+
+def inherit(descriptor: int) -> None:
+    """Have the processes of this one started by the launcher that started it.
+
+    Args:
+        descriptor: Of a socket to it.
+    """
+    _launchers(os.getpid()).append(Launcher(socket.socket(fileno=descriptor)))
 
 
 _LOCK = threading.Lock()
@@ -187,11 +198,8 @@ _LOCK = threading.Lock()
 
 @once
 def _launchers(_: int) -> list[Launcher]:
-    """Return the launcher of this process, in a list; a fork of it gets one of its own."""
-    inherited = os.environ.get(INNER)
-    if inherited:
-        return [Launcher(socket.socket(fileno=int(inherited)))]
-    return [OwnLauncher()]
+    """Return a list of the launcher of this process, empty at first; a fork has one of its own."""
+    return []
 
 
 def _command(walls: Walls, niceness: int, control: int, work: str) -> list[str]:

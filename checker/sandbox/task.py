@@ -20,8 +20,6 @@ Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
 """What comes back; files are made one by one, while they are written."""
 OUT_OF_MEMORY, FAILED = 71, 70
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
-INNER = "SUBT_CHECK_LAUNCHER"
-"""Name of the variable with the descriptor by which a process within the walls asks for others."""
 _PR_SET_PDEATHSIG = 1
 _REQUEST_LIMIT = 500_000_000
 FAULT_LIMIT = 4_000
@@ -49,7 +47,9 @@ def run(order: dict[str, Any], walls: Walls, descriptors: tuple[int, int, int, i
         _speak_to_nobody(leash)
         os.chdir(walls.work if order["works"] and walls.work else "/")
         if inner >= 0:
-            os.environ[INNER] = str(inner)
+            from checker.sandbox.launcher import inherit
+
+            inherit(inner)
         hold_to(order["seconds"], order["memory"])
         narrow(walls, works=order["works"], draws=order["draws"])
         module = import_module(order["module"])

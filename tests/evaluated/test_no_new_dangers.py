@@ -14,6 +14,7 @@ FILES = sorted([*ROOT.glob("checker/**/*.py"), *ROOT.glob("rules/**/*.py")])
 
 CODE, MODULE = "code made of a text", "a module by its name"
 ATTRIBUTE, PATTERN = "an attribute by its name", "a pattern that is put together"
+YAML = "YAML that makes objects"
 TEMPLATE, FORMAT = "a template made of a text", "a format that is put together"
 XPATH, GLOB = "an XPath that is put together", "a pattern of file names"
 BYTES = "a module that makes objects of bytes"
@@ -35,7 +36,15 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/report/json_report.py", ATTRIBUTE): "fields that are named there",
     ("checker/trial/simulate.py", ATTRIBUTE): "warnings of MuJoCo that are named there",
     ("checker/web/logs.py", ATTRIBUTE): "a constant",
-    ("checker/xacro/processor.py", ATTRIBUTE): "functions of xacro and of math, named there",
+    ("checker/xacro/processor.py", ATTRIBUTE): "functions of xacro, named there",
+    ("checker/xacro/expression/mathematics.py", ATTRIBUTE): "functions of math, named there",
+    ("checker/xacro/expression/methods.py", ATTRIBUTE): "methods of plain data, named there",
+    ("checker/xacro/expression/nodes.py", ATTRIBUTE): "keys of YAML, as xacro looks them up",
+    ("checker/xacro/expression/parsing.py", ATTRIBUTE): "fields of a syntax tree, named there",
+    ("checker/xacro/expression/texts.py", ATTRIBUTE): "methods of text, named there",
+    ("checker/xacro/symbols.py", PATTERN): "xacro's own, of characters that cannot break out of it",
+    ("checker/xacro/expression/formatting.py", FORMAT): "without look-ups, of plain data alone",
+    ("checker/xacro/yaml_values.py", YAML): "a subclass of the safe loader, bounded",
     ("checker/jobs/neutral.py", PATTERN): "a folder of ours, escaped",
     ("checker/migrate/texts.py", PATTERN): "tags that are named there",
     (

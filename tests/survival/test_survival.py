@@ -153,4 +153,5 @@ def test_a_service_that_is_stopped_goes_on_where_it_was(serve: Serve, tmp_path: 
     assert told["stage"] == "done"
     assert str(told["words"]).startswith("Not ready")
     assert_told_once(serving.url, id)
+    assert serving.stop() == 0
     assert list((tmp_path / "data" / "incoming").iterdir()) == []
