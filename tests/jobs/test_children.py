@@ -178,7 +178,7 @@ def test_one_that_waits_ends_with_the_service(store: Store, children: Children) 
     wait_for(WAITING)
     children.close()
     assert eventually(lambda: not tasks())
-    assert not launchers()
+    assert eventually(lambda: not launchers())
     assert not list((store.folder / "incoming").iterdir())
 
 

@@ -6,15 +6,15 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import suppress
 from pathlib import Path
-from time import monotonic, sleep
 
 import pytest
 
 from checker.jobs.port import Order, Stage
 from checker.sandbox.task import end_with_parent
+from tests.jobs.launched import is_alive, tasks
 from tests.jobs.site import ROOT, Site, site_in
+from tests.web.server import eventually
 
 WORKER = """
 import sys
@@ -52,32 +52,6 @@ def ordered(site: Site, samples: Path, tmp_path: Path) -> Order:
         return Order(incoming.finish(), f"{MODEL}.zip")
 
 
-def children_of(process: subprocess.Popen[bytes]) -> list[int]:
-    """Return the ids of the processes that a process has started, as Linux lists them."""
-    tasks = Path(f"/proc/{process.pid}/task").iterdir()
-    return [int(id) for task in tasks for id in (task / "children").read_text().split()]
-
-
-def runs(id: int) -> bool:
-    with suppress(OSError):
-        return Path(f"/proc/{id}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    return False
-
-
-def works_in(site: Site, id: int) -> bool:
-    with suppress(OSError):
-        return Path(f"/proc/{id}/cwd").readlink().is_relative_to(site.store.folder)
-    return False
-
-
-def within_a_minute(what: object) -> Iterator[None]:
-    deadline = monotonic() + 60
-    while monotonic() < deadline:
-        yield
-        sleep(0.05)
-    pytest.fail(f"waited in vain for {what}")
-
-
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="the system has no /proc")
 def test_a_sample_is_checked_though_its_worker_is_killed(
     site: Site, samples: Path, tmp_path: Path
@@ -85,15 +59,13 @@ def test_a_sample_is_checked_though_its_worker_is_killed(
     order = ordered(site, samples, tmp_path)
     first = worker(site)
     id = site.jobs.submit(order)
-    for _ in within_a_minute("a child that checks"):
-        if children := [each for each in children_of(first) if works_in(site, each)]:
-            break
+    site.until(id, lambda state: state.stage is Stage.STATIC)
+    children = tasks(first.pid)
+    assert children
     first.kill()
     first.wait()
-    for _ in within_a_minute("the end of that child"):
-        if not any(map(runs, children)):
-            break
-    worker(site)
+    assert eventually(lambda: not any(map(is_alive, children)))
+    second = worker(site)
     read = site.until(id, lambda state: state.result != "")
     errors = read.packages[0]["errors"]
     assert (read.packages[0]["verdict"], errors > 0) == ("not_ready", True)
@@ -106,4 +78,6 @@ def test_a_sample_is_checked_though_its_worker_is_killed(
     file = site.store.file(done.result, "report.json")
     assert file is not None
     assert json.loads(file.read_bytes())["packages"][0]["verdict"] == "not_ready"
+    second.terminate()
+    second.wait()
     assert list((site.store.folder / "incoming").iterdir()) == []
