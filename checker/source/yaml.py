@@ -31,7 +31,7 @@ from checker.source.text import SourceText, Span
 MAX_LENGTH = 1_000_000
 MAX_NODES = 100_000
 MAX_DEPTH = 100
-MAX_NUMBER_LENGTH = 200
+MAX_NUMBER_LENGTH = 500
 """Characters of a number: to read one takes the square of its length, and these have a float."""
 
 Plain = str | int | float | bool | None
