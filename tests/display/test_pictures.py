@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from checker.display.scene import DisplayScene, Item, Layer, LinkNode, Tracks
 from checker.display.surface import Surface
 from checker.model.transform import Transform
 from checker.report.report import Picture
+from checker.sandbox.launcher import OwnLauncher
 from tests.mesh.files import box
 
 RED = (0.9, 0.1, 0.1, 1.0)
@@ -149,7 +151,10 @@ def test_without_opengl_there_are_no_pictures(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere")
     monkeypatch.setenv("LIBGL_DRIVERS_PATH", "/nowhere")
     monkeypatch.setattr("checker.display.pictures.PLATFORMS", ("egl",))
-    assert pictures_of(scene(surface())) == ()
+    # One that started before knows the variables of before.
+    with closing(OwnLauncher()) as launcher:
+        monkeypatch.setattr("checker.confined.launcher", lambda: launcher)
+        assert pictures_of(scene(surface())) == ()
 
 
 def test_a_drawing_may_begin_before_it_is_known_what_to_draw() -> None:
