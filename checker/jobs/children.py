@@ -13,7 +13,6 @@ from time import monotonic
 from checker.confined import Child, Limits
 from checker.jobs.limits import NICENESS, StageLimits
 from checker.record import record
-from checker.sandbox.account import account_for
 from checker.sandbox.files import Content, Files
 from checker.sandbox.launcher import OwnLauncher
 from checker.store.store import Store
@@ -52,8 +51,7 @@ class _Place:
         self._held = ExitStack()
         with ExitStack() as held:
             folder = held.enter_context(store.workplace())
-            account = account_for(folder)
-            starter = OwnLauncher(folder, account=account, niceness=NICENESS)
+            starter = OwnLauncher(folder, niceness=NICENESS)
             held.enter_context(closing(starter))
             self._starter = starter
             self.child = Child(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import closing
 
-from checker.sandbox.account import account_for
 from checker.sandbox.launcher import OwnLauncher
 from checker.sandbox.layers import Layer
 from checker.store.store import Store
@@ -19,6 +18,6 @@ def layers_of_checks(store: Store) -> Sequence[Layer]:
     """
     with (
         store.workplace() as folder,
-        closing(OwnLauncher(folder, account=account_for(folder))) as starter,
+        closing(OwnLauncher(folder)) as starter,
     ):
         return starter.layers

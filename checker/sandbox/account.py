@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import secrets
 import stat
+import struct
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -21,27 +23,47 @@ def free_account() -> int:
     return _FIRST + secrets.randbelow(_LAST - _FIRST + 1)
 
 
-def become(account: int, needed: Iterable[str]) -> None:
-    """Become another user, for good.
+def become(account: int, needed: Iterable[str], folder: str = "") -> None:
+    """Become another user, for good; all rights of root go, whether or not this can be done.
 
     Args:
         account: Its id, which is also that of its group.
         needed: Files and folders that it has to reach.
+        folder: One that is to belong to it; empty for none.
 
     Raises:
         NotHeld: This process is not root's, or the user could not reach what it needs.
     """
     if os.getuid() != 0 or not account:
         raise NotHeld("it is not started by root")
-    for path in needed:
-        if blocked := _blocked(Path(path)):
-            raise NotHeld(f"{blocked} is closed to other users")
     try:
+        around = (str(Path(folder).parent),) if folder else ()
+        for path in (*needed, *around):
+            if blocked := _blocked(Path(path)):
+                raise NotHeld(f"{blocked} is closed to other users")
+        if folder:
+            os.chown(folder, account, account)
         os.setgroups([])
         os.setresgid(account, account, account)
         os.setresuid(account, account, account)
+    except NotHeld:
+        raise
     except OSError as error:
         raise NotHeld(f"the system lets it become no other user ({error.strerror})") from None
+    finally:
+        _give_up_rights()
+
+
+def _give_up_rights() -> None:
+    """Give up what root may do and others may not (capabilities(7))."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    if hasattr(libc, "capset"):
+        header = struct.pack("=Ii", _CAPABILITIES, 0)
+        libc.capset(ctypes.c_char_p(header), ctypes.c_char_p(bytes(24)))
+
+
+_CAPABILITIES = 0x20080522
+"""_LINUX_CAPABILITY_VERSION_3."""
 
 
 def _blocked(path: Path) -> str:
@@ -55,16 +77,3 @@ def _blocked(path: Path) -> str:
         if stat.S_ISDIR(found.st_mode) and found.st_mode & wanted != wanted:
             return str(place)
     return ""
-
-
-def account_for(folder: Path) -> int:
-    """Return a user id to whom a folder belongs from now on; 0 where there is none to be had."""
-    account = free_account()
-    try:
-        if account:
-            # Root's group stays, for a process that does not become that user: it has no rights.
-            folder.chmod(0o770)
-            os.chown(folder, account, -1)
-    except OSError:  # root without its rights, in a container
-        return 0
-    return account

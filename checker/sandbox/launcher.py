@@ -114,22 +114,21 @@ class OwnLauncher(Launcher):
         self,
         work: Path | None = None,
         names: Sequence[str] = layers.ALL,
-        account: int | None = None,
         niceness: int = 0,
     ) -> None:
         """Start the process; it puts its walls up while the caller goes on.
 
         Args:
-            work: Folder that a process may write in; it belongs to the account.
+            work: Folder that a process may write in; where this process is root's, it becomes that
+                of the account that its processes get.
             names: Walls to put up, of `layers.ALL`; others than all are for tests of each alone.
-            account: User id to take where this process is root's; any free one when None.
             niceness: By how much its processes stand back behind others, as `nice` counts it.
         """
         wrapped = layers.NAMESPACES in names and not namespaces.bubblewrap()
         walls = Walls(
             tuple(names),
             wrapped,
-            free_account() if account is None else account,
+            free_account(),
             "" if work is None else namespaces.WORK if wrapped else str(work),
         )
         ours, theirs = socket.socketpair()

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import suppress
-from pathlib import Path
 
 from checker.record import record
 from checker.sandbox import account, landlock, namespaces, program_files, seccomp
@@ -82,9 +81,7 @@ def _namespaces(walls: Walls) -> str:
 
 
 def _account(walls: Walls) -> str:
-    # The folder itself is the account's own.
-    around = (str(Path(walls.work).parent),) if walls.work else ()
-    account.become(walls.account, (*program_files.program_paths(), *around))
+    account.become(walls.account, program_files.program_paths(), walls.work)
     return f"user {walls.account}"
 
 

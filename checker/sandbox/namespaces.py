@@ -54,7 +54,8 @@ _OWN = (
 def _rights() -> tuple[str, ...]:
     if os.getuid() == 0:
         # It becomes another user itself, after Python has started.
-        return ("--cap-drop", "ALL", "--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID")
+        added = ("CAP_SETUID", "CAP_SETGID", "CAP_CHOWN")
+        return ("--cap-drop", "ALL", *(word for name in added for word in ("--cap-add", name)))
     return ("--unshare-user", "--cap-drop", "ALL")
 
 
