@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import struct
 import zipfile
 import zlib
@@ -62,33 +63,41 @@ def unpack_archive(
             _write(target / member.path, member, content)
 
 
-def check_archive(archive: Path, name: str = "", limits: ArchiveLimits | None = None) -> None:
+def check_archive(
+    archive: Path,
+    name: str = "",
+    limits: ArchiveLimits | None = None,
+    descriptor: int | None = None,
+) -> None:
     """Read the index of an archive as `unpack_archive` does, and write nothing.
 
     Args:
         archive: The file.
         name: As for `unpack_archive`.
         limits: What the archive may hold.
+        descriptor: Of the file, for who cannot open it; it stays open.
 
     Raises:
         RefusedArchive: An entry could do harm, or there is more than a package holds.
         UnreadableInput: The archive is truncated, damaged or empty, as far as its index tells.
     """
-    with _checked_index(archive, name, limits):
+    with _checked_index(archive, name, limits, descriptor):
         pass
 
 
 @contextmanager
 def _checked_index(
-    archive: Path, name: str, limits: ArchiveLimits | None
+    archive: Path, name: str, limits: ArchiveLimits | None, descriptor: int | None = None
 ) -> Iterator[tuple[ArchiveIndex, _Contents]]:
     """Read the index; damage that shows then, or while the contents are read, is reported."""
     is_zip = (name or archive.name).lower().endswith(".zip")
     read_index = read_zip_index if is_zip else read_tar_index
     contents: _Contents = zip_contents if is_zip else tar_contents
     with _damage_reported(archive, "zip" if is_zip else "tar.gz"):
-        index = ArchiveIndex(archive, archive.stat().st_size, limits or ArchiveLimits())
-        read_index(archive, index)
+        source = archive if descriptor is None else descriptor
+        size = os.stat(source).st_size  # noqa: PTH116 - or a descriptor
+        index = ArchiveIndex(archive, size, limits or ArchiveLimits())
+        read_index(source, index)
         if all(member.is_folder for member in index.members):
             raise UnreadableInput(archive, "holds no files", "pack the package folder itself")
         yield index, contents

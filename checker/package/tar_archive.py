@@ -171,9 +171,9 @@ def _pax_records(data: bytes) -> dict[str, bytes]:
     return records
 
 
-def read_tar_index(path: Path, index: ArchiveIndex) -> None:
+def read_tar_index(path: Path | int, index: ArchiveIndex) -> None:
     """Pass every entry of a gzipped tar archive to the index, which may refuse it."""
-    with path.open("rb") as file:
+    with open(path, "rb", closefd=isinstance(path, Path)) as file:
         for entry in _entries(file, index):
             if entry.kind in _REFUSED:
                 raise index.refusal(entry.name, _REFUSED[entry.kind])

@@ -29,9 +29,10 @@ class _SmallReads(io.FileIO):
         return super().read(size) or b""
 
 
-def read_zip_index(path: Path, index: ArchiveIndex) -> None:
+def read_zip_index(path: Path | int, index: ArchiveIndex) -> None:
     """Pass every entry of a zip archive to the index, which may refuse it."""
-    with _SmallReads(path) as file, zipfile.ZipFile(file) as archive:
+    own = isinstance(path, Path)
+    with _SmallReads(path, closefd=own) as file, zipfile.ZipFile(file) as archive:
         for info in archive.infolist():
             _check(info, index)
             index.add(info.orig_filename, info.file_size, is_folder=_is_folder(info))

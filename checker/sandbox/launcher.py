@@ -44,6 +44,7 @@ class Order:
         memory: Bytes of address space.
         works: Whether it writes into the working folder, and asks for processes itself.
         draws: Whether it may use graphics cards.
+        serves: Whether its request is a socket, by which it answers many (`serve` of its module).
     """
 
     module: str
@@ -51,6 +52,7 @@ class Order:
     memory: int
     works: bool = False
     draws: bool = False
+    serves: bool = False
 
 
 @record()

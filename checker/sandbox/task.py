@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 from collections.abc import Iterable
 from contextlib import suppress
 from importlib import import_module
@@ -36,7 +37,8 @@ def run(order: dict[str, Any], walls: Walls, descriptors: tuple[int, int, int, i
 
     Args:
         order: `module`, `seconds` of processor time, `memory` in bytes, `works` (whether it writes
-            into the working folder and asks for processes) and `draws`.
+            into the working folder and asks for processes), `draws` and `serves` (whether its
+            request is a socket, by which it answers many).
         walls: Those around this process.
         descriptors: The leash, on which a byte comes when the request is there; the files of
             request and answer; the socket by which to ask for processes, or -1.
@@ -55,7 +57,9 @@ def run(order: dict[str, Any], walls: Walls, descriptors: tuple[int, int, int, i
         module = import_module(order["module"])
         if hasattr(module, "prepare"):
             module.prepare()
-        if os.read(LEASH, 1):
+        if order["serves"]:
+            module.serve(socket.socket(fileno=request))
+        elif os.read(LEASH, 1):
             said, files = read(request, _REQUEST_LIMIT)
             with os.fdopen(os.dup(answer), "wb") as file:
                 _write(file, module.answer(said, files))

@@ -17,6 +17,7 @@ from checker.recall import program_parts
 from checker.record import record
 from checker.store.place import data_folder
 from checker.store.store import Store
+from checker.web.clerk.indexes import Indexes
 from checker.web.clerk.port import Slip, accepted, looked_at
 from checker.web.clerk.wire import answer_line, slip_from_line
 from checker.web.config import Config, config_from
@@ -36,12 +37,13 @@ class _Desk:
     store: Store
     config: Config
     turn: Lock = field(default_factory=Lock)
+    indexes: Indexes = field(default_factory=Indexes)
 
     def take(self, slip: Slip) -> str:
         # Threads that all want the interpreter spend as much time again on passing it around.
         has_turn = self.turn.acquire(timeout=_PATIENCE)
         try:
-            order = looked_at(slip)
+            order = looked_at(slip, self.indexes)
         finally:
             if has_turn:
                 self.turn.release()
@@ -64,6 +66,8 @@ def work(descriptor: int) -> None:
     """
     desk = _Desk(Store(data_folder()), config_from())
     log_to_stderr()
+    with suppress(OSError):
+        desk.indexes.start()
     with suppress(JobsUnreachable):
         desk.jobs.alive()
     # Each result is that of a program; to look through all of this one takes as long as 20 uploads.

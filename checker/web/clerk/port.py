@@ -7,11 +7,12 @@ from typing import Protocol
 
 from checker.errors import UnreadableInput
 from checker.jobs.port import Jobs, Order
-from checker.package.archive import ARCHIVE_SUFFIXES, check_archive
+from checker.package.archive import ARCHIVE_SUFFIXES
 from checker.record import record
 from checker.report.wording import plain
 from checker.store.incoming import content_hash
 from checker.store.store import Store
+from checker.web.clerk.indexes import Indexes
 from checker.web.refusal import Refused, sentence
 
 
@@ -44,10 +45,10 @@ class Clerk(Protocol):
         ...
 
 
-def looked_at(slip: Slip) -> Order:
+def looked_at(slip: Slip, indexes: Indexes) -> Order:
     """Look at an upload, and return what is to be ordered; raises as `Clerk.take` does."""
     if slip.name.lower().endswith(ARCHIVE_SUFFIXES):
-        _check_index(slip)
+        _check_index(slip, indexes)
     return Order(content_hash(Path(slip.path)), slip.name, slip.profile)
 
 
@@ -57,9 +58,9 @@ def accepted(slip: Slip, order: Order, store: Store, jobs: Jobs) -> str:
     return jobs.submit(order)
 
 
-def _check_index(slip: Slip) -> None:
+def _check_index(slip: Slip, indexes: Indexes) -> None:
     try:
-        check_archive(Path(slip.path), slip.name)
+        indexes.check(Path(slip.path), slip.name)
     except UnreadableInput as error:
         reason = plain(f"{slip.name} {error.reason}.")
         raise Refused(422, reason, sentence(error.advice), "archive") from None

@@ -9,6 +9,7 @@ from anyio import CapacityLimiter, to_thread
 from checker.jobs.port import Jobs
 from checker.record import record
 from checker.store.store import Store
+from checker.web.clerk.indexes import Indexes
 from checker.web.clerk.port import Slip, accepted, looked_at
 
 _AT_ONCE = 2
@@ -22,15 +23,17 @@ class ThreadClerk:
         store: Keeps uploads.
         jobs: Take orders.
         limiter: Lets few work at once.
+        indexes: Reads those of archives.
     """
 
     store: Store
     jobs: Jobs
     limiter: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
+    indexes: Indexes = field(default_factory=Indexes)
 
     async def take(self, slip: Slip) -> str:
         """See `Clerk.take`."""
         return await to_thread.run_sync(self._taken, slip, limiter=self.limiter)
 
     def _taken(self, slip: Slip) -> str:
-        return accepted(slip, looked_at(slip), self.store, self.jobs)
+        return accepted(slip, looked_at(slip, self.indexes), self.store, self.jobs)

@@ -1,0 +1,79 @@
+"""Indexes of archives are read by processes that may die, or be taken over."""
+
+from __future__ import annotations
+
+import os
+import signal
+import zipfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from checker.errors import UnreadableInput
+from checker.web.clerk import indexes
+from checker.web.clerk.indexes import Indexes
+from tests.jobs.launched import is_alive, tasks
+from tests.web.server import eventually
+
+needs_proc = pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="the system has no /proc")
+
+
+def archive(folder: Path, *names: str) -> Path:
+    with zipfile.ZipFile(folder / "made.zip", "w") as made:
+        for name in names:
+            made.writestr(name, "<x/>")
+    return folder / "made.zip"
+
+
+def test_what_an_index_holds(tmp_path: Path) -> None:
+    looked = Indexes()
+    looked.check(archive(tmp_path, "p/package.xml"), "a.zip")
+    with pytest.raises(UnreadableInput, match="leads out of the archive"):
+        looked.check(archive(tmp_path, "../p/package.xml"), "a.zip")
+    (tmp_path / "no.tar.gz").write_bytes(b"no archive")
+    with pytest.raises(UnreadableInput, match=r"no tar\.gz archive"):
+        looked.check(tmp_path / "no.tar.gz", "no.tar.gz")
+    with pytest.raises(UnreadableInput, match="cannot be read"):
+        looked.check(tmp_path / "none.zip", "none.zip")
+
+
+def test_many_at_once(tmp_path: Path) -> None:
+    looked, path = Indexes(), archive(tmp_path, "p/package.xml")
+    with ThreadPoolExecutor(8) as threads:
+        assert list(threads.map(lambda _: looked.check(path, "a.zip"), range(100))) == [None] * 100
+
+
+@needs_proc
+def test_one_that_dies_is_replaced(tmp_path: Path) -> None:
+    before = {*tasks()}
+    looked, path = Indexes(), archive(tmp_path, "p/package.xml")
+    looked.check(path, "a.zip")
+    (reader,) = {*tasks()} - before
+    os.kill(reader, signal.SIGKILL)
+    assert eventually(lambda: not is_alive(reader))
+    with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
+        looked.check(path, "a.zip")
+    looked.check(path, "a.zip")
+
+
+HOSTILE = """
+def serve(wire):
+    wire.recv(4096)
+    wire.sendall({said!r})
+    wire.recv(4096)
+"""
+
+
+@pytest.mark.parametrize(
+    "said", [b"", b"\n", b"nonsense\n", b"[" * 5_000 + b"\n", b"x" * 20_000, b"\xff\n"]
+)
+def test_one_that_was_taken_over_says_nonsense(
+    said: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "hostile_reader.py").write_text(HOSTILE.format(said=said))
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setattr(indexes, "_MODULE", "hostile_reader")
+    monkeypatch.setattr(indexes, "_SECONDS", 2.0)
+    with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
+        Indexes().check(archive(tmp_path, "p/package.xml"), "a.zip")
