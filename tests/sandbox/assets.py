@@ -67,7 +67,7 @@ def named(mark: str) -> Iterator[int]:
 def laid_out() -> Iterator[Outside]:
     """Lay all of it out, below a folder that other users reach, and tidy up at the end."""
     with ExitStack() as held:
-        top = Path(tempfile.mkdtemp(prefix="walls-", dir="/tmp"))  # noqa: S108 - open to others
+        top = Path(tempfile.mkdtemp(prefix="walls-", dir="/tmp"))
         held.callback(shutil.rmtree, top, ignore_errors=True)
         top.chmod(0o755)
         given = _files(top)

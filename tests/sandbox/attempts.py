@@ -42,14 +42,24 @@ def attempt(function: Callable[[Assets], object]) -> Callable[[Assets], object]:
     return function
 
 
-def tried(name: str, assets: Assets) -> str:
-    """Make one attempt in a fork, which it may kill; return what came of it, "got …" first."""
+def tried(name: str, assets: Assets, first: Callable[[], object] = lambda: None) -> str:
+    """Make one attempt in a fork, which it may kill.
+
+    Args:
+        name: Of the attempt.
+        assets: What it is told of the outside.
+        first: Called in the fork before it.
+
+    Returns:
+        What came of it, "got …" where it came to something.
+    """
     read, write = os.pipe()
     id = os.fork()
     if id == 0:
         os.close(read)
         signal.alarm(_SECONDS)
         try:
+            first()
             said = f"got {ATTEMPTS[name](assets)!r}"
         except BaseException as error:
             said = f"not: {type(error).__name__} {error}"

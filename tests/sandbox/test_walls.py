@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +16,7 @@ from checker.confined import Child, Limits
 from checker.sandbox import layers, namespaces
 from checker.sandbox.account import account_for
 from checker.sandbox.launcher import OwnLauncher
-from tests.sandbox.assets import Outside, laid_out
+from tests.sandbox.assets import Outside
 from tests.sandbox.attempts import ATTEMPTS
 
 HERE = Path(__file__).parent
@@ -162,18 +162,6 @@ class Attack:
         found = json.loads(said)
         assert isinstance(found, dict)
         return found
-
-
-@pytest.fixture
-def outside(monkeypatch: pytest.MonkeyPatch) -> Iterator[Outside]:
-    with laid_out() as outside:
-        found = os.environ.get("PYTHONPATH", "")
-        paths = (str(HERE), outside.given["program"], found)
-        monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, paths)))
-        monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
-        monkeypatch.setenv("TOKEN", "SECRET-token")
-        monkeypatch.setenv("SUBT_CHECK_TOKENS", "SECRET-tokens")
-        yield outside
 
 
 def attack(outside: Outside, names: Sequence[str], kind: str) -> Attack:
