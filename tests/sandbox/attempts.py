@@ -56,21 +56,27 @@ def tried(name: str, assets: Assets, first: Callable[[], object] = lambda: None)
     read, write = os.pipe()
     id = os.fork()
     if id == 0:
-        os.close(read)
-        signal.alarm(_SECONDS)
+        # Come what may, the fork does not go on as its parent.
         try:
-            first()
-            said = f"got {ATTEMPTS[name](assets)!r}"
-        except BaseException as error:
-            said = f"not: {type(error).__name__} {error}"
-        os.write(write, said.encode()[:4000])
-        os._exit(0)
+            os.close(read)
+            signal.alarm(_SECONDS)
+            os.write(write, _told(name, assets, first).encode(errors="replace")[:4000])
+        finally:
+            os._exit(0)
     os.close(write)
     with os.fdopen(read, "rb") as pipe:
         # Not until its end: what the attempt leaves behind may hold the pipe open.
-        said = pipe.read1(4000).decode() if select.select([pipe], [], [], _SECONDS)[0] else ""
+        said = pipe.read1(4000).decode(errors="replace") if select.select([pipe], [], [], _SECONDS)[0] else ""
     _, status = os.waitpid(id, 0)
     return said or f"not: ended by {status}"
+
+
+def _told(name: str, assets: Assets, first: Callable[[], object]) -> str:
+    try:
+        first()
+        return f"got {ATTEMPTS[name](assets)!r}"
+    except BaseException as error:
+        return f"not: {type(error).__name__} {error}"
 
 
 def call(name: str, *arguments: object) -> int:

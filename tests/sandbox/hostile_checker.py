@@ -100,7 +100,7 @@ def _leftovers(_asked: Mapping[str, Any], _: Files) -> bytes:
     (place / "closed/inner/file").touch()
     for folder in ("closed/inner", "closed"):
         (place / folder).chmod(0)
-    for _number in range(6_000):
+    for _number in range(5_100):
         os.mkdir("deep")  # noqa: PTH102 - the path has no bounds
         os.chdir("deep")
     return _summary()
