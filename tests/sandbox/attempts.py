@@ -66,7 +66,11 @@ def tried(name: str, assets: Assets, first: Callable[[], object] = lambda: None)
     os.close(write)
     with os.fdopen(read, "rb") as pipe:
         # Not until its end: what the attempt leaves behind may hold the pipe open.
-        said = pipe.read1(4000).decode(errors="replace") if select.select([pipe], [], [], _SECONDS)[0] else ""
+        said = (
+            pipe.read1(4000).decode(errors="replace")
+            if select.select([pipe], [], [], _SECONDS)[0]
+            else ""
+        )
     _, status = os.waitpid(id, 0)
     return said or f"not: ended by {status}"
 

@@ -45,7 +45,16 @@ def store(outside: Outside, monkeypatch: pytest.MonkeyPatch) -> Iterator[Store]:
     assert not list((outside.folder / "incoming").iterdir())
     top = {each.name for each in outside.folder.iterdir()}
     # What attempts leave there is told by `Outside.got`.
-    laid_out = {"planted", "renamed-hostile", "doomed", "jobs.sqlite", "moded", "removed", "renamed", "socket"}
+    laid_out = {
+        "planted",
+        "renamed-hostile",
+        "doomed",
+        "jobs.sqlite",
+        "moded",
+        "removed",
+        "renamed",
+        "socket",
+    }
     assert top - laid_out <= {"incoming", "lock", "parts", "results", "uploads"}
 
 
