@@ -18,10 +18,9 @@ _ORDER = {"module": "os", "seconds": 1, "memory": 1_000_000_000, "works": False,
 
 
 def _send(message: bytes, code: int = 0) -> None:
-    with socket.socket(fileno=os.dup(int(os.environ[INNER]))) as launcher:
-        # It breaks where the launcher has ended of it.
-        with suppress(OSError):
-            socket.send_fds(launcher, [message], [os.dup(1), os.dup(1), os.dup(1), code or 1])
+    # It breaks where the launcher has ended of it.
+    with socket.socket(fileno=os.dup(int(os.environ[INNER]))) as launcher, suppress(OSError):
+        socket.send_fds(launcher, [message], [os.dup(1), os.dup(1), os.dup(1), code or 1])
 
 
 def _full_pipe() -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+from pathlib import Path
 
 from attempts import tried
 
@@ -24,5 +25,5 @@ def answer(request: bytes, _files: Files) -> bytes:
     """
     asked = json.loads(request)
     assets = asked["assets"] | {"launcher": os.getppid()}
-    assets["place"] = os.getcwd() if assets["works"] else assets["folder"]
+    assets["place"] = str(Path.cwd()) if assets["works"] else assets["folder"]
     return json.dumps({name: tried(name, assets) for name in asked["names"]}).encode()

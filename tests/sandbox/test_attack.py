@@ -6,13 +6,26 @@ ctypes; then it links the database into the result, and reads what it can into t
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
 import zipfile
+from contextlib import closing
 from pathlib import Path
 
 import httpx
 import pytest
 
-from tests.serving.conftest import SECONDS, Serve, Serving, serve  # noqa: F401 (a fixture)
+from checker.sandbox import layers
+from checker.sandbox.launcher import OwnLauncher
+from tests.sandbox.assets import Outside
+from tests.serving.conftest import (
+    SECONDS,
+    Serve,
+    Serving,
+    environment_of,
+    serve,  # noqa: F401 (a fixture)
+)
 from tests.survival.conftest import upload, wait_for_end
 
 SECRETS = {
@@ -22,18 +35,24 @@ SECRETS = {
 }
 
 
+ROOT = Path(__file__).parents[2]
 XACRO = "http://www.ros.org/wiki/xacro"
+
+
+def _hidden(name: str) -> str:
+    """Return an expression for a name between double underscores, which no filter of texts sees."""
+    return f"'-_-_{name}_-_-'.replace('-','')"
 
 
 def _got(thing: str, name: str) -> str:
     """Return an expression for an attribute whose name holds double underscores."""
-    found = f"python.vars(python.type({thing}))['__'+'{name}'+'__']"
-    return f"python.vars(python.type({found}))['__'+'get__']({found},{thing})"
+    found = f"python.vars(python.type({thing}))[{_hidden(name)}]"
+    return f"python.vars(python.type({found}))[{_hidden('get')}]({found},{thing})"
 
 
 GLOBALS = _got(_got("load_yaml", "func"), "globals")
 MODULES = f"python.vars({GLOBALS}['xacro'])['sys'].modules"
-OPEN = f"{GLOBALS}['__'+'builtins__']['open']"
+OPEN = f"{GLOBALS}[{_hidden('builtins')}]['open']"
 
 
 def packages(place: Path, expressions: list[str]) -> bytes:
@@ -105,3 +124,43 @@ def test_the_expression_is_refused(attacked: tuple[Path, bytes]) -> None:
     """It holds from when the interpreter of expressions evaluates what it knows, and no more."""
     _, found = attacked
     assert b"expression uses" in found
+
+
+def layers_here() -> tuple[layers.Layer, ...]:
+    with closing(OwnLauncher()) as starter:
+        return starter.layers
+
+
+def test_native_code_in_a_service(
+    serve: Serve,  # noqa: F811
+    outside: Outside,
+    tmp_path: Path,
+) -> None:
+    """A worker of its own, whose process that checks is hostile from the start."""
+    data = tmp_path / "data"
+    own = {"SUBT_CHECK_DATA": str(data), "A_TOKEN": SECRETS["token"]}
+    serving = serve("--workers", 0, **own)
+    command = [sys.executable, "-m", "tests.sandbox.hostile_worker"]
+    told = {"deed": "attempts", "without": ["many_processes"]}
+    id = upload(serving.url, "other.sdf", f"<sdf>{SECRETS['other']}</sdf>".encode())
+    (other,) = (each for each in (data / "uploads").rglob("*") if each.is_file())
+    assets = outside.given | {"database": str(data / "jobs.sqlite"), "upload": str(other)}
+    with subprocess.Popen(command, cwd=ROOT, env=environment_of(tmp_path) | own) as worker:
+        try:
+            wait_for_end(serving.url, id)
+            said = json.dumps(told | {"assets": assets})
+            hostile = upload(
+                serving.url, "x.sdf", f"<sdf><!--HOSTILE{said}HOSTILE--></sdf>".encode()
+            )
+            assert wait_for_end(serving.url, hostile)["final"]
+            found = served(serving, hostile)
+            good = upload(serving.url)
+            assert wait_for_end(serving.url, good)["stage"] == "done"
+        finally:
+            worker.kill()
+    assert b'"read_database": "not: ' in found
+    for secret in (*SECRETS.values(), "SECRET-of-somebody-else", "SQLite format 3"):
+        assert secret.encode() not in found
+    if {layer.name for layer in layers_here() if layer.held} == {*layers.ALL}:
+        assert not {name for name, got in outside.got().items() if got}
+    assert (data / "jobs.sqlite").stat().st_nlink == 1

@@ -31,7 +31,8 @@ NAMES = (
     *("../../x", "index.html/../..", "/etc/passwd", "..", ".", "", "a/b/report.html", "x\0"),
     *("report.html\n", "report.html/", "summary.json", "Summary.json", "a/../report.html"),
     *("cache/x/ab/" + "cd" * 32 + ".json", "cache/../ab/" + "ab" * 32 + ".json", "jobs.sqlite"),
-    *("cache/x/ab/" + "ab" * 32 + ".json/x", "a" * 300 + "/report.html", "漢" * 110 + "/robot.glb"),
+    *("cache/x/ab/" + "ab" * 32 + ".json/x", "a" * 300 + "/report.html"),
+    "漢" * 110 + "/robot.glb",
     *("robot.glb -> /etc/passwd", "report.html" + "\u202e", "\ud800/report.html"),
 )
 

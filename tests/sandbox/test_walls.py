@@ -103,9 +103,10 @@ MATRIX = {
 }
 """By attempt, what holds it alone.
 
-N: namespaces, however they are made. B: those that bubblewrap makes. A: an account of its own, which
-a process that root starts is given. L: Landlock; 4 and 6: from these versions on. S: the filter of
-system calls; s: for processes that do not work in a folder. *: the launcher, with no wall at all.
+N: namespaces, however they are made. B: those that bubblewrap makes. A: an account of its own,
+which a process that root starts is given. L: Landlock; 4 and 6: from these versions on. S: the
+filter of system calls; s: for processes that do not work in a folder. *: the launcher, without any
+wall.
 """
 LETTERS = {
     layers.NAMESPACES: "N",
@@ -131,7 +132,7 @@ COSTLY = {"many_processes", "outlive"}
 
 
 def claimed(names: Sequence[str], kind: str) -> set[str]:
-    """Return the attempts that layers are to hold in a kind of process, on a machine that has all."""
+    """Return the attempts that layers are to hold in a kind of process."""
     letters = {LETTERS[name] for name in names} | {"*"}
     if "N" in letters and not namespaces.bubblewrap():
         letters.add("B")
