@@ -50,8 +50,8 @@ def _got(thing: str, name: str) -> str:
     return f"python.vars(python.type({found}))[{_hidden('get')}]({found},{thing})"
 
 
-GLOBALS = _got(_got("load_yaml", "func"), "globals")
-MODULES = f"python.vars({GLOBALS}['xacro'])['sys'].modules"
+GLOBALS = _got("load_yaml", "globals")
+MODULES = f"{GLOBALS}['sys'].modules"
 OPEN = f"{GLOBALS}[{_hidden('builtins')}]['open']"
 
 
