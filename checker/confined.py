@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import os
 import select
+import signal
 import tempfile
 from collections.abc import Iterable
 from contextlib import suppress
@@ -21,7 +22,7 @@ from checker.record import record
 from checker.sandbox import files as handed
 from checker.sandbox.files import Content, Files
 from checker.sandbox.launcher import Launcher, Order, launcher
-from checker.sandbox.task import OUT_OF_MEMORY
+from checker.sandbox.task import FAILED, OUT_OF_MEMORY
 
 ANSWER_LIMIT = 200_000_000
 """Bytes; an answer has at least one."""
@@ -142,8 +143,8 @@ class Child:
         if not poll.poll(max(0.0, seconds) * 1000.0):
             return False
         said = os.read(self._started.code, _CODE_LIMIT)
-        if said and self.code is None:
-            self.code = int(said)
+        if self.code is None:
+            self.code = _code(said)
         return True
 
     def answered(self, limit: int) -> tuple[bytes, Files] | Died:
@@ -197,9 +198,16 @@ def from_json(answer: bytes) -> Any:
         raise ValueError("nests too deeply") from None
 
 
-def _cause(code: int, limits: Limits) -> str:
-    import signal
+def _code(said: bytes) -> int | None:
+    """Return an exit code that the launcher tells; it may have been taken over."""
+    try:
+        code = int(said)
+    except ValueError:
+        return None
+    return code if code >= 0 or -code in {*signal.Signals} else FAILED
 
+
+def _cause(code: int, limits: Limits) -> str:
     if code == OUT_OF_MEMORY:
         return f"needs more than {limits.memory / 1e6:.0f} MB of memory"
     if code == -signal.SIGXCPU:

@@ -46,6 +46,8 @@ LIMITS: Mapping[Stage, StageLimits] = {
 }
 UPLOAD_LIMIT = 2_000_000_000
 """Bytes of an upload that is read here; the service takes no larger ones."""
+_FILES_LIMIT = 50_000
+"""Of a result and of what was worked out for it: what has no content takes room on a disk, too."""
 _LOG = logging.getLogger(__name__)
 
 
@@ -153,6 +155,8 @@ def _write_result(folder: Path, files: Files) -> None:
     Raises:
         ValueError: The process that made them had no reason to make these.
     """
+    if len(files.names) > _FILES_LIMIT:
+        raise ValueError(f"a result holds no more than {_FILES_LIMIT} files")
     folder.mkdir()
     left = RESULT_LIMIT
     for name in files.names:

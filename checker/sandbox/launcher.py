@@ -170,6 +170,7 @@ class OwnLauncher(Launcher):
         try:
             self._process.wait(_ENDS_SECONDS)
         except subprocess.TimeoutExpired:
+            namespaces.end(self._process.pid)
             self._process.kill()
             self._process.wait()
 

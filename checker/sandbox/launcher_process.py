@@ -30,6 +30,7 @@ MESSAGE_LIMIT = 4096
 DESCRIPTORS = 4
 """That come with the order to start a process."""
 _GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
+_TELL_SECONDS = 0.5
 _PROCESSES_LIMIT = 512
 """Of a user that has no others."""
 
@@ -57,6 +58,7 @@ class LauncherProcess:
         os.set_blocking(wake, False)
         os.set_blocking(self._woken, False)
         signal.signal(signal.SIGCHLD, lambda *_: None)
+        signal.signal(signal.SIGALRM, _give_up)
         signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
         layers = put_up(walls)
         _limit_processes(any(each.name == "account" and each.held for each in layers))
@@ -107,7 +109,8 @@ class LauncherProcess:
     def _be(self, order: dict[str, Any], leash: int, request: int, answer: int) -> int:
         """Be the new process; return its exit code."""
         signal.set_wakeup_fd(-1)
-        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        for each in (signal.SIGCHLD, signal.SIGALRM):
+            signal.signal(each, signal.SIG_DFL)
         os.setpgid(0, 0)
         inner = self._inner_client.fileno() if order["works"] else -1
         _close_all_but({leash, request, answer, inner})
@@ -125,11 +128,20 @@ class LauncherProcess:
                     os.killpg(process.id, signal.SIGKILL)
                 _, status = os.waitpid(process.id, 0)
                 self._forget(process, os.waitstatus_to_exitcode(status))
+        if os.getpid() == 1:
+            self._bury()
+
+    def _bury(self) -> None:
+        """Wait for what processes have left behind, which the first of all processes inherits."""
+        with suppress(ChildProcessError):
+            while found := os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT):
+                if found.si_pid in self._processes:  # it has ended just now: its turn comes
+                    return
+                os.waitpid(found.si_pid, 0)
 
     def _forget(self, process: _Process, code: int) -> None:
         del self._processes[process.id]
-        with suppress(OSError):
-            os.write(process.code, str(code).encode())
+        _tell(process.code, code)
         with suppress(KeyError):
             self._poll.unregister(process.leash)
         os.close(process.leash)
@@ -143,6 +155,20 @@ class LauncherProcess:
                 for end in (os.killpg, os.kill):
                     with suppress(OSError):
                         end(process.id, signal.SIGKILL)
+
+
+def _tell(pipe: int, code: int) -> None:
+    """Write an exit code; the pipe of a process that was taken over may be full."""
+    with suppress(OSError):
+        signal.setitimer(signal.ITIMER_REAL, _TELL_SECONDS)
+        try:
+            os.write(pipe, str(code).encode())
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+def _give_up(*_: object) -> None:
+    raise TimeoutError
 
 
 def _has_ended(id: int) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import os
 import shutil
+import signal
 import subprocess
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -43,7 +44,9 @@ def wrapped(command: Sequence[str], read: Iterable[str], work: str = "") -> list
 
 _BWRAP = (
     *("bwrap", "--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts"),
-    *("--unshare-cgroup-try", "--new-session"),
+    # As the first process of its view, it takes all others with it when it ends: bubblewrap's own
+    # first process would wait for them, however long they go on.
+    *("--unshare-cgroup-try", "--new-session", "--as-pid-1"),
 )
 _OWN = (
     *("--dev", "/dev", "--dev-bind-try", "/dev/dri", "/dev/dri"),
@@ -79,6 +82,18 @@ def bubblewrap() -> str:
         return f"bubblewrap does not start: {error}"
     words = tried.stderr.decode(errors="replace").strip()[:200]
     return "" if tried.returncode == 0 else f"bubblewrap fails: {words or tried.returncode}"
+
+
+def end(wrapper: int) -> None:
+    """End all that bubblewrap has started, though what it runs hangs; it would outlive bubblewrap.
+
+    Args:
+        wrapper: Its process, which has not ended.
+    """
+    with suppress(OSError):
+        started = Path(f"/proc/{wrapper}/task/{wrapper}/children").read_text("ascii")
+        for each in started.split():
+            os.kill(int(each), signal.SIGKILL)
 
 
 def leave_network() -> None:

@@ -19,10 +19,13 @@ FORBIDDEN = (
     *("socket", "socketpair", "connect", "accept", "accept4", "bind", "listen"),
     *("ptrace", "process_vm_readv", "process_vm_writev", "kcmp", "pidfd_getfd"),
     *("process_madvise", "process_mrelease", "pidfd_send_signal", "rt_sigqueueinfo"),
-    *("rt_tgsigqueueinfo", "msgget", "semget", "shmget", "mq_open"),
+    *("rt_tgsigqueueinfo", "setpriority", "ioprio_set", "mq_open", "mq_unlink"),
+    # By number as well: who guesses it needs no name.
+    *("msgctl", "msgget", "msgrcv", "msgsnd", "semctl", "semget", "semop", "semtimedop"),
+    *("shmat", "shmctl", "shmget"),
     # Other programs, and files by other names.
     *("execve", "execveat", "link", "linkat", "symlink", "symlinkat", "mknod", "mknodat"),
-    *("name_to_handle_at", "open_by_handle_at"),
+    *("name_to_handle_at", "open_by_handle_at", "inotify_add_watch"),
     # Another view of the system.
     *("mount", "umount2", "pivot_root", "chroot", "move_mount", "open_tree", "open_tree_attr"),
     *("fsopen", "fsconfig", "fsmount", "fspick", "mount_setattr", "unshare", "setns"),
@@ -36,21 +39,29 @@ FORBIDDEN = (
 )
 """Calls that fail, whatever their arguments."""
 _OPENING = ("open", "openat", "openat2", "creat", "memfd_create")
+_CHANGING = (
+    *("truncate", "rename", "renameat", "renameat2", "unlink", "unlinkat", "mkdir", "mkdirat"),
+    *("rmdir", "chmod", "fchmodat", "fchmodat2", "chown", "lchown", "fchownat", "utime", "utimes"),
+    *("futimesat", "utimensat", "setxattr", "lsetxattr", "setxattrat", "removexattr"),
+    *("lremovexattr", "removexattrat", "file_setattr"),
+)
+"""Calls that change files by their names; Landlock knows nothing of modes, owners and times."""
 _OWN_PROCESS_ONLY = {
     "prlimit64": 0,
     "sched_setaffinity": 0,
     "sched_setattr": 0,
     "sched_setparam": 0,
     "sched_setscheduler": 0,
-    "setpriority": 1,
-    "ioprio_set": 1,
 }
 """Calls about any process, and which argument says whose: 0 is the caller."""
 _SIGNALS = ("kill", "tkill", "tgkill")
 _NEW_NAMESPACES = 0x7E020080
 """Flags of clone(2): CLONE_NEWNS, CGROUP, UTS, IPC, USER, PID, NET and TIME."""
-_TIOCSTI, _TIOCLINUX = 0x5412, 0x541C
-"""Requests of ioctl(2) that type into a terminal."""
+_IOCTLS = (0x5412, 0x541C, 0x8901, 0x8902)
+"""Requests of ioctl(2) that type into a terminal (TIOCSTI, TIOCLINUX), or have another process
+sent signals (FIOSETOWN, SIOCSPGRP)."""
+_FCNTLS = (8, 15)
+"""Commands of fcntl(2) that have another process sent signals: F_SETOWN, F_SETOWN_EX."""
 
 _LOAD, _EQUAL, _AT_LEAST, _ANY_BIT, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 """Operations of a filter: BPF_LD|W|ABS, BPF_JMP|JEQ|K, JGE, JSET, BPF_RET|K."""
@@ -83,11 +94,12 @@ def gain_nothing() -> None:
         raise NotHeld(os.strerror(ctypes.get_errno()))
 
 
-def forbid_calls(*, opens: bool = True, signals: bool = True) -> None:
+def forbid_calls(*, opens: bool = True, changes: bool = True, signals: bool = True) -> None:
     """Forbid this process, and all that it starts, the calls of `FORBIDDEN`, for good.
 
     Args:
         opens: Whether it may still open files.
+        changes: Whether it may still remove and rename files, and change who may do what with them.
         signals: Whether it may still send signals to other processes.
 
     Raises:
@@ -97,15 +109,16 @@ def forbid_calls(*, opens: bool = True, signals: bool = True) -> None:
     if machine is None:
         raise NotHeld("the system calls of this processor are not known")
     own = None if signals else os.getpid()
-    _install(b"".join(_packed(program(machine, opens=opens, own=own))))
+    also = (*(() if opens else _OPENING), *(() if changes else _CHANGING))
+    _install(b"".join(_packed(program(machine, also, own))))
 
 
-def program(machine: Architecture, *, opens: bool, own: int | None) -> list[Step]:
+def program(machine: Architecture, also: Iterable[str], own: int | None) -> list[Step]:
     """Return the filter for one kind of processor.
 
     Args:
         machine: The kind.
-        opens: Whether files may be opened.
+        also: Names of calls that are forbidden besides those of `FORBIDDEN`.
         own: The only process that may be sent signals; None for any.
     """
     steps: list[Step] = [
@@ -116,12 +129,13 @@ def program(machine: Architecture, *, opens: bool, own: int | None) -> list[Step
     ]
     if machine.foreign:
         steps += [(_AT_LEAST, 0, 1, machine.foreign), (_RETURN, 0, 0, _KILL)]
-    for name in (*FORBIDDEN, *(() if opens else _OPENING)):
+    for name in (*FORBIDDEN, *also):
         steps += _on(name, machine, [(_RETURN, 0, 0, _ERROR | _EPERM)])
     # glibc goes back to clone(2), whose flags can be looked at.
     steps += _on("clone3", machine, [(_RETURN, 0, 0, _ERROR | _ENOSYS)])
     steps += _on("clone", machine, _refused_if(_ANY_BIT, 0, (_NEW_NAMESPACES,)))
-    steps += _on("ioctl", machine, _refused_if(_EQUAL, 1, (_TIOCSTI, _TIOCLINUX)))
+    steps += _on("ioctl", machine, _refused_if(_EQUAL, 1, _IOCTLS))
+    steps += _on("fcntl", machine, _refused_if(_EQUAL, 1, _FCNTLS))
     for name, argument in _OWN_PROCESS_ONLY.items():
         steps += _on(name, machine, _refused_unless(argument, (0, os.getpid())))
     if own is not None:
