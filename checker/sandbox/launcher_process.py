@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import select
 import signal
 import socket
@@ -22,7 +23,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from checker.sandbox.layers import Walls, put_up
+from checker.sandbox.layers import ACCOUNT, Layer, Walls, put_up
 from checker.sandbox.task import run
 
 MESSAGE_LIMIT = 4096
@@ -32,7 +33,7 @@ DESCRIPTORS = 4
 _GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
 _TELL_SECONDS = 0.5
 _PROCESSES_LIMIT = 512
-"""Of a user that has no others."""
+_COUNTS_BY_NAMESPACE = (5, 14)
 
 
 class _Process:
@@ -61,7 +62,7 @@ class LauncherProcess:
         signal.signal(signal.SIGALRM, _give_up)
         signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
         layers = put_up(walls)
-        _limit_processes(any(each.name == "account" and each.held for each in layers))
+        _limit_processes(layers, walls)
         said = json.dumps([[each.name, each.held, each.words, each.hides] for each in layers])
         control.sendall(said.encode() + b"\n")
         for descriptor in (*self._controls, self._woken):
@@ -186,11 +187,14 @@ def _close_all_but(kept: set[int]) -> None:
     os.closerange(last + 1, os.sysconf("SC_OPEN_MAX"))
 
 
-def _limit_processes(alone: bool) -> None:
-    """Keep a user that has no other processes from starting too many."""
+def _limit_processes(layers: Sequence[Layer], walls: Walls) -> None:
+    """Keep processes from starting too many, where only they count for their user."""
     import resource
 
-    if alone:
+    account = any(each.name == ACCOUNT and each.held for each in layers)
+    # A user namespace counts its own since Linux 5.14 (user_namespaces(7)); root has none here.
+    version = tuple(int(part) for part in re.findall(r"\d+", os.uname().release)[:2])
+    if account or (walls.wrapped and os.getuid() != 0 and version >= _COUNTS_BY_NAMESPACE):
         resource.setrlimit(resource.RLIMIT_NPROC, (_PROCESSES_LIMIT, _PROCESSES_LIMIT))
 
 

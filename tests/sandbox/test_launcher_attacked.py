@@ -11,7 +11,6 @@ import pytest
 
 from checker.confined import Child, Limits
 from checker.sandbox import launcher, layers, namespaces
-from checker.sandbox.account import account_for
 from checker.sandbox.launcher import OwnLauncher
 from tests.sandbox.assets import Outside
 from tests.sandbox.attempts import ATTEMPTS
@@ -32,7 +31,7 @@ def test_none_of_its_processes_is_left(
     monkeypatch.setattr(launcher, "_ENDS_SECONDS", 3.0)
     work = outside.folder.parent / "work"
     work.mkdir(mode=0o700)
-    starter = OwnLauncher(work, names, account_for(work))
+    starter = OwnLauncher(work, names)
     need(starter)
     request = json.dumps({"deed": deed, "assets": outside.given}).encode()
     child = Child("greedy", request, Limits(seconds=5), starter=starter, works=True)

@@ -14,7 +14,6 @@ import pytest
 
 from checker.confined import Child, Limits
 from checker.sandbox import layers, namespaces
-from checker.sandbox.account import account_for
 from checker.sandbox.launcher import OwnLauncher
 from tests.sandbox.assets import Outside
 from tests.sandbox.attempts import ATTEMPTS
@@ -168,8 +167,7 @@ class Attack:
 def attack(outside: Outside, names: Sequence[str], kind: str) -> Attack:
     work = outside.folder.parent / "work"
     work.mkdir(mode=0o700)
-    account = account_for(work) if layers.ACCOUNT in names else None
-    starter = OwnLauncher(work if kind == "works" else None, names, account)
+    starter = OwnLauncher(work if kind == "works" else None, names)
     return Attack(outside, starter, kind)
 
 
