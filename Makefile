@@ -5,6 +5,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 CORPUS ?= $(wildcard ../shared/corpus)
 REVIEWS ?= $(wildcard ../shared/reviews)
+MODERN ?= $(wildcard ../shared/modern)
 WORKERS ?= auto
 VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
@@ -26,7 +27,7 @@ demo: .venv/installed $(VIEWER)
 
 test: .venv/tested $(VIEWER)
 	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS)) \
-	  $(BIN)/pytest -n $(WORKERS)
+	  SUBT_CHECK_MODERN=$(abspath $(MODERN)) $(BIN)/pytest -n $(WORKERS)
 
 lint: .venv/tested
 	$(BIN)/ruff check .
