@@ -195,7 +195,7 @@ def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="start the web service with its workers",
         description="Start the web service with its workers. On another address than this "
         "machine's own it wants SUBT_CHECK_TOKENS, separated by commas, or --public; with either, "
-        "walls around what others upload, of which `subt-check doctor` tells.",
+        "layers around what others upload, of which `subt-check doctor` tells.",
     )
     serve.add_argument("--host", default="127.0.0.1", help="address (default: 127.0.0.1)")
     serve.add_argument(
@@ -206,9 +206,9 @@ def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     )
     serve.add_argument("--public", action="store_true", help="let everybody upload")
     serve.add_argument(
-        "--without-walls",
+        "--without-sandbox",
         action="store_true",
-        help="take uploads of others where no wall hides files: a package that takes over its "
+        help="take uploads of others where no layer hides files: a package that takes over its "
         "reader then reads all that this user can",
     )
     _add_data(serve)

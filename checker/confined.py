@@ -1,8 +1,8 @@
-"""Work on hostile or heavy input in a process with limits and walls; it may die, we go on.
+"""Work on hostile or heavy input in a sandboxed process with limits; it may die, we go on.
 
 The process runs one function of one module: `answer(request, files)`. What goes to and fro are
 bytes (JSON, say), never pickles: a process that was taken over must not take who asked it. It is
-started within the walls of `checker.sandbox`, and given no path.
+started in the sandbox (`checker.sandbox`), and given no path.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ class Child:
         handed.write(self._request, request, contents)
         # One that has died says why when it is asked for its answer.
         with suppress(OSError):
-            os.write(self._started.leash, b"!")
+            os.write(self._started.input, b"!")
 
     def answer(self) -> bytes | Died:
         """Wait for the answer."""
@@ -167,7 +167,7 @@ class Child:
         """End the process, whatever it does; nothing happens if it has ended."""
         if self._stopped:
             return
-        os.close(self._started.leash)
+        os.close(self._started.input)
         self.ends(_ENDS_SECONDS)
         self._stopped = True
         os.close(self._started.code)

@@ -6,15 +6,15 @@ from itertools import chain
 
 from checker.doctor.installation import installation
 from checker.doctor.result import INSTALL_AGAIN, Result, State
+from checker.doctor.sandbox import sandbox
 from checker.doctor.surroundings import surroundings
-from checker.doctor.walls import walls
 from checker.output import EXIT_CLEAN, EXIT_FINDINGS, show
 
 
 def doctor() -> int:
     """Look at everything, print what is found, and return the exit code."""
     well = True
-    for result in chain(installation(), walls(), surroundings()):
+    for result in chain(installation(), sandbox(), surroundings()):
         show(f"{result}\n")
         well = well and result.state is not State.PROBLEM
     last = _self_test() if well else Result(State.NOTE, "self-test is left out", "mend that first")

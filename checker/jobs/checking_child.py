@@ -1,4 +1,4 @@
-"""Reads an upload and checks it: what a process within the walls of `checker.sandbox` does.
+"""Reads an upload and checks it: what a process in the sandbox (`checker.sandbox`) does.
 
 It loads what a check needs, then waits for the upload. When there is nothing to do for a while, a
 process that reads meshes waits beside it. What it makes goes back as it was asked for, in one file
@@ -24,7 +24,7 @@ from checker.jobs.port import Stage
 from checker.mesh.early import mesh_child
 from checker.report.report import Report
 from checker.sandbox.files import Content, Files
-from checker.sandbox.task import LEASH, Answer
+from checker.sandbox.task import INPUT, Answer
 
 _NEEDED = ("checker.judging", "checker.report.artefacts", "markdown_it", "pinocchio")
 """What nearly every check loads; some of it starts threads."""
@@ -54,7 +54,7 @@ def prepare() -> None:
 @once
 def _waiting() -> list[Child]:
     """Return the process that reads meshes, if the check lets it come first."""
-    return [] if select([LEASH], [], [], _IDLE)[0] else [mesh_child()]
+    return [] if select([INPUT], [], [], _IDLE)[0] else [mesh_child()]
 
 
 def answer(request: bytes, files: Files) -> Answer:

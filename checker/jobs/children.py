@@ -44,7 +44,7 @@ class Ended:
 
 
 class _Place:
-    """A process that checks, its folder and its walls: for one check, and then no more."""
+    """A process that checks, its folder and its sandbox: for one check, and then no more."""
 
     def __init__(self, store: Store, limits: Limits) -> None:
         """Start it."""

@@ -104,7 +104,7 @@ class Alive:
         workers: Seconds since each worker's last sign of life, by its name.
         waiting: Checks that wait, by queue.
         running: Checks that run.
-        layers: Of the walls around what each worker checks; older versions do not say them.
+        layers: Of the sandbox around what each worker checks; older versions do not say them.
     """
 
     workers: Mapping[str, float]

@@ -1,4 +1,4 @@
-"""Reads the indexes of archives that strangers send: a process within the walls.
+"""Reads the indexes of archives that strangers send: a process in the sandbox.
 
 On its socket comes the name of an archive, one JSON object a message, with a descriptor of the
 file; it answers in a line whether the archive can be unpacked, and opens nothing itself.

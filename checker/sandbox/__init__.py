@@ -1,1 +1,1 @@
-"""Walls that the kernel keeps around processes that read strangers' files."""
+"""The sandbox of processes that read strangers' files."""

@@ -1,7 +1,7 @@
-"""Starts processes that read strangers' files: all by one clean process within the walls.
+"""Starts processes that read strangers' files: all by one clean process in the sandbox.
 
 That one is started anew, with none of the descriptors, variables and memory of who starts it, and
-puts its walls up before it does anything else. A new process is a fork of it: two milliseconds,
+enters its sandbox before it does anything else. A new process is a fork of it: two milliseconds,
 against fifty for a new interpreter.
 """
 
@@ -23,7 +23,7 @@ from typing import BinaryIO
 from checker.record import record
 from checker.sandbox import layers, namespaces
 from checker.sandbox.account import free_account
-from checker.sandbox.layers import Layer, Walls
+from checker.sandbox.layers import Layer, Sandbox
 from checker.sandbox.program_files import program_paths
 from checker.sandbox.task import DEBUG
 
@@ -60,12 +60,12 @@ class Started:
     """A process that was started.
 
     Attributes:
-        leash: Descriptor to write a byte into when its request is there; once it is closed, the
+        input: Descriptor to write a byte into when its request is there; once it is closed, the
             process is killed.
         code: Descriptor from which its exit code comes, in decimal digits.
     """
 
-    leash: int
+    input: int
     code: int
 
 
@@ -88,9 +88,9 @@ class Launcher:
         Raises:
             OSError: There is nobody to start it.
         """
-        leash, ours = os.pipe()
+        input, ours = os.pipe()
         code, theirs = os.pipe()
-        handed = (leash, request.fileno(), answer.fileno(), theirs)
+        handed = (input, request.fileno(), answer.fileno(), theirs)
         try:
             with self._lock:
                 message = json.dumps(asdict(order)).encode()
@@ -100,7 +100,7 @@ class Launcher:
             os.close(code)
             raise
         finally:
-            os.close(leash)
+            os.close(input)
             os.close(theirs)
         return Started(ours, code)
 
@@ -118,16 +118,16 @@ class OwnLauncher(Launcher):
         names: Sequence[str] = layers.ALL,
         niceness: int = 0,
     ) -> None:
-        """Start the process; it puts its walls up while the caller goes on.
+        """Start the process; it enters its sandbox while the caller goes on.
 
         Args:
             work: Folder that a process may write in; where this process is root's, it becomes that
                 of the account that its processes get.
-            names: Walls to put up, of `layers.ALL`; others than all are for tests of each alone.
+            names: Layers, of `layers.ALL`; others than all are for tests of each alone.
             niceness: By how much its processes stand back behind others, as `nice` counts it.
         """
         wrapped = layers.NAMESPACES in names and not namespaces.bubblewrap()
-        walls = Walls(
+        sandbox = Sandbox(
             tuple(names),
             wrapped,
             free_account(),
@@ -136,13 +136,13 @@ class OwnLauncher(Launcher):
         ours, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-                _command(walls, niceness, theirs.fileno(), "" if work is None else str(work)),
+                _command(sandbox, niceness, theirs.fileno(), "" if work is None else str(work)),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=None if os.environ.get(DEBUG) else subprocess.DEVNULL,
                 pass_fds=(theirs.fileno(),),
                 cwd="/",
-                env=_environment(walls.work),
+                env=_environment(sandbox.work),
                 # A key that interrupts this program does not interrupt its processes before it.
                 start_new_session=True,
             )
@@ -155,7 +155,7 @@ class OwnLauncher(Launcher):
 
     @cached_property
     def layers(self) -> tuple[Layer, ...]:
-        """Which walls hold; the first call waits for them. None where its process has died."""
+        """Which layers hold; the first call waits for them. None where its process has died."""
         said = b""
         while not said.endswith(b"\n"):
             piece = self._control.recv(_HELLO_LIMIT)
@@ -204,12 +204,12 @@ def _launchers(_: int) -> list[Launcher]:
     return []
 
 
-def _command(walls: Walls, niceness: int, control: int, work: str) -> list[str]:
+def _command(sandbox: Sandbox, niceness: int, control: int, work: str) -> list[str]:
     # `-P` keeps the folder that it runs in out of the search for modules.
     module = "checker.sandbox.launcher_process"
-    given = (str(control), str(niceness), json.dumps(asdict(walls)))
+    given = (str(control), str(niceness), json.dumps(asdict(sandbox)))
     own = [sys.executable, "-P", "-m", module, *given]
-    return namespaces.wrapped(own, program_paths(), work) if walls.wrapped else own
+    return namespaces.wrapped(own, program_paths(), work) if sandbox.wrapped else own
 
 
 def module_path() -> str:

@@ -1,11 +1,11 @@
 """The process that others are forked from: `python -m checker.sandbox.launcher_process`.
 
-It is started with nothing of its parent's but a socket, puts walls up around itself, and reads
-nobody's files. Each process that it starts runs one function of one module within these walls.
+It is started with nothing of its parent's but a socket, enters its sandbox, and reads
+nobody's files. Each process that it starts runs one function of one module in the sandbox.
 
 On the socket comes one JSON object a line (`Start` in `checker.sandbox.launcher`), with the
-descriptors of the new process: its leash, the file of its request, that of its answer, and a pipe
-for its exit code. Who lets go of the other end of the leash has the process killed. When the
+descriptors of the new process: its input, the file of its request, that of its answer, and a pipe
+for its exit code. Who lets go of the other end of the input has the process killed. When the
 socket closes, all of them end.
 """
 
@@ -23,7 +23,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from checker.sandbox.layers import ACCOUNT, Layer, Walls, put_up
+from checker.sandbox.layers import ACCOUNT, Layer, Sandbox, enter
 from checker.sandbox.task import run
 
 MESSAGE_LIMIT = 4096
@@ -37,22 +37,22 @@ _COUNTS_BY_NAMESPACE = (5, 14)
 
 
 class _Process:
-    """A process that was started: its leash, and where its exit code goes."""
+    """A process that was started: its input, and where its exit code goes."""
 
-    def __init__(self, id: int, leash: int, code: int) -> None:
-        self.id, self.leash, self.code = id, leash, code
+    def __init__(self, id: int, input: int, code: int) -> None:
+        self.id, self.input, self.code = id, input, code
 
 
 class LauncherProcess:
     """Starts processes until nobody asks for any more."""
 
-    def __init__(self, control: socket.socket, walls: Walls) -> None:
-        """Put the walls up, and say which of them hold."""
-        # A process within the walls asks for others by a socket of its own.
+    def __init__(self, control: socket.socket, sandbox: Sandbox) -> None:
+        """Enter the sandbox, and say which layers hold."""
+        # A process in the sandbox asks for others by a socket of its own.
         self._inner_client, inner = socket.socketpair()
         self._controls = {control.fileno(): control, inner.fileno(): inner}
         self._outer = control.fileno()
-        self._walls = walls
+        self._sandbox = sandbox
         self._processes: dict[int, _Process] = {}
         self._poll = select.poll()
         self._woken, wake = os.pipe()
@@ -61,8 +61,8 @@ class LauncherProcess:
         signal.signal(signal.SIGCHLD, lambda *_: None)
         signal.signal(signal.SIGALRM, _give_up)
         signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
-        layers = put_up(walls)
-        _limit_processes(layers, walls)
+        layers = enter(sandbox)
+        _limit_processes(layers, sandbox)
         said = json.dumps([[each.name, each.held, each.words, each.hides] for each in layers])
         control.sendall(said.encode() + b"\n")
         for descriptor in (*self._controls, self._woken):
@@ -97,25 +97,25 @@ class LauncherProcess:
         return bool(message)
 
     def _start(self, order: dict[str, Any], descriptors: Sequence[int]) -> None:
-        leash, request, answer, code = descriptors
+        input, request, answer, code = descriptors
         id = os.fork()
         if id == 0:
-            os._exit(self._be(order, leash, request, answer))
+            os._exit(self._be(order, input, request, answer))
         os.close(request)
         os.close(answer)
-        self._processes[id] = _Process(id, leash, code)
+        self._processes[id] = _Process(id, input, code)
         # What is written into it is for the process; here only its end counts.
-        self._poll.register(leash, 0)
+        self._poll.register(input, 0)
 
-    def _be(self, order: dict[str, Any], leash: int, request: int, answer: int) -> int:
+    def _be(self, order: dict[str, Any], input: int, request: int, answer: int) -> int:
         """Be the new process; return its exit code."""
         signal.set_wakeup_fd(-1)
         for each in (signal.SIGCHLD, signal.SIGALRM):
             signal.signal(each, signal.SIG_DFL)
         os.setpgid(0, 0)
         inner = self._inner_client.fileno() if order["works"] else -1
-        _close_all_but({leash, request, answer, inner})
-        return run(order, self._walls, (leash, request, answer, inner))
+        _close_all_but({input, request, answer, inner})
+        return run(order, self._sandbox, (input, request, answer, inner))
 
     def _reap(self) -> None:
         """Tell how processes ended."""
@@ -144,15 +144,15 @@ class LauncherProcess:
         del self._processes[process.id]
         _tell(process.code, code)
         with suppress(KeyError):
-            self._poll.unregister(process.leash)
-        os.close(process.leash)
+            self._poll.unregister(process.input)
+        os.close(process.input)
         os.close(process.code)
 
-    def _kill(self, leash: int) -> None:
-        """End the process on whose leash nobody is any more."""
-        self._poll.unregister(leash)
+    def _kill(self, input: int) -> None:
+        """End the process on whose input nobody is any more."""
+        self._poll.unregister(input)
         for process in self._processes.values():
-            if process.leash == leash:
+            if process.input == input:
                 for end in (os.killpg, os.kill):
                     with suppress(OSError):
                         end(process.id, signal.SIGKILL)
@@ -187,14 +187,14 @@ def _close_all_but(kept: set[int]) -> None:
     os.closerange(last + 1, os.sysconf("SC_OPEN_MAX"))
 
 
-def _limit_processes(layers: Sequence[Layer], walls: Walls) -> None:
+def _limit_processes(layers: Sequence[Layer], sandbox: Sandbox) -> None:
     """Keep processes from starting too many, where only they count for their user."""
     import resource
 
     account = any(each.name == ACCOUNT and each.held for each in layers)
     # A user namespace counts its own since Linux 5.14 (user_namespaces(7)); root has none here.
     version = tuple(int(part) for part in re.findall(r"\d+", os.uname().release)[:2])
-    if account or (walls.wrapped and os.getuid() != 0 and version >= _COUNTS_BY_NAMESPACE):
+    if account or (sandbox.wrapped and os.getuid() != 0 and version >= _COUNTS_BY_NAMESPACE):
         resource.setrlimit(resource.RLIMIT_NPROC, (_PROCESSES_LIMIT, _PROCESSES_LIMIT))
 
 
@@ -206,12 +206,12 @@ def _stand_back(niceness: int) -> None:
         Path("/proc/self/autogroup").write_text(str(niceness), encoding="ascii")
 
 
-def main(descriptor: int, niceness: int, walls: str) -> None:
+def main(descriptor: int, niceness: int, sandbox: str) -> None:
     """Serve on a socket that was inherited."""
     if niceness:
         _stand_back(niceness)
     with socket.socket(fileno=descriptor) as control:
-        LauncherProcess(control, Walls(**json.loads(walls))).serve()
+        LauncherProcess(control, Sandbox(**json.loads(sandbox))).serve()
 
 
 if __name__ == "__main__":

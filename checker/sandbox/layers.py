@@ -1,4 +1,4 @@
-"""The walls around a process: which there are, and which of them hold on this machine.
+"""The sandbox of a process: its layers, and which of them hold on this machine.
 
 Each holds by itself, as far as it goes; docs/security.md tells what each keeps from what.
 """
@@ -18,7 +18,7 @@ ALL = (NAMESPACES, ACCOUNT, LANDLOCK, SECCOMP)
 
 @record()
 class Layer:
-    """One of the walls.
+    """One layer of the sandbox.
 
     Attributes:
         name: One of `ALL`.
@@ -34,7 +34,7 @@ class Layer:
 
 
 @record()
-class Walls:
+class Sandbox:
     """What to put up around a process.
 
     Attributes:
@@ -50,21 +50,21 @@ class Walls:
     work: str = ""
 
 
-def put_up(walls: Walls) -> list[Layer]:
-    """Put walls up around this process and all that it will start, for good.
+def enter(sandbox: Sandbox) -> list[Layer]:
+    """Put this process and all that it will start in a sandbox, for good.
 
     Those that the system does not have are left out, and the result says so.
     """
-    return [_put_up(name, walls) for name in ALL if name in walls.names]
+    return [_entered(name, sandbox) for name in ALL if name in sandbox.names]
 
 
-def _put_up(name: str, walls: Walls) -> Layer:
+def _entered(name: str, sandbox: Sandbox) -> Layer:
     try:
-        words = _WAYS[name](walls)
+        words = _WAYS[name](sandbox)
     except NotHeld as error:
         return Layer(name, False, str(error.args[-1]))
     # Without bubblewrap, namespaces hide the network alone.
-    hides = walls.wrapped if name == NAMESPACES else name in (ACCOUNT, LANDLOCK)
+    hides = sandbox.wrapped if name == NAMESPACES else name in (ACCOUNT, LANDLOCK)
     return Layer(name, True, words, hides)
 
 
@@ -73,29 +73,29 @@ def hides_files(layers: Iterable[Layer]) -> bool:
     return any(each.held and each.hides for each in layers)
 
 
-def _namespaces(walls: Walls) -> str:
-    if walls.wrapped:
+def _namespaces(sandbox: Sandbox) -> str:
+    if sandbox.wrapped:
         return "bubblewrap: no network, no other processes, no other files"
     namespaces.leave_network()
     return "no network; bubblewrap would hide other processes and files"
 
 
-def _account(walls: Walls) -> str:
-    account.become(walls.account, program_files.program_paths(), walls.work)
-    return f"user {walls.account}"
+def _account(sandbox: Sandbox) -> str:
+    account.become(sandbox.account, program_files.program_paths(), sandbox.work)
+    return f"user {sandbox.account}"
 
 
-def _landlock(walls: Walls) -> str:
+def _landlock(sandbox: Sandbox) -> str:
     seccomp.gain_nothing()
     known = landlock.allow_only(
         read=(*program_files.program_paths(), *program_files.MACHINE),
-        work=filter(None, (walls.work,)),
+        work=filter(None, (sandbox.work,)),
         devices=(*program_files.DEVICES, *program_files.SCREENS),
     )
     return f"version {known}"
 
 
-def _seccomp(_: Walls) -> str:
+def _seccomp(_: Sandbox) -> str:
     seccomp.gain_nothing()
     seccomp.forbid_calls()
     return f"{len(seccomp.FORBIDDEN)} system calls are forbidden"
@@ -109,24 +109,24 @@ _WAYS = {
 }
 
 
-def narrow(walls: Walls, *, works: bool, draws: bool) -> None:
-    """Take from a process within walls what its own task does not need.
+def narrow(sandbox: Sandbox, *, works: bool, draws: bool) -> None:
+    """Take from a process in the sandbox what its own task does not need.
 
     Args:
-        walls: Those around it.
+        sandbox: Its own.
         works: Whether it may write into the working folder.
         draws: Whether it may use graphics cards.
     """
     screens = program_files.SCREENS if draws else ()
-    folders = (walls.work,) if works and walls.work else ()
-    # What cannot be narrowed stays within the walls that there are.
-    if LANDLOCK in walls.names:
+    folders = (sandbox.work,) if works and sandbox.work else ()
+    # What cannot be narrowed stays in the sandbox that there is.
+    if LANDLOCK in sandbox.names:
         with suppress(NotHeld):
             landlock.allow_only(
                 (*program_files.program_paths(), *program_files.MACHINE),
                 folders,
                 (*program_files.DEVICES, *screens),
             )
-    if SECCOMP in walls.names:
+    if SECCOMP in sandbox.names:
         with suppress(NotHeld):
             seccomp.forbid_calls(changes=works, signals=False)

@@ -76,7 +76,7 @@ Step = tuple[int, int, int, int]
 
 
 class NotHeld(OSError):
-    """The kernel does not put up a wall; the text says why."""
+    """The kernel does not hold a layer; the text says why."""
 
 
 class _Program(ctypes.Structure):

@@ -1,4 +1,4 @@
-"""What a process within the walls does: one function of one module, and it ends.
+"""What a process in the sandbox does: one function of one module, and it ends.
 
 The module has `answer(request: bytes, files: Files)`, which returns bytes, or bytes and files (see
 `Answer`). Its `prepare()`, if it has one, is called before the request is there.
@@ -15,7 +15,7 @@ from importlib import import_module
 from typing import Any, BinaryIO
 
 from checker.sandbox.files import Content, read, write
-from checker.sandbox.layers import Walls, narrow
+from checker.sandbox.layers import Sandbox, narrow
 
 Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
 """What comes back; files are made one by one, while they are written."""
@@ -26,40 +26,40 @@ _REQUEST_LIMIT = 500_000_000
 FAULT_LIMIT = 4_000
 """Bytes of what is told of a fault."""
 _FILE_BYTES, _OPEN_FILES = 1_000_000_000, 512
-LEASH = 0
-"""Descriptor of the leash: a byte comes when the request is there."""
+INPUT = 0
+"""Descriptor of the input: a byte comes when the request is there."""
 DEBUG = "SUBT_CHECK_DEBUG"
 """Name of the variable that has faults of ours told with their traces."""
 
 
-def run(order: dict[str, Any], walls: Walls, descriptors: tuple[int, int, int, int]) -> int:
+def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, int, int, int]) -> int:
     """Do what was ordered; return the exit code.
 
     Args:
         order: `module`, `seconds` of processor time, `memory` in bytes, `works` (whether it writes
             into the working folder and asks for processes), `draws` and `serves` (whether its
             request is a socket, by which it answers many).
-        walls: Those around this process.
-        descriptors: The leash, on which a byte comes when the request is there; the files of
+        sandbox: That of this process.
+        descriptors: The input, on which a byte comes when the request is there; the files of
             request and answer; the socket by which to ask for processes, or -1.
     """
-    leash, request, answer, inner = descriptors
+    input, request, answer, inner = descriptors
     try:
         end_with_parent()
-        _speak_to_nobody(leash)
-        os.chdir(walls.work if order["works"] and walls.work else "/")
+        _speak_to_nobody(input)
+        os.chdir(sandbox.work if order["works"] and sandbox.work else "/")
         if inner >= 0:
             from checker.sandbox.launcher import inherit
 
             inherit(inner)
         hold_to(order["seconds"], order["memory"])
-        narrow(walls, works=order["works"], draws=order["draws"])
+        narrow(sandbox, works=order["works"], draws=order["draws"])
         module = import_module(order["module"])
         if hasattr(module, "prepare"):
             module.prepare()
         if order["serves"]:
             module.serve(socket.socket(fileno=request))
-        elif os.read(LEASH, 1):
+        elif os.read(INPUT, 1):
             said, files = read(request, _REQUEST_LIMIT)
             with os.fdopen(os.dup(answer), "wb") as file:
                 _write(file, module.answer(said, files))
@@ -92,10 +92,10 @@ def _write(file: BinaryIO, answer: Answer) -> None:
         write(file, *answer)
 
 
-def _speak_to_nobody(leash: int) -> None:
-    """Lead what libraries print nowhere; the leash becomes the standard input."""
-    os.dup2(leash, LEASH)
-    os.close(leash)
+def _speak_to_nobody(input: int) -> None:
+    """Lead what libraries print nowhere; the input becomes the standard input."""
+    os.dup2(input, INPUT)
+    os.close(input)
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in (1,) if os.environ.get(DEBUG) else (1, 2):
         os.dup2(nowhere, stream)

@@ -106,7 +106,7 @@ def _environment(options: argparse.Namespace) -> Mapping[str, str]:
     """Return the variables of the processes: those of here, and what the options say."""
     said = {"SUBT_CHECK_BASE_URL": options.base_url} if options.base_url else {}
     said |= {"SUBT_CHECK_PUBLIC": "1"} if options.public else {}
-    said |= {"SUBT_CHECK_WITHOUT_WALLS": "1"} if options.without_walls else {}
+    said |= {"SUBT_CHECK_WITHOUT_SANDBOX": "1"} if options.without_sandbox else {}
     return {**os.environ, "PYTHONPATH": module_path(), **said}
 
 
@@ -118,10 +118,10 @@ def _warnings(
     Raises:
         CheckerError: It is more than somebody has allowed.
     """
-    from checker.jobs.walls import layers_of_checks
+    from checker.jobs.sandbox import layers_of_checks
 
     yield warning_of(bound, environment)
-    if options.workers != 0:  # those elsewhere say by themselves which walls they have
+    if options.workers != 0:  # those elsewhere say by themselves which layers they have
         yield risk_of(environment, lambda: layers_of_checks(store))
 
 

@@ -1,6 +1,6 @@
 """Who can reach the service: the address that it listens at, and what that asks for.
 
-What others upload is read within walls (`checker.sandbox`), unless somebody takes the risk.
+What others upload is read in a sandbox (`checker.sandbox`), unless somebody takes the risk.
 """
 
 from __future__ import annotations
@@ -71,14 +71,14 @@ def warning_of(bound: socket.socket, environment: Mapping[str, str]) -> str:
 
 
 def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]]) -> str:
-    """Return what to say aloud where uploads of others are read without walls; else nothing.
+    """Return what to say aloud where uploads of others are read without a sandbox; else nothing.
 
     Args:
         environment: Says who may upload, and whether the risk is taken.
-        layers: Says which walls hold; asked only if it matters.
+        layers: Says which layers hold; asked only if it matters.
 
     Raises:
-        CheckerError: No wall hides files, and nobody said that it goes without.
+        CheckerError: No layer hides files, and nobody said that it goes without.
     """
     config = config_from(environment)
     if config.only_here:
@@ -86,12 +86,12 @@ def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]
     found = layers()
     if hides_files(found):
         return ""
-    if config.without_walls:
-        return f"no wall hides files: {_RISK} (--without-walls)"
+    if config.without_sandbox:
+        return f"no layer hides files: {_RISK} (--without-sandbox)"
     raise CheckerError(
-        f"no wall hides files from what others upload ({_missing(found)}); install bubblewrap or "
+        f"no layer hides files from what others upload ({_missing(found)}); install bubblewrap or "
         "use a kernel with Landlock, of which `subt-check doctor` tells more, or take the risk by "
-        f"--without-walls: {_RISK}"
+        f"--without-sandbox: {_RISK}"
     )
 
 
@@ -99,6 +99,6 @@ _RISK = "a package that takes over its reader reads all that this user can, uplo
 
 
 def _missing(layers: Sequence[Layer]) -> str:
-    """Return why none of the walls that could hide files does."""
+    """Return why none of the layers that could hide files does."""
     said = [f"{each.name}: {each.words}" for each in layers if each.name != SECCOMP]
     return plain(shortened("; ".join(said) or "the process that keeps them ends at once", 300))

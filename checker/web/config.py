@@ -33,7 +33,7 @@ class Config:
         idle_seconds: That an upload may stand still.
         upload_seconds: That an upload may last.
         slowest: Bytes per second that an upload brings on average.
-        without_walls: Whether workers may check uploads of others without walls around them.
+        without_sandbox: Whether workers may check uploads of others without a sandbox.
         base_url: Where people reach it, such as `https://check.example`; empty for what they asked.
     """
 
@@ -47,7 +47,7 @@ class Config:
     idle_seconds: float = 20.0
     upload_seconds: float = 900.0
     slowest: int = 10_000
-    without_walls: bool = False
+    without_sandbox: bool = False
     base_url: str = ""
 
     @property
@@ -75,7 +75,7 @@ def config_from(environment: Mapping[str, str] = os.environ) -> Config:
         public=_says_yes(environment, "SUBT_CHECK_PUBLIC"),
         retention_days=number("SUBT_CHECK_RETENTION_DAYS", plain.retention_days, 1, _CENTURY),
         uploads_per_minute=number("SUBT_CHECK_UPLOADS_PER_MINUTE", plain.uploads_per_minute),
-        without_walls=_says_yes(environment, "SUBT_CHECK_WITHOUT_WALLS"),
+        without_sandbox=_says_yes(environment, "SUBT_CHECK_WITHOUT_SANDBOX"),
         base_url=_base_url(environment.get("SUBT_CHECK_BASE_URL", "")),
     )
 

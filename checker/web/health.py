@@ -36,11 +36,11 @@ class Ready(Well):
     """A check that is ordered now would be done.
 
     Attributes:
-        walls: Names of those that hold around what each living worker checks; said only to this
+        sandbox: Names of the layers that hold where each living worker checks; said only to this
             machine and to those with a token.
     """
 
-    walls: Mapping[str, Sequence[str]] | None = None
+    sandbox: Mapping[str, Sequence[str]] | None = None
 
 
 def router(services: Services) -> APIRouter:
@@ -75,13 +75,13 @@ class Health:
         return Well()
 
     def ready(self, request: Request) -> Ready:
-        """Tell whether a check that is ordered now would be done, within walls."""
+        """Tell whether a check that is ordered now would be done, in the sandbox."""
         alive = self._alive()
         reasons = " ".join((*self._of_workers(alive), *self._of_disk()))
         if reasons:
             advice = "See the logs of the service and its workers."
             raise Refused(503, reasons, advice, "not ready", {"Retry-After": "10"})
-        return Ready(walls=_walls(alive) if self._may_see(request) else None)
+        return Ready(sandbox=_sandbox(alive) if self._may_see(request) else None)
 
     async def figures(self, request: Request) -> Response:
         """Return the metrics, to this machine and to those with a token."""
@@ -107,13 +107,13 @@ class Health:
     def _of_workers(self, alive: Alive | None) -> Iterator[str]:
         """Yield sentences about what is amiss with those who check."""
         config = self.services.config
-        takes_risk = config.only_here or config.without_walls
+        takes_risk = config.only_here or config.without_sandbox
         if alive is None:
             yield "The database does not answer."
         elif not alive.living:
             yield f"No worker has given a sign of life for {SILENCE_SECONDS:g} s."
         elif not (takes_risk or all(map(hides_files, alive.living.values()))):
-            yield "A worker has no wall that hides files from what it checks."
+            yield "A worker has no layer that hides files from what it checks."
 
     def _of_disk(self) -> Iterator[str]:
         """Yield sentences about what is amiss with the data folder."""
@@ -127,7 +127,7 @@ class Health:
                 yield f"The disk has {free / 1e6:.0f} MB free, expected {least / 1e6:.0f} MB."
 
 
-def _walls(alive: Alive | None) -> Mapping[str, Sequence[str]]:
+def _sandbox(alive: Alive | None) -> Mapping[str, Sequence[str]]:
     living = alive.living if alive else {}
     return {
         worker: [each.name for each in layers if each.held] for worker, layers in living.items()

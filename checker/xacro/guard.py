@@ -1,6 +1,6 @@
 """What keeps a hostile xacro file within its process: no files, no programs, no network.
 
-The expander checks expressions as well. This is the wall behind it, for what slips through: it is
+The expander checks expressions as well. This is the layer behind it, for what slips through: it is
 put up in a process that does nothing but expand one file, and cannot be taken down in it.
 """
 

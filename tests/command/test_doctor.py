@@ -13,12 +13,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.doctor import installation, self_test
-from checker.doctor import walls as of_walls
+from checker.doctor import sandbox as of_sandbox
 from checker.doctor.command import doctor
 from checker.doctor.installation import numbers
 from checker.doctor.result import Result, State
+from checker.doctor.sandbox import result, sandbox
 from checker.doctor.surroundings import surroundings
-from checker.doctor.walls import wall, walls
 from checker.sandbox.layers import ALL, Layer
 from tests.command.conftest import Run
 from tests.conftest import SAMPLES
@@ -40,7 +40,7 @@ def test_all_that_is_needed_works_here(run: Run, tmp_path: Path) -> None:
     needed = {"subt-check", "Python", "libraries", "cache", "self-test"}
     assert {said[each] for each in needed} == {"ok"}
     assert {said["pictures"], said["3D"]} <= {"ok", "note"}
-    lines = re.findall(r"(?m)^(?:ok      |note    )walls: .*\b(\w+)(?: in part)? \(", done.stdout)
+    lines = re.findall(r"(?m)^(?:ok      |note    )sandbox: .*\b(\w+)(?: in part)? \(", done.stdout)
     assert tuple(lines) == ALL
     assert f"cache {tmp_path}/cache: 0 entries" in done.stdout
     assert f"Python {platform.python_version()} ({sys.executable})" in done.stdout
@@ -59,21 +59,24 @@ def test_a_cache_that_cannot_be_written_is_a_note(
 @pytest.mark.parametrize(
     ("layer", "line"),
     [
-        (Layer("landlock", True, "version 7", hides=True), "ok      walls: landlock (version 7)"),
-        (Layer("seccomp", True, "7 calls"), "ok      walls: seccomp (7 calls)"),
-        (Layer("seccomp", False, "none"), "note    walls: no seccomp (none); use Linux on x86-64"),
+        (Layer("landlock", True, "version 7", hides=True), "ok      sandbox: landlock (version 7)"),
+        (Layer("seccomp", True, "7 calls"), "ok      sandbox: seccomp (7 calls)"),
+        (
+            Layer("seccomp", False, "none"),
+            "note    sandbox: no seccomp (none); use Linux on x86-64",
+        ),
         (
             Layer("landlock", False, "the kernel has no Landlock"),
-            "note    walls: no landlock (the kernel has no Landlock); use Linux 5.13 or newer",
+            "note    sandbox: no landlock (the kernel has no Landlock); use Linux 5.13 or newer",
         ),
         (
             Layer("account", False, "it is not started by root"),
-            "note    walls: no account (it is not started by root); a service that root starts",
+            "note    sandbox: no account (it is not started by root); a service that root starts",
         ),
     ],
 )
-def test_a_wall_that_is_missing_is_a_note_that_says_how_to_get_it(layer: Layer, line: str) -> None:
-    assert str(wall(layer)).startswith(line)
+def test_a_layer_that_is_missing_is_a_note_that_says_how_to_get_it(layer: Layer, line: str) -> None:
+    assert str(result(layer)).startswith(line)
 
 
 @pytest.mark.parametrize(
@@ -83,17 +86,17 @@ def test_a_wall_that_is_missing_is_a_note_that_says_how_to_get_it(layer: Layer, 
 def test_namespaces_without_bubblewrap_hold_in_part(
     place: str | None, advice: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(of_walls.shutil, "which", lambda _: place)
-    monkeypatch.setattr(of_walls, "bubblewrap", lambda: "bubblewrap fails: no rights")
-    said = str(wall(Layer("namespaces", True, "no network")))
-    assert said.startswith(f"note    walls: namespaces in part (no network){advice}")
-    said = str(wall(Layer("namespaces", False, "not allowed")))
-    assert said.startswith(f"note    walls: no namespaces (not allowed){advice}")
+    monkeypatch.setattr(of_sandbox.shutil, "which", lambda _: place)
+    monkeypatch.setattr(of_sandbox, "bubblewrap", lambda: "bubblewrap fails: no rights")
+    said = str(result(Layer("namespaces", True, "no network")))
+    assert said.startswith(f"note    sandbox: namespaces in part (no network){advice}")
+    said = str(result(Layer("namespaces", False, "not allowed")))
+    assert said.startswith(f"note    sandbox: no namespaces (not allowed){advice}")
 
 
-def test_walls_that_nothing_keeps_are_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(of_walls.OwnLauncher, "layers", ())
-    assert [each.state for each in walls()] == [State.PROBLEM]
+def test_a_sandbox_that_nothing_keeps_is_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(of_sandbox.OwnLauncher, "layers", ())
+    assert [each.state for each in sandbox()] == [State.PROBLEM]
 
 
 def test_a_missing_library_is_a_problem(run: Run, tmp_path: Path) -> None:

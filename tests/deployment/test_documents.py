@@ -18,7 +18,7 @@ from tests.deployment.image import ROOT
 SERVICE = (ROOT / "docs/service.md").read_text("utf-8")
 SECURITY = (ROOT / "docs/security.md").read_text("utf-8")
 EVALUATED = SECURITY.partition("## Where a stranger's text is evaluated")[2].partition("\n## ")[0]
-WALLS = SECURITY.partition("## Walls around what reads")[2].partition("\n## ")[0]
+SANDBOX = SECURITY.partition("## The sandbox")[2].partition("\n## ")[0]
 NAMED_TESTS = re.findall(r"`(tests/[\w/.]+)::(\w+)`", SECURITY)
 
 
@@ -44,13 +44,13 @@ def test_every_test_that_is_named_exists(file: str) -> None:
 
 
 def test_every_threat_has_what_holds_it_and_a_test() -> None:
-    threats = rows(SECURITY.replace(EVALUATED, "").replace(WALLS, ""))
+    threats = rows(SECURITY.replace(EVALUATED, "").replace(SANDBOX, ""))
     assert len(threats) > 20
     assert all(len(row) == 3 and row[1] and "::test_" in row[2] for row in threats)
 
 
-def test_every_attempt_is_held_by_some_wall() -> None:
-    attempts = [row for row in rows(WALLS) if len(row) == 5 and row[0] != "attempt"]
+def test_every_attempt_is_held_by_some_layer() -> None:
+    attempts = [row for row in rows(SANDBOX) if len(row) == 5 and row[0] != "attempt"]
     assert len(attempts) > 20
     held_otherwise = attempts.pop()
     assert "the launcher has none" in held_otherwise[1]

@@ -1,4 +1,4 @@
-"""The roll of workers says which walls each of them has."""
+"""The roll of workers says which layers each of them has."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     return fresh_database(request.getfixturevalue("postgres_url"))
 
 
-def test_it_knows_the_walls_of_each_worker(url: str, tmp_path: Path) -> None:
+def test_it_knows_the_sandbox_of_each_worker(url: str, tmp_path: Path) -> None:
     jobs = durable_jobs(url, Store(tmp_path))
     Roll(jobs.engine, LAYERS).beat("walled")
     Roll(jobs.engine).beat("bare")
@@ -38,7 +38,7 @@ def test_it_knows_the_walls_of_each_worker(url: str, tmp_path: Path) -> None:
     jobs.engine.dispose()
 
 
-def test_workers_of_version_0_1_0_go_on_and_say_nothing_of_walls(url: str, tmp_path: Path) -> None:
+def test_workers_of_version_0_1_0_go_on_and_name_no_layers(url: str, tmp_path: Path) -> None:
     engine = open_database(url)
     prepare(engine)
     with engine.begin() as connection:

@@ -1,4 +1,4 @@
-"""What lies outside the walls: laid out by a test, and looked at again after the attempts."""
+"""What lies outside the layers: laid out by a test, and looked at again after the attempts."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MAPPED = (
 
 @dataclass
 class Outside:
-    """All that a process within walls shall not reach.
+    """All that a process in the sandbox shall not reach.
 
     Attributes:
         folder: Closed to other users, as the data of the service are.
@@ -67,7 +67,7 @@ def named(mark: str) -> Iterator[int]:
 def laid_out() -> Iterator[Outside]:
     """Lay all of it out, below a folder that other users reach, and tidy up at the end."""
     with ExitStack() as held:
-        top = Path(tempfile.mkdtemp(prefix="walls-", dir="/tmp"))
+        top = Path(tempfile.mkdtemp(prefix="sandbox-", dir="/tmp"))
         held.callback(shutil.rmtree, top, ignore_errors=True)
         top.chmod(0o755)
         given = _files(top)
@@ -92,7 +92,7 @@ def _victim() -> subprocess.Popen[str]:
 
 def _files(top: Path) -> dict[str, Any]:
     data, mark = top / "data", secrets.token_hex(4)
-    given: dict[str, Any] = {"mark": f"hostile{mark}", "abstract": f"walls-{mark}"}
+    given: dict[str, Any] = {"mark": f"hostile{mark}", "abstract": f"sandbox-{mark}"}
     for name, place in (
         ("database", data / "jobs.sqlite"),
         ("upload", data / "uploads/ab/abcd"),
@@ -115,8 +115,8 @@ def _files(top: Path) -> dict[str, Any]:
 def _beside(data: Path, mark: str) -> dict[str, str]:
     return {
         "socket": str(data / "socket"),
-        "temporary": f"/tmp/walls-left-{mark}",  # noqa: S108 - where all may write
-        "shared": f"/dev/shm/walls-left-{mark}",  # noqa: S108
+        "temporary": f"/tmp/sandbox-left-{mark}",  # noqa: S108 - where all may write
+        "shared": f"/dev/shm/sandbox-left-{mark}",  # noqa: S108
     }
 
 

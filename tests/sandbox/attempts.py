@@ -3,7 +3,7 @@
 Each attempt is a function that is given what the test has laid out (see `tests.sandbox.assets`).
 It returns a word about what it got, or raises what the system answered. Calls that would harm the
 machine are made with arguments that do nothing; they count as got when the kernel looks at them.
-This module is loaded within the walls as `attempts`; it imports what such a process could have.
+This module is loaded in the sandbox as `attempts`; it imports what such a process could have.
 """
 
 # ruff: noqa: PTH101, PTH104, PTH108, PTH123, PTH208, PTH211, S103
@@ -588,4 +588,4 @@ def outlive(assets: Assets) -> object:
 
 
 if __name__ == "__main__":
-    sys.exit("loaded within the walls")
+    sys.exit("loaded in the sandbox")

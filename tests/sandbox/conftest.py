@@ -1,4 +1,4 @@
-"""What lies outside the walls, and which walls this machine has."""
+"""What lies outside the layers, and which layers this machine has."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def outside(monkeypatch: pytest.MonkeyPatch) -> Iterator[Outside]:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Say which walls this machine has."""
+    """Say which layers this machine has."""
     with closing(OwnLauncher()) as starter:
         said = [f"{each.name} {'' if each.held else 'NOT '}held" for each in starter.layers]
-    terminalreporter.write_line(f"walls of this machine: {', '.join(said)}")
+    terminalreporter.write_line(f"layers of this machine: {', '.join(said)}")

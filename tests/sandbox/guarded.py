@@ -1,7 +1,7 @@
 """Native code behind the filter of calls that xacro's guard puts up, and behind nothing else.
 
-Started as module `guarded`, without walls; the guard's other measures, which hold Python, are left
-out here.
+Started as module `guarded`, without a sandbox; the guard's other measures, which hold Python, are
+left out here.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What a process does that was taken over: started as module `hostile`, with the right of a task.
 
-It makes all the attempts that it is asked for, within the walls that it finds around it.
+It makes all the attempts that it is asked for, in the sandbox that it finds around it.
 """
 
 from __future__ import annotations

@@ -36,8 +36,8 @@ def test_the_matrix(user: tuple[str, ...]) -> None:
             pytest.skip(f"{program} is not installed")
     if not command:
         pytest.skip("root's Python is open to all users: the tests beside this one have shown it")
-    # The walls of one kind of process are enough to show whether they stand for this user.
-    tests = [f"tests/sandbox/test_walls.py::{name}" for name in ("test_a_layer_alone", _ALL)]
+    # The layers of one kind of process are enough to show whether they stand for this user.
+    tests = [f"tests/sandbox/test_layers.py::{name}" for name in ("test_a_layer_alone", _ALL)]
     done = subprocess.run(
         [
             *command,

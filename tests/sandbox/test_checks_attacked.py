@@ -1,6 +1,6 @@
 """What checks uploads is taken over: the worker reads, keeps and serves nothing that it should not.
 
-The process that checks runs `hostile_checker` in place of our own module, within the walls that
+The process that checks runs `hostile_checker` in place of our own module, in the sandbox that
 the service puts up, or one of them alone.
 """
 
@@ -23,7 +23,7 @@ from checker.sandbox import layers, namespaces
 from checker.sandbox.launcher import OwnLauncher
 from checker.store.store import SUMMARY, Store
 from tests.sandbox.assets import SECRET, Outside
-from tests.sandbox.test_walls import MATRIX, ONLY_FOR_ROOT, claimed
+from tests.sandbox.test_layers import MATRIX, ONLY_FOR_ROOT, claimed
 
 GOOD = b"<sdf version='1.6'><model name='good'/></sdf>"
 OTHERS_KEY = "ab" * 32
@@ -100,10 +100,10 @@ def test_native_code_in_the_process_that_checks(
     names: tuple[str, ...], store: Store, outside: Outside, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     held: list[str] = []
-    walls = partial(OwnLauncher, names=names)
+    sandbox = partial(OwnLauncher, names=names)
 
     def started(*arguments: Any, **options: Any) -> OwnLauncher:
-        launcher = walls(*arguments, **options)
+        launcher = sandbox(*arguments, **options)
         held.extend(each.name for each in launcher.layers if each.held)
         lacking.extend(f"{each.name}: {each.words}" for each in launcher.layers if not each.held)
         return launcher

@@ -1,4 +1,4 @@
-"""A process within the walls attacks the launcher, by which it may ask for others."""
+"""A process in the sandbox attacks the launcher, by which it may ask for others."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from checker.sandbox import launcher, layers, namespaces
 from checker.sandbox.launcher import OwnLauncher
 from tests.sandbox.assets import Outside
 from tests.sandbox.attempts import ATTEMPTS
-from tests.sandbox.test_walls import need
+from tests.sandbox.test_layers import need
 
 DEEDS = ("full_pipe", "nonsense", "no_descriptors", "stopped", "greedy_orders")
 NO_OPENING = {"become_root", "dump_core", "many_processes", "outlive", "raise_limits"}

@@ -1,4 +1,4 @@
-"""`subt-check` where no wall hides files: `python tests/serving/bare_machine.py serve`.
+"""`subt-check` where no layer hides files: `python tests/serving/bare_machine.py serve`.
 
 There is no bubblewrap, and the kernel refuses namespaces, Landlock and other users.
 """
@@ -18,7 +18,7 @@ _SETGROUPS = {"x86_64": 116, "aarch64": 159}
 
 
 def tear_down() -> None:
-    """Have the kernel refuse, to this process and all that it starts, what walls are made of."""
+    """Have the kernel refuse, to this process and all that it starts, what sandbox are made of."""
     machine = architecture()
     assert machine is not None
     steps = [(seccomp._LOAD, 0, 0, seccomp._NUMBER)]

@@ -138,7 +138,7 @@ ESCAPES = {
 
 
 @pytest.mark.parametrize("way", ESCAPES)
-def test_behind_the_wall_nothing_opens(way: str) -> None:
+def test_behind_the_guard_nothing_opens(way: str) -> None:
     def work() -> bytes:
         guard.put_up()
         try:

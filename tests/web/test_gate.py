@@ -254,7 +254,7 @@ def test_the_environment_says_what_is_allowed() -> None:
             "SUBT_CHECK_UPLOAD_LIMIT": "5000",
             "SUBT_CHECK_RETENTION_DAYS": "",
             "SUBT_CHECK_PUBLIC": "yes",
-            "SUBT_CHECK_WITHOUT_WALLS": "1",
+            "SUBT_CHECK_WITHOUT_SANDBOX": "1",
             "SUBT_CHECK_UPLOADS_PER_MINUTE": "0",
             "SUBT_CHECK_BASE_URL": "https://check.example/",
         }
@@ -262,7 +262,7 @@ def test_the_environment_says_what_is_allowed() -> None:
     assert config.tokens == ("one", "two")
     assert (config.upload_limit, config.retention_days) == (5_000, 30)
     assert config.public
-    assert config.without_walls
+    assert config.without_sandbox
     assert config.uploads_per_minute == 0
     assert config.base_url == "https://check.example"
     assert config_from({}) == Config()

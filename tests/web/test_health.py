@@ -79,27 +79,27 @@ MIXED = Alive({"one": 3.0, "two": 3.0}, {}, 0, {"one": WALLED, "two": BARE})
     [
         (MIXED, {"public": True}, 503),
         (MIXED, {"tokens": ("s3cret",)}, 503),
-        (MIXED, {"public": True, "without_walls": True}, 200),
+        (MIXED, {"public": True, "without_sandbox": True}, 200),
         (MIXED, {}, 200),
         (Alive({"one": 3.0, "two": 61.0}, {}, 0, MIXED.layers), {"public": True}, 200),
         (Alive({"old": 3.0}, {}, 0), {"public": True}, 503),
     ],
 )
-def test_it_is_not_ready_for_others_with_a_worker_without_walls(
+def test_it_is_not_ready_for_others_with_a_worker_without_sandbox(
     tmp_path: Path, told: Alive, allowed: dict[str, object], status: int
 ) -> None:
     answer = client_for(tmp_path, Engine(told=told), **allowed).get("/readyz")
     assert answer.status_code == status
-    assert ("no wall that hides files" in answer.text) == (status == 503)
+    assert ("no layer that hides files" in answer.text) == (status == 503)
 
 
-def test_walls_are_named_to_this_machine_and_to_tokens(tmp_path: Path) -> None:
-    config = Config(tokens=("s3cret",), without_walls=True, upload_limit=1_000)
+def test_sandbox_are_named_to_this_machine_and_to_tokens(tmp_path: Path) -> None:
+    config = Config(tokens=("s3cret",), without_sandbox=True, upload_limit=1_000)
     app = create_app(Engine(told=MIXED), Store(tmp_path), config)
     here = TestClient(app, base_url="http://localhost", client=("127.0.0.1", 5_000))
     there = TestClient(app, base_url="http://localhost", client=("192.0.2.1", 5_000))
-    walls = {"one": ["landlock", "seccomp"], "two": ["namespaces", "seccomp"]}
-    told = {"status": "ok", "walls": walls}
+    sandbox = {"one": ["landlock", "seccomp"], "two": ["namespaces", "seccomp"]}
+    told = {"status": "ok", "sandbox": sandbox}
     assert here.get("/readyz").json() == told
     assert here.get("/readyz", headers={"X-Forwarded-For": "::1"}).json() == {"status": "ok"}
     assert there.get("/readyz").json() == {"status": "ok"}

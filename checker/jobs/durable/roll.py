@@ -19,7 +19,7 @@ class Roll:
 
     Attributes:
         engine: Of the database.
-        layers: Of the walls around what is checked here, for who shows a sign of life.
+        layers: Of the sandbox in which this worker checks.
     """
 
     engine: sa.Engine

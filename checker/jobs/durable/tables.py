@@ -48,7 +48,7 @@ WORKERS = sa.Table(
     sa.Column("beat", sa.Double, nullable=False),
     sa.Column("layers", sa.JSON),
 )
-"""The last sign of life of each worker, by the clock of the database, and the layers of its walls;
+"""The last sign of life of each worker, by the clock of the database, and layers of its sandbox;
 version 0.1.0 knows none."""
 
 

@@ -23,7 +23,7 @@ from checker.jobs.durable.roll import Roll
 from checker.jobs.durable.stages import Stages
 from checker.jobs.durable.watchdog import Watchdog
 from checker.jobs.port import SILENCE_SECONDS, JobsUnreachable
-from checker.jobs.walls import layers_of_checks
+from checker.jobs.sandbox import layers_of_checks
 from checker.recall import program_parts
 from checker.record import record
 from checker.sandbox.layers import Layer, hides_files
@@ -108,9 +108,9 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
 
 def _tell_of(layers: Sequence[Layer]) -> None:
     said = ", ".join(f"{each.name} ({each.words})" for each in layers if each.held)
-    _LOG.info("walls around what is checked: %s", said or "none")
+    _LOG.info("layers of the sandbox: %s", said or "none")
     if not hides_files(layers):
-        _LOG.warning("no wall hides files: what takes over a check reads all that this user can")
+        _LOG.warning("no layer hides files: what takes over a check reads all that this user can")
 
 
 def work(options: WorkerOptions) -> None:

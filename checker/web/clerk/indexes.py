@@ -61,7 +61,7 @@ class _Reader:
     def stop(self) -> None:
         """End it."""
         self._wire.close()
-        for descriptor in (self._started.leash, self._started.code):
+        for descriptor in (self._started.input, self._started.code):
             os.close(descriptor)
 
 

@@ -1,4 +1,4 @@
-"""Which walls hold around the processes that check uploads on this machine."""
+"""Which layers hold around the processes that check uploads on this machine."""
 
 from __future__ import annotations
 

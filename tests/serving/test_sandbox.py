@@ -1,4 +1,4 @@
-"""Uploads of others are read within walls that hide files, or somebody takes the risk aloud."""
+"""Uploads of others are read in the sandbox that hide files, or somebody takes the risk aloud."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from checker.errors import CheckerError
-from checker.jobs.walls import layers_of_checks
+from checker.jobs.sandbox import layers_of_checks
 from checker.sandbox.layers import ACCOUNT, ALL, LANDLOCK, NAMESPACES, SECCOMP, Layer, hides_files
 from checker.serving.exposure import risk_of
 from checker.store.store import Store
@@ -44,11 +44,11 @@ TOKENS = {"SUBT_CHECK_TOKENS": "s3cret"}
         ((Layer(NAMESPACES, True, "bubblewrap", hides=True),), True),
     ],
 )
-def test_one_wall_that_hides_files_is_enough(layers: tuple[Layer, ...], hidden: bool) -> None:
+def test_one_layer_that_hides_files_is_enough(layers: tuple[Layer, ...], hidden: bool) -> None:
     assert hides_files(layers) is hidden
 
 
-def test_walls_of_this_machine_are_those_of_its_checks(tmp_path: Path) -> None:
+def test_sandbox_of_this_machine_are_those_of_its_checks(tmp_path: Path) -> None:
     layers = layers_of_checks(Store(tmp_path / "data"))
     assert tuple(each.name for each in layers) == ALL
     assert hides_files(layers) == any(
@@ -59,13 +59,13 @@ def test_walls_of_this_machine_are_those_of_its_checks(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("who", [OPEN, TOKENS])
-def test_without_walls_others_are_not_let_in(who: dict[str, str]) -> None:
+def test_without_sandbox_others_are_not_let_in(who: dict[str, str]) -> None:
     with pytest.raises(CheckerError) as refusal:
         risk_of(who, lambda: NONE)
     said = str(refusal.value)
     assert "namespaces: no network; account: it is not started by root; landlock: the ker" in said
     assert "install bubblewrap" in said
-    assert "--without-walls" in said
+    assert "--without-sandbox" in said
     assert len(said) < 900
     with pytest.raises(CheckerError, match="process that keeps them ends at once"):
         risk_of(who, lambda: ())
@@ -73,10 +73,10 @@ def test_without_walls_others_are_not_let_in(who: dict[str, str]) -> None:
 
 @pytest.mark.parametrize("who", [OPEN, TOKENS])
 def test_the_risk_is_taken_aloud(who: dict[str, str]) -> None:
-    taken = who | {"SUBT_CHECK_WITHOUT_WALLS": "1"}
+    taken = who | {"SUBT_CHECK_WITHOUT_SANDBOX": "1"}
     assert "reads all that this user can, uploads of others too" in risk_of(taken, lambda: NONE)
-    walls = (*NONE, Layer(LANDLOCK, True, "version 1", hides=True))
-    assert risk_of(taken, lambda: walls) == risk_of(who, lambda: walls) == ""
+    sandbox = (*NONE, Layer(LANDLOCK, True, "version 1", hides=True))
+    assert risk_of(taken, lambda: sandbox) == risk_of(who, lambda: sandbox) == ""
 
 
 def test_of_this_machine_alone_nothing_is_asked() -> None:
@@ -87,32 +87,32 @@ def test_of_this_machine_alone_nothing_is_asked() -> None:
 
 
 @linux
-def test_a_machine_without_walls_serves_others_only_on_purpose(serve: Serve) -> None:
+def test_a_machine_without_sandbox_serves_others_only_on_purpose(serve: Serve) -> None:
     serving = serve("--public", program=BARE)
-    refused(serving, "no wall hides files from what others upload (namespaces: ")
+    refused(serving, "no layer hides files from what others upload (namespaces: ")
     assert "landlock: the kernel has no Landlock" in serving.told
-    serving = serve("--public", "--without-walls", "--workers", 1, program=BARE)
+    serving = serve("--public", "--without-sandbox", "--workers", 1, program=BARE)
     url = serving.url
-    assert "uploads of others too (--without-walls)\n" in serving.told
+    assert "uploads of others too (--without-sandbox)\n" in serving.told
     wait_for(lambda: get(url, "/readyz")[0] == 200)
-    (walls,) = json.loads(get(url, "/readyz")[1])["walls"].values()
-    assert walls == [SECCOMP]
+    (sandbox,) = json.loads(get(url, "/readyz")[1])["sandbox"].values()
+    assert sandbox == [SECCOMP]
     assert "what takes over a check reads all that this user can" in serving.told
     assert serving.stop() == 0
 
 
 @linux
-def test_a_machine_without_walls_serves_itself_and_workers_elsewhere(serve: Serve) -> None:
+def test_a_machine_without_sandbox_serves_itself_and_workers_elsewhere(serve: Serve) -> None:
     serving = serve("--workers", 1, program=BARE)
     wait_for(lambda: get(serving.url, "/readyz")[0] == 200)
-    assert "--without-walls" not in serving.told
+    assert "--without-sandbox" not in serving.told
     elsewhere = serve("--public", "--workers", 0, program=BARE)
     assert urlsplit(elsewhere.url).port
-    assert "--without-walls" not in elsewhere.told
+    assert "--without-sandbox" not in elsewhere.told
 
 
-def test_a_worker_says_its_walls_in_one_line(serve: Serve) -> None:
+def test_a_worker_says_its_sandbox_in_one_line(serve: Serve) -> None:
     serving = serve("--workers", 1)
     wait_for(lambda: "waits for checks" in serving.told)
-    (line,) = (each for each in serving.told.splitlines() if "walls around what is che" in each)
+    (line,) = (each for each in serving.told.splitlines() if "layers of the sandbox: " in each)
     assert " INFO " in line

@@ -1,4 +1,4 @@
-"""Looks at the walls around processes that read what others have made; see `checker.sandbox`."""
+"""Looks at the sandbox of processes that read what others have made; see `checker.sandbox`."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ _ADVICE = {
 }
 
 
-def walls() -> Iterator[Result]:
-    """Yield each wall, whether it holds on this machine, and how to get it."""
+def sandbox() -> Iterator[Result]:
+    """Yield each layer, whether it holds on this machine, and how to get it."""
     with closing(OwnLauncher()) as starter:
         layers = starter.layers
     if not layers:
-        yield Result(State.PROBLEM, "walls: the process that keeps them ends", INSTALL_AGAIN)
-    yield from map(wall, layers)
+        yield Result(State.PROBLEM, "sandbox: its first process ends at once", INSTALL_AGAIN)
+    yield from map(result, layers)
 
 
-def wall(layer: Layer) -> Result:
+def result(layer: Layer) -> Result:
     """Return what is to be said of one of them."""
     words = plain(shortened(layer.words, 200))
     if layer.held and (layer.hides or layer.name == SECCOMP):
-        return Result(State.OK, f"walls: {layer.name} ({words})")
+        return Result(State.OK, f"sandbox: {layer.name} ({words})")
     part = f"{layer.name} in part" if layer.held else f"no {layer.name}"
     advice = _namespaces_advice() if layer.name == NAMESPACES else _ADVICE[layer.name]
-    return Result(State.NOTE, f"walls: {part} ({words})", advice)
+    return Result(State.NOTE, f"sandbox: {part} ({words})", advice)
 
 
 def _namespaces_advice() -> str:

@@ -1,4 +1,4 @@
-"""Which layer of the walls holds which attempt of native code: each alone, and all together."""
+"""Which layer of the layers holds which attempt of native code: each alone, and all together."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ MATRIX = {
 N: namespaces, however they are made. B: those that bubblewrap makes. A: an account of its own,
 which a process that root starts is given. L: Landlock; 4 and 6: from these versions on. S: the
 filter of system calls; s: for processes that do not work in a folder. *: the launcher, without any
-wall.
+layer.
 """
 LETTERS = {
     layers.NAMESPACES: "N",
@@ -215,7 +215,7 @@ def test_all_layers_that_there_are(kind: str, outside: Outside) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_without_walls_the_attempts_are_real(kind: str, outside: Outside) -> None:
+def test_without_sandbox_the_attempts_are_real(kind: str, outside: Outside) -> None:
     """Where nothing is held, nearly all of them get what they want: a test of the test."""
     attacked = attack(outside, (), kind)
     missing = {*MATRIX} - COSTLY - {*got_in(attacked, {*MATRIX} - COSTLY)}
