@@ -10,6 +10,7 @@ import json
 import logging
 import secrets
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import asdict
 from itertools import chain
 from pathlib import Path
@@ -48,6 +49,8 @@ UPLOAD_LIMIT = 2_000_000_000
 """Bytes of an upload that is read here; the service takes no larger ones."""
 _FILES_LIMIT = 50_000
 """Of a result and of what was worked out for it: what has no content takes room on a disk, too."""
+_PARTS_LIMIT = 10_000
+"""Of one upload, by all of its checks."""
 _LOG = logging.getLogger(__name__)
 
 
@@ -94,11 +97,12 @@ def _checked(
         "stage": stage,
         "limits": asdict(limits),
     }
-    contents = chain(
-        ((UPLOAD, read_bytes(upload, order.name, UPLOAD_LIMIT)),),
-        _known_parts(store, order.upload),
-    )
     let_pass(store, cancelled)
+    content = read_bytes(upload, order.name, UPLOAD_LIMIT)
+    if isinstance(content, NotReadable):
+        _LOG.error("an upload %s", content.reason)
+        return Died(FAILED_INSIDE)
+    contents = chain(((UPLOAD, content),), _known_parts(store, order.upload))
     with children.checked(
         json.dumps(request).encode(), contents, limits.seconds, cancelled
     ) as ended:
@@ -145,7 +149,9 @@ def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome
         except ValueError as error:
             _LOG.error("the child made what is no result: %s", plain(str(error)))
             return Died(f"{UNFINISHED}: its report is too large or damaged")
-        _keep_parts(store, order.upload, ended.files, place / "part")
+        # Without them, the next check takes longer.
+        with suppress(OSError):
+            _keep_parts(store, order.upload, ended.files, place / "part")
     return checked
 
 
@@ -184,8 +190,10 @@ def _known_parts(store: Store, upload: str) -> Iterator[tuple[str, Content]]:
 def _keep_parts(store: Store, upload: str, files: Files, work: Path) -> None:
     """Keep what a check has worked out, for later checks of the same upload alone."""
     folder = store.parts(upload)
+    kept = 0 if folder is None else sum(1 for _ in folder.rglob("*.json"))
     for name in filter(is_part, files.names):
-        if folder is not None:
+        kept += 1
+        if folder is not None and kept < _PARTS_LIMIT:
             make_folder((folder / name).parent)
             with work.open("wb") as file:
                 files.copy(name, file)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import closing
+from dataclasses import replace
 
 from checker.sandbox.launcher import OwnLauncher
-from checker.sandbox.layers import Layer
+from checker.sandbox.layers import ACCOUNT, Layer
+from checker.sandbox.program_files import program_paths
 from checker.store.store import Store
 
 
@@ -20,4 +22,14 @@ def layers_of_checks(store: Store) -> Sequence[Layer]:
         store.workplace() as folder,
         closing(OwnLauncher(folder)) as starter,
     ):
-        return starter.layers
+        return [_of_store(layer, store) for layer in starter.layers]
+
+
+def _of_store(layer: Layer, store: Store) -> Layer:
+    """Return a layer, which hides nothing where the data lies among the files of the program."""
+    folder = store.folder.resolve()
+    within = next((path for path in program_paths() if folder.is_relative_to(path)), None)
+    if within is None or layer.name == ACCOUNT:
+        return layer
+    words = f"{layer.words}; but the data lies in {within}, which the program needs"
+    return replace(layer, words=words, hides=False) if layer.hides else layer

@@ -1,4 +1,4 @@
-"""Reads the indexes of archives that strangers send: a process in the sandbox.
+"""Reads the index of an archive that a stranger sends: a process in the sandbox.
 
 On its socket comes the name of an archive, one JSON object a message, with a descriptor of the
 file; it answers in a line whether the archive can be unpacked, and opens nothing itself.
@@ -19,7 +19,7 @@ MESSAGE_LIMIT = 4_096
 
 
 def serve(wire: socket.socket) -> None:
-    """Answer until the socket closes."""
+    """Answer until the socket closes: who asks does so once."""
     while True:
         message, descriptors, _, _ = socket.recv_fds(wire, MESSAGE_LIMIT, 1)
         if not message:

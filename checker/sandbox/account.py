@@ -51,10 +51,10 @@ def become(account: int, needed: Iterable[str], folder: str = "") -> None:
     except OSError as error:
         raise NotHeld(f"the system lets it become no other user ({error.strerror})") from None
     finally:
-        _give_up_rights()
+        give_up_rights()
 
 
-def _give_up_rights() -> None:
+def give_up_rights() -> None:
     """Give up what root may do and others may not (capabilities(7))."""
     libc = ctypes.CDLL(None, use_errno=True)
     if hasattr(libc, "capset"):

@@ -28,7 +28,7 @@ from checker.sandbox.program_files import program_paths
 from checker.sandbox.task import DEBUG
 
 _HELLO_LIMIT = 10_000
-_ENDS_SECONDS = 10.0
+_HELLO_SECONDS, _ENDS_SECONDS = 30.0, 10.0
 _PASSED_ON = ("LANG", "LD_LIBRARY_PATH", "PATH", "TZ", DEBUG)
 _FAMILIES = ("EGL_", "GALLIUM_", "LC_", "LIBGL_", "LP_", "MESA_", "PYTHON", "__EGL_")
 _OWN_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -117,6 +117,7 @@ class OwnLauncher(Launcher):
         work: Path | None = None,
         names: Sequence[str] = layers.ALL,
         niceness: int = 0,
+        loaded: str = "",
     ) -> None:
         """Start the process; it enters its sandbox while the caller goes on.
 
@@ -125,6 +126,7 @@ class OwnLauncher(Launcher):
                 of the account that its processes get.
             names: Layers, of `layers.ALL`; others than all are for tests of each alone.
             niceness: By how much its processes stand back behind others, as `nice` counts it.
+            loaded: Module that all of its processes need; it is loaded once for all.
         """
         wrapped = layers.NAMESPACES in names and not namespaces.bubblewrap()
         sandbox = Sandbox(
@@ -132,11 +134,12 @@ class OwnLauncher(Launcher):
             wrapped,
             free_account(),
             "" if work is None else namespaces.WORK if wrapped else str(work),
+            tuple(program_paths()),
         )
         ours, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(  # noqa: S603 - our own interpreter and module
-                _command(sandbox, niceness, theirs.fileno(), "" if work is None else str(work)),
+                _command(sandbox, (str(niceness), loaded), theirs.fileno(), work),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=None if os.environ.get(DEBUG) else subprocess.DEVNULL,
@@ -157,11 +160,17 @@ class OwnLauncher(Launcher):
     def layers(self) -> tuple[Layer, ...]:
         """Which layers hold; the first call waits for them. None where its process has died."""
         said = b""
-        while not said.endswith(b"\n"):
-            piece = self._control.recv(_HELLO_LIMIT)
-            if not piece:
-                return ()
-            said += piece
+        self._control.settimeout(_HELLO_SECONDS)
+        try:
+            while not said.endswith(b"\n"):
+                piece = self._control.recv(_HELLO_LIMIT)
+                if not piece:
+                    return ()
+                said += piece
+        except TimeoutError:
+            return ()
+        finally:
+            self._control.settimeout(None)
         return tuple(Layer(*each) for each in json.loads(said))
 
     def close(self) -> None:
@@ -204,18 +213,23 @@ def _launchers(_: int) -> list[Launcher]:
     return []
 
 
-def _command(sandbox: Sandbox, niceness: int, control: int, work: str) -> list[str]:
+def _command(
+    sandbox: Sandbox, given: tuple[str, str], control: int, work: Path | None
+) -> list[str]:
     # `-P` keeps the folder that it runs in out of the search for modules.
     module = "checker.sandbox.launcher_process"
-    given = (str(control), str(niceness), json.dumps(asdict(sandbox)))
-    own = [sys.executable, "-P", "-m", module, *given]
-    return namespaces.wrapped(own, program_paths(), work) if sandbox.wrapped else own
+    arguments = (str(control), json.dumps(asdict(sandbox)), *given)
+    own = [sys.executable, "-P", "-m", module, *arguments]
+    folder = "" if work is None else str(work)
+    return namespaces.wrapped(own, sandbox.read, folder) if sandbox.wrapped else own
 
 
 def module_path() -> str:
     """Return the `PYTHONPATH` by which a process finds the same modules, wherever it runs."""
     here = str(Path(__file__).parents[2])
-    return os.pathsep.join(filter(None, (here, os.environ.get("PYTHONPATH"))))
+    others = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    # What is relative would mean another folder there.
+    return os.pathsep.join((here, *filter(os.path.isabs, others)))
 
 
 def _environment(work: str) -> dict[str, str]:

@@ -3,7 +3,7 @@
 It is started with nothing of its parent's but a socket, enters its sandbox, and reads
 nobody's files. Each process that it starts runs one function of one module in the sandbox.
 
-On the socket comes one JSON object a line (`Start` in `checker.sandbox.launcher`), with the
+On the socket comes one JSON object a message (`Order` in `checker.sandbox.launcher`), with the
 descriptors of the new process: its input, the file of its request, that of its answer, and a pipe
 for its exit code. Who lets go of the other end of the input has the process killed. When the
 socket closes, all of them end.
@@ -20,15 +20,18 @@ import socket
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from checker.sandbox.layers import ACCOUNT, Layer, Sandbox, enter
+from checker.sandbox.orphans import Orphans
 from checker.sandbox.task import run
 
 MESSAGE_LIMIT = 4096
 """Bytes of one message."""
 DESCRIPTORS = 4
+_MOST_DESCRIPTORS = 1_048_576
 """That come with the order to start a process."""
 _GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
 _TELL_SECONDS = 0.5
@@ -61,6 +64,7 @@ class LauncherProcess:
         signal.signal(signal.SIGCHLD, lambda *_: None)
         signal.signal(signal.SIGALRM, _give_up)
         signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
+        self._orphans = Orphans()
         layers = enter(sandbox)
         _limit_processes(layers, sandbox)
         said = json.dumps([[each.name, each.held, each.words, each.hides] for each in layers])
@@ -76,6 +80,7 @@ class LauncherProcess:
                     self._reap()
                 elif descriptor in self._controls:
                     if not self._heed(self._controls[descriptor]) and descriptor == self._outer:
+                        self._orphans.end(())
                         return
                 elif event & _GONE:
                     self._kill(descriptor)
@@ -87,8 +92,10 @@ class LauncherProcess:
         except ConnectionError:  # closed before all that was said to it was read
             message, descriptors = b"", []
         if message and len(descriptors) == DESCRIPTORS:
-            self._start(json.loads(message), descriptors)
-            return True
+            # What asks may have been taken over, and the system may have no room for a process.
+            with suppress(OSError, ValueError, TypeError):
+                self._start(json.loads(message), descriptors)
+                return True
         for descriptor in descriptors:
             os.close(descriptor)
         if not message:
@@ -97,6 +104,7 @@ class LauncherProcess:
         return bool(message)
 
     def _start(self, order: dict[str, Any], descriptors: Sequence[int]) -> None:
+        """Start a process; where this fails, nobody has taken the descriptors."""
         input, request, answer, code = descriptors
         id = os.fork()
         if id == 0:
@@ -122,23 +130,10 @@ class LauncherProcess:
         with suppress(BlockingIOError):
             os.read(self._woken, MESSAGE_LIMIT)
         for process in [*self._processes.values()]:
-            if _has_ended(process.id):
-                # What it has started, and left, goes as well: until it is waited for, nobody else
-                # can get the number of its group.
-                with suppress(OSError):
-                    os.killpg(process.id, signal.SIGKILL)
-                _, status = os.waitpid(process.id, 0)
-                self._forget(process, os.waitstatus_to_exitcode(status))
-        if os.getpid() == 1:
-            self._bury()
-
-    def _bury(self) -> None:
-        """Wait for what processes have left behind, which the first of all processes inherits."""
-        with suppress(ChildProcessError):
-            while found := os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT):
-                if found.si_pid in self._processes:  # it has ended just now: its turn comes
-                    return
-                os.waitpid(found.si_pid, 0)
+            code = _code_of(process.id)
+            if code is not None:
+                self._forget(process, code)
+        self._orphans.end(self._processes)
 
     def _forget(self, process: _Process, code: int) -> None:
         del self._processes[process.id]
@@ -150,7 +145,8 @@ class LauncherProcess:
 
     def _kill(self, input: int) -> None:
         """End the process on whose input nobody is any more."""
-        self._poll.unregister(input)
+        with suppress(KeyError):  # it has ended by itself at the same moment
+            self._poll.unregister(input)
         for process in self._processes.values():
             if process.input == input:
                 for end in (os.killpg, os.kill):
@@ -172,10 +168,16 @@ def _give_up(*_: object) -> None:
     raise TimeoutError
 
 
-def _has_ended(id: int) -> bool:
-    if not hasattr(os, "waitid"):  # macOS, before Python 3.13
-        return True
-    return os.waitid(os.P_PID, id, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
+def _code_of(id: int) -> int | None:
+    """Return the exit code of a process that has ended, and end what it has left in its group."""
+    if hasattr(os, "waitid"):  # not on macOS before Python 3.13
+        if os.waitid(os.P_PID, id, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
+            return None
+        # Until it is waited for, nobody else can get the number of its group.
+        with suppress(OSError):
+            os.killpg(id, signal.SIGKILL)
+    ended, status = os.waitpid(id, os.WNOHANG)
+    return os.waitstatus_to_exitcode(status) if ended else None
 
 
 def _close_all_but(kept: set[int]) -> None:
@@ -184,7 +186,7 @@ def _close_all_but(kept: set[int]) -> None:
     for descriptor in sorted(each for each in kept if each > last):
         os.closerange(last + 1, descriptor)
         last = descriptor
-    os.closerange(last + 1, os.sysconf("SC_OPEN_MAX"))
+    os.closerange(last + 1, min(max(os.sysconf("SC_OPEN_MAX"), last + 1), _MOST_DESCRIPTORS))
 
 
 def _limit_processes(layers: Sequence[Layer], sandbox: Sandbox) -> None:
@@ -206,15 +208,17 @@ def _stand_back(niceness: int) -> None:
         Path("/proc/self/autogroup").write_text(str(niceness), encoding="ascii")
 
 
-def main(descriptor: int, niceness: int, sandbox: str) -> None:
+def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
     """Serve on a socket that was inherited."""
     if niceness:
         _stand_back(niceness)
+    if loaded:
+        import_module(loaded)
     with socket.socket(fileno=descriptor) as control:
         LauncherProcess(control, Sandbox(**json.loads(sandbox))).serve()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3])
+    main(int(sys.argv[1]), sys.argv[2], int(sys.argv[3]), sys.argv[4])
     # What is still there ends with this process; nothing is to be tidied up.
     os._exit(0)

@@ -42,12 +42,14 @@ class Sandbox:
         wrapped: Whether bubblewrap has made the namespaces already.
         account: User id to take; 0 to stay the same.
         work: Folder that it may write in; empty for none.
+        read: Files and folders of the program, absolute.
     """
 
     names: tuple[str, ...] = ALL
     wrapped: bool = False
     account: int = 0
     work: str = ""
+    read: tuple[str, ...] = ()
 
 
 def enter(sandbox: Sandbox) -> list[Layer]:
@@ -81,14 +83,14 @@ def _namespaces(sandbox: Sandbox) -> str:
 
 
 def _account(sandbox: Sandbox) -> str:
-    account.become(sandbox.account, program_files.program_paths(), sandbox.work)
+    account.become(sandbox.account, sandbox.read, sandbox.work)
     return f"user {sandbox.account}"
 
 
 def _landlock(sandbox: Sandbox) -> str:
     seccomp.gain_nothing()
     known = landlock.allow_only(
-        read=(*program_files.program_paths(), *program_files.MACHINE),
+        read=(*sandbox.read, *program_files.MACHINE),
         work=filter(None, (sandbox.work,)),
         devices=(*program_files.DEVICES, *program_files.SCREENS),
     )
@@ -123,7 +125,7 @@ def narrow(sandbox: Sandbox, *, works: bool, draws: bool) -> None:
     if LANDLOCK in sandbox.names:
         with suppress(NotHeld):
             landlock.allow_only(
-                (*program_files.program_paths(), *program_files.MACHINE),
+                (*sandbox.read, *program_files.MACHINE),
                 folders,
                 (*program_files.DEVICES, *screens),
             )

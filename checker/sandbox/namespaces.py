@@ -16,12 +16,15 @@ from contextlib import suppress
 from functools import cache as once
 from pathlib import Path
 
+from checker.sandbox.account import give_up_rights
+from checker.sandbox.program_files import program_paths
 from checker.sandbox.seccomp import NotHeld
 
 WORK = "/subt-check-work"
 """Where a process finds the folder that it may write in."""
 _USER, _UTS, _IPC, _NET = 0x10000000, 0x04000000, 0x08000000, 0x40000000
 """Flags of unshare(2): CLONE_NEWUSER and so on."""
+_LINKS = ("/bin", "/lib", "/lib32", "/lib64")
 _TRY_SECONDS = 10
 
 
@@ -35,7 +38,8 @@ def wrapped(command: Sequence[str], read: Iterable[str], work: str = "") -> list
     """
     paths = list(read)
     # Made on the way to a file, they would be closed to all but root.
-    folders = dict.fromkeys(each for path in paths for each in reversed(Path(path).parents))
+    parents = (each for path in paths for each in reversed(Path(path).parents))
+    folders = dict.fromkeys(each for each in parents if str(each) not in _LINKS)
     shown = [word for folder in folders if folder.name for word in ("--dir", str(folder))]
     shown += [word for path in paths for word in _shown(path)]
     place = ("--bind", work, WORK) if work else ("--tmpfs", WORK)
@@ -63,7 +67,7 @@ def _rights() -> tuple[str, ...]:
 
 
 def _shown(path: str) -> tuple[str, ...]:
-    if os.path.islink(path):  # noqa: PTH114 - such as /lib, where it is a part of /usr
+    if path in _LINKS and os.path.islink(path):  # noqa: PTH114 - where they are parts of /usr
         return ("--symlink", os.readlink(path), path)  # noqa: PTH115
     return ("--ro-bind-try", path, path)
 
@@ -73,7 +77,7 @@ def bubblewrap() -> str:
     """Return why bubblewrap is of no use here; empty if it is."""
     if shutil.which("bwrap") is None:
         return "bubblewrap (bwrap) is not installed"
-    command = wrapped(["/usr/bin/true"], ("/usr", "/lib", "/lib64", "/bin"))
+    command = wrapped(["/usr/bin/true"], program_paths())
     try:
         tried = subprocess.run(  # noqa: S603 - a fixed command
             command, capture_output=True, timeout=_TRY_SECONDS, check=False
@@ -116,6 +120,8 @@ def leave_network() -> None:
         # In its own view it would be nobody.
         with suppress(OSError):
             _be_known_as(user, group)
+        # In its own view it would have all rights.
+        give_up_rights()
 
 
 def _be_known_as(user: int, group: int) -> None:

@@ -43,9 +43,11 @@ _CHANGING = (
     *("truncate", "rename", "renameat", "renameat2", "unlink", "unlinkat", "mkdir", "mkdirat"),
     *("rmdir", "chmod", "fchmodat", "fchmodat2", "chown", "lchown", "fchownat", "utime", "utimes"),
     *("futimesat", "utimensat", "setxattr", "lsetxattr", "setxattrat", "removexattr"),
-    *("lremovexattr", "removexattrat", "file_setattr"),
+    *("lremovexattr", "removexattrat", "file_setattr", "fchmod", "fchown", "fsetxattr"),
+    *("fremovexattr",),
 )
-"""Calls that change files by their names; Landlock knows nothing of modes, owners and times."""
+"""Calls that change files by their names, or what is said of them: Landlock knows nothing of modes,
+owners and times."""
 _OWN_PROCESS_ONLY = {
     "prlimit64": 0,
     "sched_setaffinity": 0,
@@ -60,8 +62,9 @@ _NEW_NAMESPACES = 0x7E020080
 _IOCTLS = (0x5412, 0x541C, 0x8901, 0x8902)
 """Requests of ioctl(2) that type into a terminal (TIOCSTI, TIOCLINUX), or have another process
 sent signals (FIOSETOWN, SIOCSPGRP)."""
-_FCNTLS = (8, 15)
-"""Commands of fcntl(2) that have another process sent signals: F_SETOWN, F_SETOWN_EX."""
+_FCNTLS = (8, 15, 1024, 1026)
+"""Commands of fcntl(2) that have another process sent signals, keep others from a file, or watch a
+folder: F_SETOWN, F_SETOWN_EX, F_SETLEASE, F_NOTIFY."""
 
 _LOAD, _EQUAL, _AT_LEAST, _ANY_BIT, _RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 """Operations of a filter: BPF_LD|W|ABS, BPF_JMP|JEQ|K, JGE, JSET, BPF_RET|K."""

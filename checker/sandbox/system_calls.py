@@ -6,6 +6,7 @@ Source: Linux 6.18, arch/x86/entry/syscalls/syscall_64.tbl and include/uapi/asm-
 from __future__ import annotations
 
 import platform
+import sys
 from collections.abc import Mapping
 
 from checker.record import record
@@ -31,6 +32,7 @@ ARCHITECTURES: Mapping[str, Architecture] = {
     "aarch64": Architecture(0xC00000B7, 1),
 }
 _ABSENT = -1
+_32_BITS = 2**32
 
 _COMMON = {
     # From 424 on, numbers are the same everywhere.
@@ -76,7 +78,11 @@ _OWN = {
     "execve": (59, 221),
     "execveat": (322, 281),
     "fanotify_init": (300, 262),
+    "fchmod": (91, 52),
     "fchmodat": (268, 53),
+    "fchown": (93, 55),
+    "fremovexattr": (199, 16),
+    "fsetxattr": (190, 7),
     "fchownat": (260, 54),
     "fcntl": (72, 25),
     "finit_module": (313, 273),
@@ -172,8 +178,8 @@ _OWN = {
 
 
 def architecture() -> Architecture | None:
-    """Return that of this machine; None where its calls are not known."""
-    return ARCHITECTURES.get(platform.machine())
+    """Return that of this process; None where its calls are not known."""
+    return ARCHITECTURES.get(platform.machine()) if sys.maxsize > _32_BITS else None
 
 
 def number_of(name: str, architecture: Architecture) -> int | None:

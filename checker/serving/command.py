@@ -43,7 +43,7 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
     _refuse_without_database()
     environment = _environment(options)
     with listening(options.host, options.port) as bound:
-        for warning in filter(None, _warnings(options, bound, environment, store)):
+        for warning in filter(None, _warnings(bound, environment, store)):
             _say(warning)
         stop, at_once = _signals()
         processes = _processes(options, bound, environment)
@@ -110,9 +110,7 @@ def _environment(options: argparse.Namespace) -> Mapping[str, str]:
     return {**os.environ, "PYTHONPATH": module_path(), **said}
 
 
-def _warnings(
-    options: argparse.Namespace, bound: socket.socket, environment: Mapping[str, str], store: Store
-) -> Iterator[str]:
+def _warnings(bound: socket.socket, environment: Mapping[str, str], store: Store) -> Iterator[str]:
     """Yield what to say aloud of who may upload, and of what that risks.
 
     Raises:
@@ -121,8 +119,8 @@ def _warnings(
     from checker.jobs.sandbox import layers_of_checks
 
     yield warning_of(bound, environment)
-    if options.workers != 0:  # those elsewhere say by themselves which layers they have
-        yield risk_of(environment, lambda: layers_of_checks(store))
+    # Without workers as well: the indexes of archives are read here.
+    yield risk_of(environment, lambda: layers_of_checks(store))
 
 
 def _data_made(options: argparse.Namespace) -> Store:

@@ -25,6 +25,8 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/sandbox/namespaces.py", BYTES): "system calls that enter the sandbox",
     ("checker/sandbox/seccomp.py", BYTES): "system calls that enter the sandbox",
     ("checker/sandbox/task.py", BYTES): "a system call that ends it with its parent",
+    ("checker/sandbox/launcher_process.py", MODULE): "named by who starts it",
+    ("checker/sandbox/orphans.py", BYTES): "a system call that hands orphans over",
     ("checker/sandbox/task.py", MODULE): "named by the parent, before anything is read",
     ("checker/discovery.py", MODULE): "the modules of installed packages of rules",
     ("checker/doctor/importing.py", MODULE): "what our own distribution requires",

@@ -6,7 +6,6 @@ import json
 import platform
 import sys
 from pathlib import Path
-from urllib.parse import urlsplit
 
 import pytest
 
@@ -102,13 +101,10 @@ def test_a_machine_without_sandbox_serves_others_only_on_purpose(serve: Serve) -
 
 
 @linux
-def test_a_machine_without_sandbox_serves_itself_and_workers_elsewhere(serve: Serve) -> None:
+def test_a_machine_without_sandbox_serves_itself(serve: Serve) -> None:
     serving = serve("--workers", 1, program=BARE)
     wait_for(lambda: get(serving.url, "/readyz")[0] == 200)
     assert "--without-sandbox" not in serving.told
-    elsewhere = serve("--public", "--workers", 0, program=BARE)
-    assert urlsplit(elsewhere.url).port
-    assert "--without-sandbox" not in elsewhere.told
 
 
 def test_a_worker_says_its_sandbox_in_one_line(serve: Serve) -> None:

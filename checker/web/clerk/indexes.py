@@ -4,59 +4,67 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import socket
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
-from functools import cached_property
 from pathlib import Path
 from threading import Lock
+from time import monotonic
+from typing import Any
 
 from checker.errors import UnreadableInput
-from checker.package.index_process import MESSAGE_LIMIT
 from checker.package.reading import open_file
-from checker.sandbox.launcher import Launcher, Order, OwnLauncher, Started
+from checker.sandbox.launcher import Launcher, Order, OwnLauncher
 
 _MODULE = "checker.package.index_process"
-_SECONDS, _PROCESSOR_SECONDS = 30.0, 3_600
-"""For one index, by the clock; for a process that reads many, of processor time."""
+_SECONDS, _PROCESSOR_SECONDS = 30.0, 30
+"""For one index."""
 _MEMORY = 500_000_000
 """Bytes of address space."""
 _ANSWER_LIMIT = 10_000
+_WORDS_LIMIT = 1_000
+_WAITING = 4
+"""Processes that wait for an archive, each for one alone."""
 _AGAIN = "upload it again, or with fewer files"
 
 
 class _Reader:
-    """A process that reads one index after the other."""
+    """A process that reads one index."""
 
     def __init__(self, launcher: Launcher) -> None:
         """Start it."""
         self._wire, theirs = socket.socketpair()
-        self._wire.settimeout(_SECONDS)
         order = Order(_MODULE, _PROCESSOR_SECONDS, _MEMORY, serves=True)
         with theirs, theirs.makefile("rb") as request, tempfile.TemporaryFile() as answer:
-            self._started: Started = launcher.start(order, request, answer)
+            self._started = launcher.start(order, request, answer)
 
-    def ask(self, archive: Path, name: str) -> object:
+    def ask(self, archive: Path, name: str) -> Any:
         """Return what it says of an archive.
 
         Raises:
-            OSError: It does not answer, or the archive cannot be opened.
+            OSError: It does not answer in time, or the archive cannot be opened.
             ValueError: It answers with nonsense.
         """
-        with open_file(archive) as file:
+        # A copy, of which nothing leads to what is kept.
+        with open_file(archive) as file, tempfile.TemporaryFile(dir=archive.parent) as copy:
+            shutil.copyfileobj(file, copy)
+            copy.seek(0)
             message = json.dumps({"name": name}).encode()
-            socket.send_fds(self._wire, [message[:MESSAGE_LIMIT]], [file.fileno()])
-        said = b""
+            socket.send_fds(self._wire, [message], [copy.fileno()])
+        try:
+            return json.loads(self._heard())
+        except RecursionError:
+            raise ValueError("no answer") from None
+
+    def _heard(self) -> bytes:
+        deadline, said = monotonic() + _SECONDS, b""
         while not said.endswith(b"\n"):
+            self._wire.settimeout(max(0.01, deadline - monotonic()))
             piece = self._wire.recv(_ANSWER_LIMIT)
             said += piece
             if not piece or len(said) > _ANSWER_LIMIT:
                 raise ValueError("no answer")
-        try:
-            return json.loads(said)
-        except RecursionError:
-            raise ValueError("no answer") from None
+        return said
 
     def stop(self) -> None:
         """End it."""
@@ -66,50 +74,53 @@ class _Reader:
 
 
 class Indexes:
-    """Looks at archives, many at once if need be; each process looks at one at a time."""
+    """Looks at archives, many at once if need be: each process at one, and then no more."""
 
     def __init__(self) -> None:
         """Start nothing yet."""
-        self._free: list[_Reader] = []
+        self._waiting: list[_Reader] = []
+        self._launcher: OwnLauncher | None = None
         self._lock = Lock()
 
     def start(self) -> None:
-        """Start a process, so that the first archive need not wait for it."""
-        with self._reader():
-            pass
+        """Start processes, so that the next archives need not wait for them.
+
+        Raises:
+            OSError: The system starts none.
+        """
+        with self._lock:
+            if self._launcher is None or not self._launcher.alive:
+                self._launcher = OwnLauncher(loaded=_MODULE)
+                self._waiting.clear()
+            while len(self._waiting) < _WAITING:
+                self._waiting.append(_Reader(self._launcher))
 
     def check(self, archive: Path, name: str) -> None:
         """Look at the index of an archive.
 
         Args:
             archive: Where it lies.
-            name: As its sender calls it.
+            name: As its sender calls it, made safe.
 
         Raises:
             UnreadableInput: It could do harm, is damaged, or takes down who reads it.
         """
         try:
-            with self._reader() as reader:
-                said = reader.ask(archive, name)
+            said = self._asked(archive, name)
         except (OSError, ValueError):
             raise UnreadableInput(archive, "has an index that cannot be read", _AGAIN) from None
         match said:
             case {"reason": str(reason), "advice": str(advice)}:
-                raise UnreadableInput(archive, reason[:1_000], advice[:1_000])
+                raise UnreadableInput(archive, reason[:_WORDS_LIMIT], advice[:_WORDS_LIMIT])
+            case {}:
+                return
+        raise UnreadableInput(archive, "has an index that cannot be read", _AGAIN)
 
-    @contextmanager
-    def _reader(self) -> Iterator[_Reader]:
-        """Give a process; one that fails is not asked again."""
+    def _asked(self, archive: Path, name: str) -> Any:
+        self.start()
         with self._lock:
-            reader = self._free.pop() if self._free else _Reader(self._launcher)
+            reader = self._waiting.pop(0)
         try:
-            yield reader
-        except BaseException:
+            return reader.ask(archive, name)
+        finally:
             reader.stop()
-            raise
-        with self._lock:
-            self._free.append(reader)
-
-    @cached_property
-    def _launcher(self) -> OwnLauncher:
-        return OwnLauncher()

@@ -7,13 +7,14 @@ import signal
 import zipfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from time import sleep
 
 import pytest
 
 from checker.errors import UnreadableInput
 from checker.web.clerk import indexes
 from checker.web.clerk.indexes import Indexes
-from tests.jobs.launched import is_alive, tasks
+from tests.jobs.launched import is_alive, launchers, tasks
 from tests.web.server import eventually
 
 needs_proc = pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="the system has no /proc")
@@ -46,15 +47,85 @@ def test_many_at_once(tmp_path: Path) -> None:
 
 @needs_proc
 def test_one_that_dies_is_replaced(tmp_path: Path) -> None:
-    before = {*tasks()}
+    before = {*tasks(), *launchers()}
     looked, path = Indexes(), archive(tmp_path, "p/package.xml")
     looked.check(path, "a.zip")
-    (reader,) = {*tasks()} - before
-    os.kill(reader, signal.SIGKILL)
-    assert eventually(lambda: not is_alive(reader))
-    with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
-        looked.check(path, "a.zip")
+    for each in {*tasks()} - before:
+        os.kill(each, signal.SIGKILL)
+    for _ in range(3):
+        with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
+            looked.check(path, "a.zip")
     looked.check(path, "a.zip")
+    (launcher,) = {*launchers()} - before
+    os.kill(launcher, signal.SIGKILL)
+    assert eventually(lambda: not is_alive(launcher))
+    sleep(0.1)
+    looked.check(path, "a.zip")
+
+
+DEADLY = """
+import os
+def serve(wire):
+    wire.recv(4096)
+    os.abort()
+"""
+
+
+def test_many_that_die_at_once_take_nothing_with_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What ends by itself just when it is let go is met twice by its launcher."""
+    (tmp_path / "deadly_reader.py").write_text(DEADLY)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setattr(indexes, "_MODULE", "deadly_reader")
+    looked, path = Indexes(), archive(tmp_path, "p/package.xml")
+    looked.start()
+    launcher = looked._launcher
+
+    def refused(_: int) -> bool:
+        with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
+            looked.check(path, "a.zip")
+        return True
+
+    with ThreadPoolExecutor(4) as threads:
+        assert all(threads.map(refused, range(200)))
+    assert looked._launcher is launcher
+    assert launcher is not None
+    assert launcher.alive
+
+
+TELLING = """
+import json, os, socket
+seen = []
+def serve(wire):
+    while True:
+        message, (descriptor,), _, _ = socket.recv_fds(wire, 4096, 1)
+        seen.append(descriptor)
+        said = repr([os.pread(each, 100, 0) for each in seen])
+        for each in seen:
+            try:
+                os.fchmod(each, 0)
+                said += "changed"
+            except OSError:
+                pass
+        wire.sendall(json.dumps({"reason": said, "advice": ""}).encode() + b"\\n")
+"""
+
+
+def test_one_that_was_taken_over_sees_one_archive_and_changes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "telling_reader.py").write_text(TELLING)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setattr(indexes, "_MODULE", "telling_reader")
+    looked = Indexes()
+    for name in ("first", "second", "third", "fourth", "fifth", "sixth"):
+        (tmp_path / name).write_text(f"the {name} archive")
+        (tmp_path / name).chmod(0o600)
+        with pytest.raises(UnreadableInput) as error:
+            looked.check(tmp_path / name, "a.zip")
+        assert error.value.reason == repr([f"the {name} archive".encode()])
+        assert (tmp_path / name).stat().st_mode & 0o777 == 0o600
 
 
 HOSTILE = """
