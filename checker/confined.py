@@ -96,7 +96,9 @@ class Child:
         self._request: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
         self._answer: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
         order = Order(module, int(limits.seconds), limits.memory, works, limits.draws)
-        self._started = (starter or launcher()).start(order, self._request, self._answer)
+        # Kept, since all of its processes end with it.
+        self._starter = starter or launcher()
+        self._started = self._starter.start(order, self._request, self._answer)
         self.code: int | None = None
         """Its exit code once it has ended; of a signal, its negative number."""
         self._stopped = False

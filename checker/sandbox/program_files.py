@@ -31,7 +31,7 @@ def program_paths() -> list[str]:
     """
     found = [path for path in _candidates() if path.startswith("/") and os.path.lexists(path)]
     paths = dict.fromkeys((*found, *map(os.path.realpath, found)))
-    return [path for path in paths if not _private(path)]
+    return [path for path in paths if not _private(path) and not _private(os.path.realpath(path))]
 
 
 def _candidates() -> Iterator[str]:
