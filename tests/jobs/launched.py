@@ -10,6 +10,16 @@ from time import monotonic, sleep
 MODULE = b"checker.sandbox.launcher_process"
 
 
+_others: set[int] = set()
+"""Processes of other tests, which launchers that live as long as this process have started."""
+
+
+def look_from_now_on() -> None:
+    """Have what there is by now count for nothing."""
+    _others.clear()
+    _others.update(id for id, _ in _of_launchers())
+
+
 def tasks(ancestor: int | None = None) -> list[int]:
     """Return the processes below another one that a launcher has forked, and that are not dead."""
     found = dict(_of_launchers())
@@ -32,7 +42,7 @@ def _of_launchers() -> Iterator[tuple[int, int]]:
             python = (each / "comm").read_text().startswith("python")
         except OSError:
             continue
-        if ours and python and is_alive(int(each.name)):
+        if ours and python and int(each.name) not in _others and is_alive(int(each.name)):
             yield int(each.name), parent_of(int(each.name))
 
 
