@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from checker.cache import key_of
+from checker.confined import from_json
 from checker.jobs.children import ANSWER_LIMIT, Children, Ended
 from checker.jobs.crowd import let_pass
 from checker.jobs.layout import CACHE, UPLOAD, is_part
@@ -208,8 +209,8 @@ def _read(path: Path) -> Any:
 
 def _parsed(data: bytes) -> Any:
     try:
-        return json.loads(data)
-    except (ValueError, RecursionError):
+        return from_json(data)
+    except ValueError:
         return None
 
 

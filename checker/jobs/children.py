@@ -13,7 +13,7 @@ from time import monotonic
 from checker.confined import Child, Limits
 from checker.jobs.limits import NICENESS, StageLimits
 from checker.record import record
-from checker.sandbox.files import Content, Files
+from checker.sandbox.files import NO_FILES, Content, Files
 from checker.sandbox.launcher import OwnLauncher
 from checker.store.store import Store
 
@@ -38,7 +38,7 @@ class Ended:
 
     code: int | None
     answer: bytes = b""
-    files: Files = Files({}, -1)
+    files: Files = NO_FILES
     overdue: bool = False
     cancelled: bool = False
 
@@ -48,7 +48,6 @@ class _Place:
 
     def __init__(self, store: Store, limits: Limits) -> None:
         """Start it."""
-        self._held = ExitStack()
         with ExitStack() as held:
             folder = held.enter_context(store.workplace())
             starter = OwnLauncher(folder, niceness=NICENESS)

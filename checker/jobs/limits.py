@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from checker.record import record
-from checker.sandbox.task import tightened
+from checker.sandbox.task import hold_files_to, tighten
 
 NICENESS = 10
 """Below that of the processes of the service, as `nice` counts it."""
@@ -29,14 +29,9 @@ class StageLimits:
 
 def limit(limits: StageLimits) -> None:
     """Take too much of everything away from this process; nothing that is tighter is loosened."""
-    import resource
+    from resource import RLIMIT_AS, RLIMIT_CPU
 
     seconds = max(1, int(limits.seconds))
-    for kind, most in (
-        (resource.RLIMIT_CPU, seconds),
-        (resource.RLIMIT_AS, limits.memory),
-        (resource.RLIMIT_FSIZE, limits.file_bytes),
-        (resource.RLIMIT_NOFILE, limits.open_files),
-        (resource.RLIMIT_CORE, 0),
-    ):
-        resource.setrlimit(kind, tightened(resource.getrlimit(kind), most, most))
+    tighten(RLIMIT_CPU, seconds, seconds)
+    tighten(RLIMIT_AS, limits.memory, limits.memory)
+    hold_files_to(limits.file_bytes, limits.open_files)

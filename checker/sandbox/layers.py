@@ -89,12 +89,16 @@ def _account(sandbox: Sandbox) -> str:
 
 def _landlock(sandbox: Sandbox) -> str:
     seccomp.gain_nothing()
-    known = landlock.allow_only(
+    return f"version {_allow_files(sandbox, works=True, draws=True)}"
+
+
+def _allow_files(sandbox: Sandbox, *, works: bool, draws: bool) -> int:
+    """Leave this process the files of the program and what it needs besides; see `narrow`."""
+    return landlock.allow_only(
         read=(*sandbox.read, *program_files.MACHINE),
-        work=filter(None, (sandbox.work,)),
-        devices=(*program_files.DEVICES, *program_files.SCREENS),
+        work=(sandbox.work,) if works and sandbox.work else (),
+        devices=(*program_files.DEVICES, *(program_files.SCREENS if draws else ())),
     )
-    return f"version {known}"
 
 
 def _seccomp(_: Sandbox) -> str:
@@ -119,16 +123,10 @@ def narrow(sandbox: Sandbox, *, works: bool, draws: bool) -> None:
         works: Whether it may write into the working folder.
         draws: Whether it may use graphics cards.
     """
-    screens = program_files.SCREENS if draws else ()
-    folders = (sandbox.work,) if works and sandbox.work else ()
     # What cannot be narrowed stays in the sandbox that there is.
     if LANDLOCK in sandbox.names:
         with suppress(NotHeld):
-            landlock.allow_only(
-                (*sandbox.read, *program_files.MACHINE),
-                folders,
-                (*program_files.DEVICES, *screens),
-            )
+            _allow_files(sandbox, works=works, draws=draws)
     if SECCOMP in sandbox.names:
         with suppress(NotHeld):
             seccomp.forbid_calls(changes=works, signals=False)

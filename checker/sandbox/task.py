@@ -112,16 +112,30 @@ def end_with_parent() -> None:
 
 def hold_to(seconds: int, memory: int) -> None:
     """Take from this process what it shall not use; no limit that it has already is raised."""
+    from resource import RLIMIT_AS, RLIMIT_CPU
+
+    tighten(RLIMIT_CPU, max(seconds, 1), max(seconds, 1) + 1)
+    tighten(RLIMIT_AS, memory, memory)
+    hold_files_to(_FILE_BYTES, _OPEN_FILES)
+
+
+def hold_files_to(file_bytes: int, open_files: int) -> None:
+    """Take from this process larger files, more open ones at a time, and all core dumps."""
+    from resource import RLIMIT_CORE, RLIMIT_FSIZE, RLIMIT_NOFILE
+
+    for kind, most in (
+        (RLIMIT_FSIZE, file_bytes),
+        (RLIMIT_NOFILE, open_files),
+        (RLIMIT_CORE, 0),
+    ):
+        tighten(kind, most, most)
+
+
+def tighten(kind: int, soft: int, hard: int) -> None:
+    """Set one limit of this process, of `resource.RLIMIT_…`; none that there is is raised."""
     import resource
 
-    for kind, soft, hard in (
-        (resource.RLIMIT_CPU, max(seconds, 1), max(seconds, 1) + 1),
-        (resource.RLIMIT_AS, memory, memory),
-        (resource.RLIMIT_CORE, 0, 0),
-        (resource.RLIMIT_FSIZE, _FILE_BYTES, _FILE_BYTES),
-        (resource.RLIMIT_NOFILE, _OPEN_FILES, _OPEN_FILES),
-    ):
-        resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
+    resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
 
 
 def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:

@@ -12,6 +12,7 @@ from threading import Lock
 from time import monotonic
 from typing import Any
 
+from checker.confined import from_json
 from checker.errors import UnreadableInput
 from checker.package.reading import open_file
 from checker.sandbox.launcher import Launcher, Order, OwnLauncher
@@ -51,10 +52,7 @@ class _Reader:
             copy.seek(0)
             message = json.dumps({"name": name}).encode()
             socket.send_fds(self._wire, [message], [copy.fileno()])
-        try:
-            return json.loads(self._heard())
-        except RecursionError:
-            raise ValueError("no answer") from None
+        return from_json(self._heard())
 
     def _heard(self) -> bytes:
         deadline, said = monotonic() + _SECONDS, b""

@@ -45,6 +45,13 @@ def test_many_at_once(tmp_path: Path) -> None:
         assert list(threads.map(lambda _: looked.check(path, "a.zip"), range(100))) == [None] * 100
 
 
+def read_by(module: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have a hostile module read the indexes."""
+    (folder / "hostile_reader.py").write_text(module)
+    monkeypatch.setenv("PYTHONPATH", str(folder))
+    monkeypatch.setattr(indexes, "_MODULE", "hostile_reader")
+
+
 @needs_proc
 def test_one_that_dies_is_replaced(tmp_path: Path) -> None:
     before = {*tasks(), *launchers()}
@@ -75,9 +82,7 @@ def test_many_that_die_at_once_take_nothing_with_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What ends by itself just when it is let go is met twice by its launcher."""
-    (tmp_path / "deadly_reader.py").write_text(DEADLY)
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    monkeypatch.setattr(indexes, "_MODULE", "deadly_reader")
+    read_by(DEADLY, tmp_path, monkeypatch)
     looked, path = Indexes(), archive(tmp_path, "p/package.xml")
     looked.start()
     launcher = looked._launcher
@@ -115,9 +120,7 @@ def serve(wire):
 def test_one_that_was_taken_over_sees_one_archive_and_changes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "telling_reader.py").write_text(TELLING)
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    monkeypatch.setattr(indexes, "_MODULE", "telling_reader")
+    read_by(TELLING, tmp_path, monkeypatch)
     looked = Indexes()
     for name in ("first", "second", "third", "fourth", "fifth", "sixth"):
         (tmp_path / name).write_text(f"the {name} archive")
@@ -142,9 +145,7 @@ def serve(wire):
 def test_one_that_was_taken_over_says_nonsense(
     said: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "hostile_reader.py").write_text(HOSTILE.format(said=said))
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    monkeypatch.setattr(indexes, "_MODULE", "hostile_reader")
+    read_by(HOSTILE.format(said=said), tmp_path, monkeypatch)
     monkeypatch.setattr(indexes, "_SECONDS", 2.0)
     with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
         Indexes().check(archive(tmp_path, "p/package.xml"), "a.zip")
