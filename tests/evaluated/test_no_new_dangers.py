@@ -49,7 +49,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
         "checker/expand/xacro/expression/evaluation.py",
         ATTRIBUTE,
     ): "fields of a syntax tree, named there",
-    ("checker/expand/xacro/expression/methods.py", ATTRIBUTE): "of plain data and text, named there",
+    ("checker/expand/xacro/expression/methods.py", ATTRIBUTE): "of plain data, named there",
     (
         "checker/expand/xacro/symbols.py",
         PATTERN,
