@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +11,7 @@ from hypothesis import settings
 
 from tests.browser import chromium  # noqa: F401 (a fixture)
 from tests.postgres import postgres_url  # noqa: F401 (a fixture)
+from tests.real_packages import CORPUS, needed_folder
 
 # Machines differ and are shared: no example of a property is held against the clock.
 settings.register_profile("shared machines", deadline=None)
@@ -33,10 +33,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 @pytest.fixture(scope="session")
 def corpus() -> Path:
     """The folder of real packages that SUBT_CHECK_CORPUS names."""
-    folder = os.environ.get("SUBT_CHECK_CORPUS", "")
-    if not folder or not Path(folder).is_dir():
-        pytest.skip("SUBT_CHECK_CORPUS names no folder of real packages")
-    return Path(folder)
+    return needed_folder(CORPUS)
 
 
 @pytest.fixture(scope="session")
