@@ -35,6 +35,7 @@ test: .venv/tested $(VIEWER)
 lint: .venv/tested
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports --no-cache
 
 types: .venv/tested
 	$(BIN)/mypy
