@@ -33,6 +33,7 @@ SIZE_LIMIT = 200_000
 _LARGEST = 10**300
 _DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){20}""")
 """A key of many parts: reading one takes the square of their number."""
+DEFAULT_PROFILE = "subt"
 URDF_PROFILE = "urdf"
 """Judges URDF packages and files where the user names no profile."""
 DEVICES_LIMIT = 100
@@ -59,8 +60,8 @@ class Settings(Record):
         baseline: Findings that were there before, which do not count either.
     """
 
-    profile: str = "subt"
-    profile_chosen: bool = field(default=False, kw_only=True, compare=False)
+    profile: str = DEFAULT_PROFILE
+    profile_chosen: bool = False
     select: tuple[str, ...] = ()
     ignore: tuple[str, ...] = ()
     fail_on: Severity = Severity.ERROR
@@ -87,7 +88,7 @@ class Settings(Record):
 
     def suiting(self, *, urdf: bool) -> Settings:
         """Return the settings for what is checked: a URDF robot has a profile of its own."""
-        is_default = self.profile == Settings.profile and not self.profile_chosen
+        is_default = self.profile == DEFAULT_PROFILE and not self.profile_chosen
         return replace(self, profile=URDF_PROFILE) if urdf and is_default else self
 
     @property

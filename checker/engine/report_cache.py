@@ -7,10 +7,10 @@ files lie in the packages beside it (by size and time of change).
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import stat
-from base64 import b64encode
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache as once
 from importlib.metadata import entry_points
@@ -18,7 +18,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from msgspec import to_builtins
+import msgspec
 from msgspec.structs import replace
 
 from checker.base.cache import Cache, code_hash, key_of
@@ -26,41 +26,22 @@ from checker.base.resources import version_of
 from checker.package.kind import looks_like_package
 from checker.package.package import Package
 from checker.package.walk import SKIPPED_FOLDERS
-from checker.report.reading import read_as
 from checker.report.report import PackageReport
 from checker.settings import Settings
 
-# A package's report as JSON that can be read back, for the cache: nothing is left out.
 
-
-def to_stored(report: PackageReport) -> dict[str, Any]:
-    """Return what `from_stored` makes the same report of."""
-    display = report.display
-    return {
-        **to_builtins(replace(report, display=None)),
-        "display": None if display is None else _to_text(to_builtins(display)),
-    }
-
-
-def from_stored(said: Mapping[str, Any], path: str) -> PackageReport:
-    """Return the report that was stored.
+def from_stored(members: Any, path: str) -> PackageReport:
+    """Return the report that was stored as `msgspec.to_builtins` has it.
 
     Args:
-        said: As `to_stored` made it.
+        members: What the cache holds.
         path: Of the package, as the user gives it this time.
 
     Raises:
-        Unfit, TypeError: It is no stored report.
+        ValidationError: It is no stored report.
     """
-    return replace(read_as(PackageReport, said), path=path)
-
-
-def _to_text(said: dict[str, Any]) -> dict[str, Any]:
-    """Make JSON's strings of what is bytes."""
-    pictures = [
-        {**each, "jpeg": b64encode(each["jpeg"]).decode("ascii")} for each in said["pictures"]
-    ]
-    return {**said, "glb": b64encode(said["glb"]).decode("ascii"), "pictures": pictures}
+    stored: PackageReport = msgspec.convert(members, PackageReport)
+    return replace(stored, path=path)
 
 
 KIND = "report"
@@ -77,7 +58,8 @@ def memory_key(package: Package, settings: Settings) -> str:
     """Return the key of a package's report; empty when it is not worth remembering."""
     if package.only:
         return ""
-    parts: list[bytes | str] = [*program_parts(), repr(settings), str(package.root)]
+    asked = json.dumps(msgspec.to_builtins(settings, enc_hook=str))
+    parts: list[bytes | str] = [*program_parts(), asked, str(package.root)]
     parts += _content(package)
     beside = list(islice(_beside(package), ENTRIES_LIMIT))
     return key_of(*parts, *beside) if len(beside) < ENTRIES_LIMIT else ""
@@ -103,7 +85,7 @@ def remember(cache: Cache, key: str, report: PackageReport) -> None:
     """Keep a report, unless something was not at hand or not drawn: it may be the next time."""
     undrawn = report.display is not None and not report.display.pictures
     if key and not report.blind_spots and not undrawn:
-        cache.put(KIND, key, to_stored(report))
+        cache.put(KIND, key, msgspec.to_builtins(report))
 
 
 @once

@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from msgspec.structs import fields
+from msgspec.structs import asdict
 
 from checker.base.record import Record
 from checker.base.resources import templates
@@ -96,7 +96,7 @@ def texts(known: Known) -> Iterator[tuple[str, str]]:
 
 
 def _by_name(holder: Facts | Known) -> dict[str, Any]:
-    return {each.name: getattr(holder, each.name) for each in fields(holder)}
+    return asdict(holder)
 
 
 def _lines_of(spawner: str) -> Mapping[str, int]:

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import field
-from msgspec.structs import replace
 
 from checker.base.disk_file import NotReadable, read_bytes
 from checker.base.record import Record
@@ -60,18 +59,12 @@ class Package(Record, eq=False, dict=True):
     root: Path
     workspace: Workspace
     only: str = ""
-    _texts: dict[str, SourceText | NotReadable] = field(
-        default_factory=dict, init=False, repr=False
-    )
-    _documents: dict[str, XmlDocument | XmlFault | NotReadable] = field(
-        default_factory=dict, init=False, repr=False
-    )
+    _texts: dict[str, SourceText | NotReadable] = field(default_factory=dict)
+    _documents: dict[str, XmlDocument | XmlFault | NotReadable] = field(default_factory=dict)
 
     def with_texts(self, texts: Mapping[str, SourceText]) -> Package:
         """Return the package as if some of its files held other texts; nothing is written."""
-        changed = replace(self)
-        changed._texts.update({**self._texts, **texts})
-        return changed
+        return Package(self.root, self.workspace, self.only, {**self._texts, **texts})
 
     @property
     def name(self) -> str:

@@ -31,8 +31,8 @@ class Workspace(Record, eq=False, dict=True):
     """
 
     directories: tuple[Path, ...]
-    _packages: dict[Path, Package] = field(default_factory=dict, init=False)
-    _found: dict[str, Package | None] = field(default_factory=dict, init=False)
+    _packages: dict[Path, Package] = field(default_factory=dict)
+    _found: dict[str, Package | None] = field(default_factory=dict)
 
     def package(self, name: str) -> Package | None:
         """Return the package of a folder name, else of a `package.xml` name, else None."""

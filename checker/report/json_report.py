@@ -1,20 +1,49 @@
-"""The report as JSON (`report.schema.json` describes it)."""
+"""The report as JSON (`json_form` has its members), and read back, wherever it comes from.
+
+What the JSON does not hold is missing afterwards: what the rules' pages say (why, how, title,
+source), the key of a finding, the text that an edit replaces, the rules that looked and found
+nothing, the 3D view and the patch.
+"""
 
 from __future__ import annotations
 
 import json
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, cast
 
-from msgspec import to_builtins
+import msgspec
 
-from checker.finding import Edit, Place
+from checker.base.words import plain, shortened
+from checker.finding import Edit, Fix, Place
+from checker.report.json_form import (
+    EditJson,
+    FindingJson,
+    FixJson,
+    NotCheckedJson,
+    NotOpenedJson,
+    PackageJson,
+    PlaceJson,
+    ReportJson,
+    SuppressedJson,
+    ToolJson,
+    TrialJson,
+)
 from checker.report.report import (
     SCHEMA_VERSION,
+    NotChecked,
+    NotOpened,
     PackageReport,
     Report,
     ReportedFinding,
     Suppressed,
 )
+
+SIZE_LIMIT = 128_000_000
+"""Characters; 10 000 findings with the longest messages are 118 million, a trial is one million."""
+
+
+class NoReport(ValueError):
+    """A text that is no report of this version; it says why in a sentence without its dot."""
 
 
 def to_json(report: Report) -> str:
@@ -24,65 +53,162 @@ def to_json(report: Report) -> str:
 
 def to_dict(report: Report) -> dict[str, Any]:
     """Return the report as plain dictionaries and lists."""
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "tool": {"name": "subt-check", "versions": dict(report.versions)},
-        "packages": [_package(package) for package in report.packages],
-        "not_opened": [to_builtins(each) for each in report.not_opened],
-    }
+    members: dict[str, Any] = msgspec.to_builtins(
+        ReportJson(
+            SCHEMA_VERSION,
+            ToolJson(report.versions),
+            tuple(map(_package_json, report.packages)),
+            tuple(NotOpenedJson(each.path, each.reason, each.failed) for each in report.not_opened),
+        )
+    )
+    return members
 
 
-def _package(package: PackageReport) -> dict[str, Any]:
-    return {
-        "name": package.name,
-        "path": package.path,
-        "kind": package.kind,
-        "profile": package.profile,
-        "settings": package.settings,
-        "fail_on": str(package.fail_on),
-        "verdict": str(package.verdict),
-        "inherited": [to_builtins(part) for part in package.inherited],
-        "findings": [_finding(each) for each in package.findings],
-        "suppressed": [_suppressed(each) for each in package.suppressed],
-        "not_checked": [
-            {"rule": each.rule, "reason": each.reason, "cause": str(each.cause)}
-            for each in package.not_checked
-        ],
-        "trial": package.trial,
-        "facts": dict(package.facts),
-        "timings": {stage: round(seconds, 4) for stage, seconds in package.timings.items()},
-    }
+def _package_json(package: PackageReport) -> PackageJson:
+    return PackageJson(
+        name=package.name,
+        path=package.path,
+        kind=package.kind,
+        profile=package.profile,
+        settings=package.settings,
+        fail_on=package.fail_on,
+        verdict=package.verdict,
+        inherited=package.inherited,
+        findings=tuple(map(_finding_json, package.findings)),
+        suppressed=tuple(map(_suppressed_json, package.suppressed)),
+        not_checked=tuple(NotCheckedJson(n.rule, n.reason, n.cause) for n in package.not_checked),
+        trial=cast("TrialJson | None", package.trial),
+        facts=package.facts,
+        timings={stage: round(seconds, 4) for stage, seconds in package.timings.items()},
+    )
 
 
-def _finding(each: ReportedFinding) -> dict[str, Any]:
-    finding: dict[str, Any] = {
-        "rule": each.rule,
-        "name": each.name,
-        "severity": str(each.severity),
-        "message": each.message,
-        "fingerprint": each.fingerprint,
-        "places": [_place(place) for place in each.places],
-        "help": each.help,
-    }
-    if each.fix is not None:
-        edits = [_edit(edit) for edit in each.fix.edits]
-        finding["fix"] = {"safety": str(each.fix.safety), "edits": edits}
-    return finding
+def _finding_json(found: ReportedFinding) -> FindingJson:
+    return FindingJson(
+        rule=found.rule,
+        name=found.name,
+        severity=found.severity,
+        message=found.message,
+        fingerprint=found.fingerprint,
+        places=tuple(map(_place_json, found.places)),
+        help=found.help,
+        fix=msgspec.UNSET if found.fix is None else _fix_json(found.fix),
+    )
 
 
-def _suppressed(each: Suppressed) -> dict[str, Any]:
-    return {
-        "finding": _finding(each.finding),
-        "by": str(each.by),
-        "reason": each.reason,
-        "place": None if each.place is None else _place(each.place),
-    }
+def _suppressed_json(suppressed: Suppressed) -> SuppressedJson:
+    place = None if suppressed.place is None else _place_json(suppressed.place)
+    return SuppressedJson(
+        _finding_json(suppressed.finding), suppressed.by, suppressed.reason, place
+    )
 
 
-def _place(place: Place) -> dict[str, Any]:
-    return to_builtins(place)
+def _place_json(place: Place) -> PlaceJson:
+    return PlaceJson(*msgspec.structs.astuple(place))
 
 
-def _edit(edit: Edit) -> dict[str, Any]:
-    keys = ("file", "line", "column", "end_line", "end_column")
-    return {key: getattr(edit.place, key) for key in keys} | {"replacement": edit.replacement}
+def _fix_json(fix: Fix) -> FixJson:
+    return FixJson(fix.safety, tuple(map(_edit_json, fix.edits)))
+
+
+def _edit_json(edit: Edit) -> EditJson:
+    place = edit.place
+    stretch = place.line, place.column, place.end_line, place.end_column
+    return EditJson(place.file, *stretch, edit.replacement)
+
+
+def report_from_json(text: str) -> Report:
+    """Return the report that a JSON text tells of; members of later versions are passed over.
+
+    Raises:
+        NoReport: It is no report, or of another version of the schema.
+    """
+    if len(text) > SIZE_LIMIT:
+        raise NoReport(f"the report has more than {SIZE_LIMIT / 1e6:.0f} million characters")
+    try:
+        members = json.loads(text)
+    except (ValueError, RecursionError):
+        raise NoReport("what should be a report is no JSON") from None
+    version = members.get("schema_version") if isinstance(members, dict) else None
+    if version != SCHEMA_VERSION:
+        shown = shortened(plain(repr(version)), 40)
+        raise NoReport(f"the report's schema_version is {shown}, expected '{SCHEMA_VERSION}'")
+    try:
+        return _report(msgspec.convert(members, ReportJson))
+    except msgspec.ValidationError as error:
+        problem = shortened(plain(str(error)), 200)
+        raise NoReport(f"what should be a report is none: {problem}") from None
+
+
+def _report(read: ReportJson) -> Report:
+    return Report(
+        tuple(map(_package, read.packages)),
+        read.tool.versions,
+        tuple(NotOpened(each.path, each.reason, each.failed) for each in read.not_opened),
+    )
+
+
+def _package(read: PackageJson) -> PackageReport:
+    return PackageReport(
+        name=read.name,
+        path=read.path,
+        kind=read.kind,
+        findings=tuple(map(_finding, read.findings)),
+        not_checked=tuple(NotChecked(n.rule, n.reason, n.cause) for n in read.not_checked),
+        inherited=read.inherited,
+        facts={name: value for name, value in read.facts.items() if _is_fact(name, value)},
+        timings=read.timings,
+        profile=read.profile,
+        fail_on=read.fail_on,
+        settings=read.settings,
+        trial=cast("Mapping[str, Any] | None", read.trial),
+        suppressed=tuple(map(_suppressed, read.suppressed)),
+    )
+
+
+def _finding(read: FindingJson) -> ReportedFinding:
+    return ReportedFinding(
+        read.rule,
+        read.name,
+        read.severity,
+        read.message,
+        read.fingerprint,
+        tuple(map(_place, read.places)),
+        None if isinstance(read.fix, msgspec.UnsetType) else _fix(read.fix),
+    )
+
+
+def _suppressed(read: SuppressedJson) -> Suppressed:
+    place = None if read.place is None else _place(read.place)
+    return Suppressed(_finding(read.finding), read.by, read.reason, place)
+
+
+def _place(read: PlaceJson) -> Place:
+    return Place(*msgspec.structs.astuple(read))
+
+
+def _fix(read: FixJson) -> Fix:
+    return Fix(read.safety, tuple(map(_edit, read.edits)))
+
+
+def _edit(read: EditJson) -> Edit:
+    place = Place(read.file, read.line, read.column, read.end_line, read.end_column)
+    return Edit(place, read.replacement, original="")
+
+
+_TENSORS = ("inertia_kg_m2",)
+
+
+def _is_fact(name: str, value: Any) -> bool:
+    """Say whether a fact is a text, a number or a list of them; a later version may know others."""
+    if name in _TENSORS:
+        return isinstance(value, list) and all(map(_is_vector, value))
+    return isinstance(value, str) or _is_number(value) or _is_vector(value)
+
+
+def _is_vector(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_number, value))
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

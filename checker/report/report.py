@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 from msgspec import field
 
 from checker.base.record import Record
 from checker.finding import Fix, Place, Severity
 
-SCHEMA_VERSION = "1"
+SCHEMA_VERSION: Final = "1"
+USUAL_PROFILE = "subt"
 NO_TRIAL = "trial not run (--no-trial)"
 """Why rules about the trial did not look when the user wants none."""
 
@@ -173,7 +174,7 @@ class PackageReport(Record):
     inherited: tuple[InheritedPart, ...] = ()
     facts: Mapping[str, Any] = field(default_factory=dict)
     timings: Mapping[str, float] = field(default_factory=dict)
-    profile: str = "subt"
+    profile: str = USUAL_PROFILE
     fail_on: Severity = Severity.ERROR
     settings: str = ""
     trial: Mapping[str, Any] | None = None

@@ -14,6 +14,7 @@ from checker.report.ownership import Identity, owners, share_of
 from checker.report.palette import Palette
 from checker.report.report import (
     IN_BASELINE,
+    USUAL_PROFILE,
     Cause,
     NotChecked,
     NotOpened,
@@ -157,7 +158,7 @@ def _package(
 
 def _profile(package: PackageReport) -> str:
     """Name the profile where it is not the usual one: what is checked may have chosen it."""
-    return "" if package.profile == PackageReport.profile else f", profile {package.profile}"
+    return "" if package.profile == USUAL_PROFILE else f", profile {package.profile}"
 
 
 def _counted(findings: Sequence[ReportedFinding]) -> Iterator[str]:

@@ -206,4 +206,4 @@ def text_excerpt(span: Span) -> Excerpt:
     line_start = text.rfind("\n", 0, start) + 1
     if not text[line_start:start].strip(" "):
         start = line_start
-    return Excerpt(source.file, blank_markup(text[start : span.end]), source, start)
+    return Excerpt(source.file, blank_markup(text[start : span.end]), outer=source, offset=start)

@@ -39,7 +39,7 @@ def parse_fragments(source: SourceText) -> XmlDocument | XmlFault:
     opening = f"<{ROOT}>"
     inner = _DECLARATION.sub(lambda found: " " * len(found.group()), source.text)
     text = f"{opening}{inner}</{ROOT}>"
-    return parse_xml(WrappedText(source.file, text, source, len(opening)))
+    return parse_xml(WrappedText(source.file, text, inner=source, offset=len(opening)))
 
 
 def unwrapped(span: Span) -> tuple[int, int]:

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec import to_builtins
 from msgspec.structs import replace
 
 from checker.base.cache import Cache
-from checker.engine.report_cache import from_stored, memory_key, recalled, remember, to_stored
+from checker.engine.report_cache import from_stored, memory_key, recalled, remember
 from checker.package.inputs import open_input
 from checker.pipeline import check_package
 from checker.report.report import Cause, NotChecked, PackageReport
@@ -105,7 +106,7 @@ def test_a_lone_file_is_not_worth_remembering(packages: Path) -> None:
 @pytest.mark.parametrize("name", [GOOD, BROKEN])
 def test_a_stored_report_is_the_same(name: str) -> None:
     report = static_report(name)
-    again = from_stored(json.loads(json.dumps(to_stored(report))), report.path)
+    again = from_stored(json.loads(json.dumps(to_builtins(report))), report.path)
     assert again == report
 
 

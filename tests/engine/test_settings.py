@@ -56,6 +56,7 @@ def test_everything_that_can_be_set(tmp_path: Path) -> None:
     )
     assert settings == Settings(
         "sdf",
+        True,
         ("SEN", "INE001"),
         ("no-inertial",),
         Severity.WARNING,

@@ -42,7 +42,7 @@ FIXES = st.builds(
 FINDINGS = st.builds(
     ReportedFinding,
     RULE,
-    TEXT,
+    st.from_regex(r"[a-z]+(-[a-z0-9]+)*", fullmatch=True).map(lambda name: name[:60]),
     st.sampled_from(Severity),
     TEXT.map(lambda text: f"x{text}"),
     st.from_regex(r"[0-9a-f]{16}", fullmatch=True),

@@ -8,11 +8,12 @@ from pathlib import Path
 import jsonschema
 import pytest
 from hypothesis import given
+from msgspec import to_builtins
 from msgspec.structs import replace
 
 from checker import cli
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS
-from checker.engine.report_cache import from_stored, to_stored
+from checker.engine.report_cache import from_stored
 from checker.report.formats import FORMATS
 from checker.report.palette import Palette
 from checker.report.render_settings import Manner
@@ -107,7 +108,7 @@ def test_json_of_any_report_is_valid(report: Report) -> None:
 @given(REPORTS)
 def test_any_report_can_be_kept_and_read_back(report: Report) -> None:
     for package in report.packages:
-        kept = json.loads(json.dumps(to_stored(package)))
+        kept = json.loads(json.dumps(to_builtins(package)))
         assert from_stored(kept, package.path) == package
 
 

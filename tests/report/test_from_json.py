@@ -12,10 +12,9 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 
 from checker.finding import Edit, Fix
-from checker.report import from_json
+from checker.report import json_report
 from checker.report.formats import FORMATS
-from checker.report.from_json import NoReport, report_from_json
-from checker.report.json_report import to_dict, to_json
+from checker.report.json_report import NoReport, report_from_json, to_json
 from checker.report.palette import Palette
 from checker.report.render_settings import Manner
 from checker.report.report import PackageReport, Report, ReportedFinding
@@ -100,12 +99,12 @@ def test_a_trial_read_back_is_told_the_same(of_a_trial: Report) -> None:
 
 def test_ten_thousand_findings_are_read() -> None:
     written = to_json(many(10_000))
-    assert len(written) < from_json.SIZE_LIMIT
+    assert len(written) < json_report.SIZE_LIMIT
     assert to_json(report_from_json(written)) == written
 
 
 def changed(change: Callable[[dict[str, Any]], object]) -> str:
-    said = to_dict(many(2))
+    said = json.loads(to_json(many(2)))
     change(said)
     return json.dumps(said)
 
@@ -167,7 +166,7 @@ def test_members_that_came_later_may_be_missing() -> None:
         ("{}", "schema_version is None"),
         ('{"schema_version": "2"}', "schema_version is '2', expected '1'"),
         ('{"schema_version": 1}', "schema_version is 1, expected '1'"),
-        ('{"schema_version": "1"}', "is missing"),
+        ('{"schema_version": "1"}', "missing required"),
     ],
 )
 def test_what_is_no_report_is_refused(text: str, said: str) -> None:
@@ -204,13 +203,13 @@ def test_what_is_no_report_is_refused(text: str, said: str) -> None:
 def test_a_report_with_a_member_of_another_kind_is_refused(
     change: Callable[[dict[str, Any]], object],
 ) -> None:
-    with pytest.raises(NoReport, match=r"a report is none: .*(expected|missing)"):
+    with pytest.raises(NoReport, match=r"a report is none: (Expected|Object missing|Invalid)"):
         report_from_json(changed(change))
 
 
 def test_a_report_beyond_all_bounds_is_refused() -> None:
     with pytest.raises(NoReport, match="more than 128 million characters"):
-        report_from_json(" " * (from_json.SIZE_LIMIT + 1))
+        report_from_json(" " * (json_report.SIZE_LIMIT + 1))
 
 
 JSON = st.recursive(

@@ -29,7 +29,7 @@ class EmittedText(SourceText, dict=True, kw_only=True):
     def of(cls, traced: TracedString, origin: Span) -> EmittedText:
         """Make it of what the function at `origin` returned."""
         pieces = tuple(piece.rooted(origin) for piece in traced.pieces)
-        return cls(origin.source.file, traced.text, origin, pieces)
+        return cls(origin.source.file, traced.text, origin=origin, pieces=pieces)
 
     @cached_property
     def _starts(self) -> list[int]:

@@ -38,7 +38,7 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
         """The text in pieces; most robots are without fault, and nobody asks for a place."""
         origins = _origins(self.answer, self.gathered)
         pieces = tuple(_pieces(self.plain, origins, self.written))
-        return EmittedText(self.file, self.text, self.written.whole(), pieces)
+        return EmittedText(self.file, self.text, origin=self.written.whole(), pieces=pieces)
 
     def place(self, start: int, end: int) -> Place:
         """Return the place in a written file of the characters from `start` to `end`."""
@@ -61,7 +61,9 @@ def expanded_document(
     plain = parse_xml(SourceText(written.file, text))
     if isinstance(plain, XmlFault) or len(plain.positions) != len(answer["origins"]):
         return None
-    source = ExpandedText(written.file, text, plain, answer, gathered, written)
+    source = ExpandedText(
+        written.file, text, plain=plain, answer=answer, gathered=gathered, written=written
+    )
     # The tree and the offsets are the same: only the places differ.
     return XmlDocument(source, plain.tree, plain.positions)
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from msgspec import to_builtins
+import msgspec
 
 from checker.base.cache import NO_CACHE, Cache, code_hash, key_of
 from checker.base.record import Record
@@ -90,21 +90,16 @@ def weights_of(bodies: Sequence[Body], cache: Cache) -> Weights:
     if known is not None:
         return known
     weights = _weighed(bodies)
-    cache.put(_KIND, key, to_builtins(weights))
+    cache.put(_KIND, key, msgspec.to_builtins(weights))
     return weights
 
 
-def _from_json(said: Any, number: int) -> Weights | None:
+def _from_json(members: Any, number: int) -> Weights | None:
     try:
-        each = tuple(
-            Weight(_three(one["principal"]), one["pseudo_eigenvalue"]) for one in said["each"]
-        )
-        centre, rows = said["centre"], said["inertia"]
-        inertia = None if rows is None else (_three(rows[0]), _three(rows[1]), _three(rows[2]))
-        known = Weights(each, None if centre is None else _three(centre), inertia)
-    except (KeyError, TypeError, ValueError, IndexError):
+        known = msgspec.convert(members, Weights)
+    except msgspec.ValidationError:
         return None
-    return known if len(each) == number else None
+    return known if len(known.each) == number else None
 
 
 def _three(numbers: Sequence[float]) -> Vector:

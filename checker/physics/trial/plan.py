@@ -111,7 +111,8 @@ class Plan(Record):
 
     def as_json(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return to_builtins(self)
+        members: dict[str, Any] = to_builtins(self)
+        return members
 
     @classmethod
     def from_json(cls, said: Mapping[str, Any]) -> Plan:

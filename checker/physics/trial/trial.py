@@ -8,7 +8,8 @@ from base64 import b64decode, b64encode
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from msgspec import field, to_builtins
+import msgspec
+from msgspec import field
 from msgspec.structs import replace
 
 from checker.base.record import Record
@@ -166,26 +167,16 @@ class Trial(Record):
     def as_json(self) -> dict[str, Any]:
         """Return what JSON can express."""
         replay = self.replay.as_json() if self.replay is not None else None
-        return {**to_builtins(replace(self, replay=None)), "replay": replay}
+        members: dict[str, Any] = msgspec.to_builtins(replace(self, replay=None))
+        return {**members, "replay": replay}
 
     @classmethod
-    def from_json(cls, said: Mapping[str, Any]) -> Trial:
+    def from_json(cls, members: Mapping[str, Any]) -> Trial:
         """Return the trial that `as_json` expressed.
 
         Raises:
             KeyError, TypeError, ValueError: It is no trial.
         """
-        return cls(
-            drive=said["drive"],
-            versions=dict(said["versions"]),
-            legs=tuple(Leg(**each) for each in said["legs"]),
-            measurements=tuple(Measurement(**each) for each in said["measurements"]),
-            repairs=tuple(Repair(**each) for each in said["repairs"]),
-            refused=said["refused"],
-            refused_part=said["refused_part"],
-            trouble=tuple(said["trouble"]),
-            notes=tuple(said["notes"]),
-            not_driven=said["not_driven"],
-            series={name: tuple(values) for name, values in said["series"].items()},
-            replay=Replay.from_json(said["replay"]) if said["replay"] is not None else None,
-        )
+        replay = members["replay"]
+        trial = msgspec.convert({**members, "replay": None}, cls)
+        return trial if replay is None else replace(trial, replay=Replay.from_json(replay))

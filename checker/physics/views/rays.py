@@ -74,7 +74,8 @@ class Grid(Record, dict=True):
 
     def as_json(self) -> dict[str, Any]:
         """Return what `grid_from_json` takes."""
-        return to_builtins(self)
+        members: dict[str, Any] = to_builtins(self)
+        return members
 
     @cached_property
     def directions(self) -> NDArray[float64]:

@@ -127,7 +127,7 @@ def baseline_text(packages: Mapping[str, Iterable[BaselineEntry]]) -> str:
     """
     entries = {
         name: [
-            {key: said for key, said in to_builtins(entry).items() if said}
+            {key: member for key, member in to_builtins(entry).items() if member}
             for entry in packages[name]
         ]
         for name in sorted(packages)

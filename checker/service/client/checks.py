@@ -9,13 +9,14 @@ from time import sleep
 from typing import Annotated
 from urllib.parse import quote, unquote
 
+import msgspec
+
 from checker.base.errors import CheckerError
 from checker.base.progress import Say
 from checker.base.record import Record
 from checker.base.words import count, plain, shortened
 from checker.report.files import ARTEFACT_NAME, INDEX
-from checker.report.from_json import SIZE_LIMIT
-from checker.report.reading import Unfit, read_as
+from checker.report.json_report import SIZE_LIMIT
 from checker.service.client.connection import Answer, Connection
 from checker.service.client.form import Form
 
@@ -131,8 +132,8 @@ class Check(Record):
         if answer.status != 200:
             raise refusal(self.connection, answer)
         try:
-            return read_as(Standing, answer.json())
-        except Unfit:
+            return msgspec.convert(answer.json(), Standing)
+        except msgspec.ValidationError:
             raise _unclear(self.connection, answer) from None
 
 
@@ -146,8 +147,8 @@ def order(connection: Connection, form: Form) -> Check:
     if answer.status != 201:
         raise refusal(connection, answer)
     try:
-        given = read_as(Given, answer.json())
-    except Unfit:
+        given = msgspec.convert(answer.json(), Given)
+    except msgspec.ValidationError:
         raise _unclear(connection, answer) from None
     return Check(connection, given.id)
 

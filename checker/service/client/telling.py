@@ -13,7 +13,7 @@ from checker.base.output import empty_of, show, write
 from checker.finding import Severity
 from checker.report.files import INDEX, PAGE, STALE
 from checker.report.formats import FORMATS
-from checker.report.from_json import NoReport, report_from_json
+from checker.report.json_report import NoReport, report_from_json
 from checker.report.palette import palette_for
 from checker.report.render_settings import Manner
 from checker.report.report import Report

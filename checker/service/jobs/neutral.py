@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
+from checker.base.record import Record
 from checker.report.report import Report
 from checker.service.jobs.layout import GIVEN, TEMPORARY
 
@@ -41,11 +41,7 @@ def _changed(value: Any, change: Callable[[str], str]) -> Any:
             return [_changed(each, change) for each in value]
         case Mapping():
             return {_changed(key, change): _changed(each, change) for key, each in value.items()}
-        case _ if is_dataclass(value) and not isinstance(value, type):
-            changes = {
-                field.name: _changed(getattr(value, field.name), change)
-                for field in fields(value)
-                if field.init
-            }
-            return replace(value, **changes)
+        case Record():
+            members = {name: _changed(part, change) for name, part in asdict(value).items()}
+            return replace(value, **members)
     return value

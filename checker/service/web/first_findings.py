@@ -7,7 +7,7 @@ from pathlib import Path
 
 from checker.base.record import Record
 from checker.base.words import plain, shortened
-from checker.report.from_json import report_from_json
+from checker.report.json_report import report_from_json
 from checker.report.report import ReportedFinding
 from checker.service.store.store import Store
 

@@ -37,7 +37,8 @@ class Camera(Record):
 
     def as_json(self) -> dict[str, Any]:
         """Return its figures by name."""
-        return to_builtins(self)
+        members: dict[str, Any] = to_builtins(self)
+        return members
 
 
 def framed(points: Array, azimuth: float, elevation: float, aspect: float) -> Camera:

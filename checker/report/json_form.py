@@ -1,0 +1,240 @@
+"""The members of the JSON report by type: what is written, what is read, and its schema.
+
+A report that is read may come from another machine, and a terminal shows it: words that the checker
+chooses itself must look like such words, and line numbers like line numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, TypedDict
+
+import msgspec
+from msgspec import UNSET, Meta, UnsetType
+
+from checker.base.record import Record
+from checker.finding import Safety, Severity
+from checker.package.kind import PackageKind
+from checker.report.report import Cause, InheritedPart, SuppressedBy, VerdictKind
+
+_END = r"$(?!\n)"
+"""The end of a text: Python's `$` alone also matches in front of a line's end."""
+Word = Annotated[str, Meta(pattern=rf"^[A-Za-z0-9_-]{{1,100}}{_END}")]
+"""An id or a name of the checker's own."""
+RuleId = Annotated[str, Meta(pattern=rf"^[A-Z]+[0-9]+{_END}", max_length=100)]
+Fingerprint = Annotated[str, Meta(pattern=rf"^[0-9a-f]{{16}}{_END}")]
+Count = Annotated[int, Meta(ge=1, lt=10**9)]
+"""A line or a column."""
+
+
+class PlaceJson(Record):
+    """A stretch of a file."""
+
+    file: Annotated[
+        str, Meta(description="Relative to the package folder; empty for the folder itself.")
+    ]
+    line: Count
+    column: Annotated[Count, Meta(description="In characters.")]
+    end_line: Count
+    end_column: Count
+    element: str
+    note: str
+    snippet: Annotated[str, Meta(description="The text of the line.")] = ""
+
+
+class EditJson(Record):
+    """An edit and its stretch in one."""
+
+    file: str
+    line: Count
+    column: Count
+    end_line: Count
+    end_column: Count
+    replacement: str
+
+
+class FixJson(Record):
+    """Edits that belong together."""
+
+    safety: Safety
+    edits: tuple[EditJson, ...]
+
+
+class FindingJson(Record):
+    """A finding without what its rule's page says."""
+
+    rule: RuleId
+    name: Word
+    severity: Severity
+    message: Annotated[str, Meta(min_length=1)]
+    fingerprint: Fingerprint
+    places: Annotated[tuple[PlaceJson, ...], Meta(min_length=1)]
+    help: Annotated[str, Meta(description="The command that shows the rule's page.")]
+    fix: FixJson | UnsetType = UNSET
+
+
+class SuppressedJson(Record):
+    """A finding that does not count."""
+
+    finding: FindingJson
+    by: SuppressedBy
+    reason: str
+    place: Annotated[
+        PlaceJson | None, Meta(description="Of the comment; null for what stands elsewhere.")
+    ]
+
+
+class NotCheckedJson(Record):
+    """A rule that did not look."""
+
+    rule: Word
+    reason: str
+    cause: Cause
+
+
+class LegJson(TypedDict):
+    """A stretch of the course: seconds, m/s and rad/s."""
+
+    name: str
+    start: float
+    end: float
+    linear: float
+    angular: float
+
+
+class MeasurementJson(TypedDict):
+    """A figure of the trial."""
+
+    name: str
+    label: str
+    value: float
+    unit: Annotated[str, Meta(description="SI; empty for ratios.")]
+    part: Annotated[str, Meta(description="Link or joint that it is about; empty for the robot.")]
+    other: Annotated[str, Meta(description="The second part of a pair; `ground` for the ground.")]
+    rule: Annotated[str, Meta(description="That judges it; empty for what only informs.")]
+    limits: Annotated[
+        Mapping[Word, float], Meta(description="Options of that rule, as they were used.")
+    ]
+    verdict: Literal["ok", "info", "warning", "error", "not judged"]
+
+
+class RepairJson(TypedDict):
+    """What was changed so that the trial could go on."""
+
+    part: str
+    what: str
+    serious: bool
+
+
+class TrialJson(TypedDict):
+    """What was driven and measured."""
+
+    drive: str
+    versions: Annotated[Mapping[str, str], Meta(description="Of MuJoCo and of the course.")]
+    course: Annotated[
+        list[LegJson],
+        Meta(description="What was commanded; empty when MuJoCo refused the model."),
+    ]
+    refused: Annotated[
+        str, Meta(description="Why MuJoCo does not take the model; empty if it does.")
+    ]
+    refused_part: str
+    measurements: list[MeasurementJson]
+    repairs: list[RepairJson]
+    notes: list[str]
+    trouble: list[str]
+    series: Annotated[
+        Mapping[str, list[float | None]],
+        Meta(
+            description="Samples by name, all of one length: time, x, y, z, roll, pitch, yaw,"
+            " speed, yaw_rate, command_linear, command_angular, load:<link>, torque:<joint>,"
+            " joint:<joint>; SI units."
+        ),
+    ]
+
+
+_VECTOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "number"}}
+_TENSOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": _VECTOR}
+_FACTS: Mapping[str, Any] = {
+    "robot": {"type": "string"},
+    "mass_kg": {"type": "number"},
+    "links": {"type": "integer"},
+    "joints": {"type": "integer"},
+    "sensors": {"type": "integer"},
+    "plugins": {"type": "integer"},
+    "drive": {"type": "string"},
+    "size_m": _VECTOR | {"description": "Sides of the box around it."},
+    "collision_triangles": {"type": "integer", "description": "Of meshes."},
+    "visual_triangles": {"type": "integer", "description": "Of meshes."},
+    "centre_of_mass_m": _VECTOR | {"description": "In the robot's frame."},
+    "inertia_kg_m2": _TENSOR | {"description": "About the centre of mass, rows."},
+    "tip_angle_deg": {"type": "number", "description": "How far the ground can tilt."},
+    "thrust_to_weight": {"type": "number"},
+}
+
+
+class PackageJson(Record):
+    """A package; whoever reads a report works out the verdict from the rest."""
+
+    name: str
+    path: Annotated[str, Meta(description="As given to the checker.")]
+    kind: Annotated[Word, Meta(extra_json_schema={"enum": list(map(str, PackageKind))})]
+    profile: Annotated[Word, Meta(description="What judged it.")]
+    inherited: tuple[InheritedPart, ...]
+    findings: tuple[FindingJson, ...]
+    suppressed: Annotated[
+        tuple[SuppressedJson, ...], Meta(description="What was found and does not count.")
+    ]
+    not_checked: tuple[NotCheckedJson, ...]
+    facts: Annotated[
+        Mapping[str, Any],
+        Meta(
+            description="What is known of the robot; what no rule had to look at is left out.",
+            extra_json_schema={"properties": _FACTS},
+        ),
+    ]
+    timings: Annotated[Mapping[str, float], Meta(description="Seconds by stage.")]
+    verdict: VerdictKind
+    trial: TrialJson | None = None
+    settings: Annotated[
+        str, Meta(description="What a settings file changed; empty without one.")
+    ] = ""
+    fail_on: Annotated[
+        Severity, Meta(description="Findings at or above it make the command fail.")
+    ] = Severity.ERROR
+
+
+class NotOpenedJson(Record):
+    """What was given, or lies below it, and was not checked at all."""
+
+    path: str
+    reason: str
+    failed: Annotated[
+        bool, Meta(description="Whether it was asked for by name, so that the run has failed.")
+    ] = False
+
+
+class ToolJson(Record):
+    """What wrote the report."""
+
+    versions: Mapping[str, str]
+    name: str = "subt-check"
+
+
+class ReportJson(Record):
+    """Version 1: members may be added, none is removed or changes its meaning."""
+
+    schema_version: Literal["1"]
+    tool: ToolJson
+    packages: tuple[PackageJson, ...]
+    not_opened: tuple[NotOpenedJson, ...]
+
+
+def report_schema() -> dict[str, Any]:
+    """Return the JSON schema of a report, as the types above have it."""
+    schema = msgspec.json.schema(ReportJson)
+    head = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Report of subt-check",
+    }
+    return head | schema
