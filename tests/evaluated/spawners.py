@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-_LONG = "b = 'a' * 400_000\n"
+_LONG = f"b = '{'a' * 8_000}' * 50\n"
 _FORTH = "m = 2**61 - 1\n"
 
 
