@@ -47,7 +47,7 @@ SNIPPETS = {
     "hash order": 'def f; h = {"b" => 1, :a => 2, 3 => nil}; h["z"] = [1, 2.5]; h["b"] = 9; h.map { |k, v| "#{k}=#{v}" }.join(";") + h.keys.join("|"); end',
     "hash methods": 'def f; h = {a: 1}.merge({b: 2}, {a: 3}); h.merge!({c: 4}); "#{h.key?(:a)} #{h.has_key?(:q)} #{h.include?(:b)} #{h.fetch(:z, 0)} #{h.values} #{h[:none].nil?} #{h.length} #{h.size} #{h.empty?} #{h.keys.join}"; end',
     "hash default": "def f; h = Hash.new(0); h[:a] += 2; h[:b] += 1; h[:a].to_s + h[:c].to_s; end",
-    "hash keys": 'def f; {1 => "i", 1.0 => "f", "1" => "s", :y => "y"}.length.to_s; end',
+    "hash keys": 'def f; {1 => "i", 1.0 => "f", "1" => "s", "1": "y"}.length.to_s; end',
     "nested each": 'def f; s = ""; {"l" => [1, 2], "r" => [3]}.each do |side, list| list.each_with_index { |n, i| s << "#{side}#{n}#{i} " } end; s; end',
     "each pair in for": 'def f; s = ""; for k, v in {a: 1, b: 2}; s += "#{k}#{v}"; end; s; end',
     "parallel arrays": 'def f; a = [1, 2]; b = %w[x y]; a.zip(b).map { |n, c| "#{n}#{c}" }.join; end',

@@ -159,8 +159,8 @@ def _pair_key(run: Interpreter, pair: RubyNode) -> Value:
     key = pair.fields["key"]
     if key.type == "hash_key_symbol":
         return _symbol(run, key)
-    if any(not part.named and part.text == ":" for part in pair.children):
-        raise Unreadable(key.span, f"uses the key {key.text[:40]}:, which is not read")
+    if key.type == "string" and any(part.type == ":" for part in pair.children):
+        return run.value(Symbol(string_content(run, key).text))
     return run.evaluate(key)
 
 
