@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.spawner.emitted import EmittedText
 from checker.expand.spawner.evaluator.calls import CALLS, entry_call
 from checker.expand.spawner.evaluator.expressions import EXPRESSIONS
@@ -55,8 +55,7 @@ _HANDLERS: Mapping[str, Handler] = {
 """What each type of node means; any other is not read."""
 
 
-@record(eq=False)
-class Spawner:
+class Spawner(Record, eq=False):
     """A `launch/spawner.rb`.
 
     Attributes:
@@ -76,7 +75,7 @@ class Spawner:
     sources: tuple[SourceText, ...]
     unread: tuple[Unread, ...]
     syntax_faults: tuple[SyntaxFault, ...]
-    _program: _Program = field(repr=False)
+    _program: _Program
 
     @property
     def trees(self) -> tuple[RubyNode, ...]:

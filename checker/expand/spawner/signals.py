@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Span
 
 if TYPE_CHECKING:
@@ -33,8 +33,7 @@ _PARENTS: Mapping[str, str] = {
 ERROR_CLASSES = frozenset(_PARENTS) | {"Exception"}
 
 
-@record(eq=False)
-class Unread:
+class Unread(Record, eq=False):
     """A construct that cannot be read without running Ruby, or that is not at hand.
 
     Attributes:
