@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-_LONG = "b = 'a' * 400_000\n"
+_LONG = f"b = '{'a' * 8_000}' * 50\n"
 _FORTH = "m = 2**61 - 1\n"
 
 
@@ -12,65 +12,59 @@ def _parameters(count: int) -> str:
 
 BODIES = {
     # What is compared
-    "shared arrays, nested": "a = [1]; 7.times { a = [a] * 100 }; b = [1]\n"
-    "7.times { b = [b] * 100 }; a == b",
     "long texts, equal": f"{_LONG}c = 'a' * 400_000; while b == c; end",
-    "long texts, by order": f"{_LONG}c = b + 'x'; d = b + 'y'; while true; c < d; end",
     "long texts, sorted": f"{_LONG}c = b + 'x'; d = b + 'y'\nwhile true; ([c, d] * 5000).sort; end",
     # What is written out
-    "one long text in a list of many": f"{_LONG}([b] * 40_000).to_s",
-    "a long text, inspected": f"{_LONG}while true; b.inspect; end",
-    "a symbol of a long text": f"{_LONG}s = b.to_sym; while true; s.inspect; end",
+    "shared arrays, nested": "a = [1]; 7.times { a = [a] * 100 }; a.to_s",
+    "shared arrays, joined": "a = [1]; 7.times { a = [a] * 100 }; a.join",
+    "one long text in a list of many": f"{_LONG}([b] * 40_000).join",
+    "a long text, copied": f"{_LONG}while true; b.upcase; end",
+    "a symbol of a long text": f"{_LONG}s = b.to_sym; while true; s.to_s; end",
     "widths in a format": "('%9999d' * 40_000) % ([1] * 40_000)",
     "precision in a format": "('%.999e' * 40_000) % ([1.5] * 40_000)",
     "long texts in a format": f"{_LONG}('%s' * 40_000) % ([b] * 40_000)",
     "many values for a format": "('%d' * 40_000) % ([1] * 900_000)",
-    "a symbol of holes": f'{_LONG}:"{"#{b}" * 2000}"',
     "a text of holes": f'{_LONG}"{"#{b}" * 2000}"',
     "a command of holes": f"{_LONG}`{'#{b}' * 2000}`",
     "wide characters": "a = []; while true; a << ('\U0001f600' * 400_000); end",
     # What is looked for
     "a text in a text": f"{_LONG}while true; b.include?('ab'); end",
-    "the place of a text": f"{_LONG}while true; b.index('ab'); end",
-    "a part of a text": f"{_LONG}while true; b['ab']; end",
+    "texts in a text": f"{_LONG}while true; b.gsub('a', 'bb'); end",
+    "a part of a text": f"{_LONG}while true; b[1..-2]; end",
     "a number behind blanks": "b = ' ' * 400_000\nwhile true; b.to_i; end",
-    "a number that is none": f"{_LONG}while true; Float(b) rescue 1; end",
+    "a number that is none": f"{_LONG}while true; b.to_f; end",
     "errors that hold long texts": f"{_LONG}a = []\nwhile true\n"
-    "  begin\n Float(b)\n rescue => e\n a << e\n end\nend",
+    "  begin\n raise b\n rescue => e\n a << e\n end\nend",
     # What is cut to pieces
     "words": "while true; ('a ' * 200_000).split; end",
     "characters": "while true; ('a' * 400_000).split(''); end",
-    "lines": 'b = "\\n" * 400_000\nwhile true; b.lines; end',
     "pieces that depend on a parameter": "s = 'a'; 17.times { s = s + s }\n"
     "t = _name == 'x' ? 'q' : s; while true; t.strip; end",
     # Hashes
-    "a long key": "h = {}; a = [1] * 100_000; while true; h[a]; end",
+    "a long key": f"{_LONG}h = {{}}; while true; h[b]; end",
     "keys of one hash value": f"{_FORTH}h = {{}}; i = 0; while true; i += m; h[i] = 1; end",
-    "sorted by keys of one hash value": f"{_FORTH}a = []; 9_000.times {{ |i| a << i }}\n"
-    "a.sort_by { |i| i * m }",
     "a hash that is left at once": "h = {}; 9_000.times { |i| h[i] = 1 }\n"
     "while true; h.each { break }; end",
     # Arrays
-    "an array that is set far behind its end": "a = []; while true; a[a.length + 999] = 1; end",
+    "an array that is set behind its end": "a = []; while true; a[a.length] = a; end",
     "an array that doubles": "a = [1]; while true; a.push(*a); end",
     "an array appended to itself": "a = [1]; while true; a.concat(a, a); end",
     "an array that holds itself": "a = [1]; a << a; a.flatten",
     "an array taken apart": "a = [1] * 100_000\nwhile true; [a].each { |x, y| x }; end",
-    "an array assigned to many": "a = [1] * 100_000\nwhile true; x, *y, z = a; end",
+    "an array assigned to many": "a = [1] * 100_000\nwhile true; x, y, z = a; end",
     "columns of columns": "a = [1] * 100_000; while true; a = a.zip(a); end",
     "a range as a list": "(1..9_000_000).to_a",
-    "a range taken apart": "[*(1..9_000_000)]",
+    "a range, sorted": "while true; (1..90_000).sort; end",
     "a range beyond what can be counted": "(1..10**30).to_a",
     # Numbers
     "a power of a power": "x = 3; while true; x = x ** 3; end",
     "a sum that grows": "x = 2**999; while true; x = ([x] * 1000).sum; end",
     "a sum beyond floats": "x = 2**999; 15.times { x = ([x] * 1000).sum }; x.to_f",
-    "a quotient without end": "1e308.div(1e-10).to_s",
-    "an index that is no number": "[1][Float::NAN].to_s",
-    "an integer without end": "Integer(1e400).to_s",
+    "a quotient without end": "(1e308 / 1e-10).floor.to_s",
+    "an index that is no number": "[1][0.0 / 0].to_s",
+    "an integer without end": "1e400.to_i.to_s",
     "no text, many times": "x = '' * 10**30; 1",
     "no items, many times": "x = [] * 10**30; 1",
-    "a width below zero": "x = 'a'.ljust(-(10**30)); 1",
     # Paths and commands
     "a path of many folders": "b = '/workspace' + '/a' * 200_000\nwhile true; File.exist?(b); end",
     "a path of long parts": f"{_LONG}File.join(*([b] * 40_000))",

@@ -91,7 +91,7 @@ def ruby_number(number):
 @in_batches
 @given(
     st.lists(
-        st.tuples(numbers, st.sampled_from(["+", "-", "*", "/", "%", "<=>", "<", ">="]), numbers),
+        st.tuples(numbers, st.sampled_from(["+", "-", "*", "/", "%", "<", ">="]), numbers),
         min_size=200,
         max_size=400,
     )
@@ -106,7 +106,7 @@ def test_arithmetic_and_its_text(ruby, emit, tmp_path, operations):
 
 
 @in_batches
-@given(st.lists(st.tuples(finite, st.integers(-3, 14)), min_size=200, max_size=400))
+@given(st.lists(st.tuples(finite, st.integers(0, 14)), min_size=200, max_size=400))
 def test_rounding(ruby, emit, tmp_path, cases):
     lines = [f"s << {ruby_number(a)}.round({digits}).to_s + '|'" for a, digits in cases]
     compare(ruby, emit, tmp_path, lines)

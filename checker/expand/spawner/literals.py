@@ -1,4 +1,4 @@
-"""Ruby's string literals: raw stretches of source to text, escape by escape."""
+"""Ruby's string literals: escapes, and the lines of heredocs without their indentation."""
 
 from __future__ import annotations
 
@@ -7,66 +7,43 @@ from collections.abc import Iterable, Iterator
 
 from checker.expand.spawner.signals import Unreadable
 from checker.expand.spawner.traced import Piece, TracedString
+from checker.source.ruby import RubyNode
 from checker.source.text import SourceText, Span
-
-_ESCAPED = re.compile(
-    r"\r\n|\\(?:u\{[0-9A-Fa-f\s]{1,200}\}|u[0-9A-Fa-f]{4}|x[0-9A-Fa-f]{1,2}|[0-7]{1,3}|\r\n|.)",
-    re.DOTALL,
-)
-_SIMPLE = {
-    "n": "\n",
-    "t": "\t",
-    "r": "\r",
-    "s": " ",
-    "a": "\a",
-    "b": "\b",
-    "e": "\x1b",
-    "f": "\f",
-    "v": "\v",
-    "\n": "",
-    "\r\n": "",
-}
-_CARRIAGE_RETURN = re.compile(r"\r\n")
 
 Range = tuple[int, int]
 
-
-def decode_double(
-    source: SourceText, ranges: Iterable[Range], parameters: frozenset[str]
-) -> TracedString:
-    """Read stretches of a literal in which escapes count.
-
-    Raises:
-        Unreadable: An escape that makes single bytes or control characters.
-    """
-    return _decode(source, ranges, parameters, _ESCAPED)
-
-
-def decode_raw(
-    source: SourceText, ranges: Iterable[Range], parameters: frozenset[str]
-) -> TracedString:
-    """Read stretches of a literal without any escapes, such as a heredoc of `<<'XML'`."""
-    return _decode(source, ranges, parameters, _CARRIAGE_RETURN)
+DOUBLE_QUOTED = re.compile(r"\r\n|\\(?:\r\n|.)", re.DOTALL)
+"""What stands for something else in a literal in which escapes count."""
+RAW = re.compile(r"\r\n")
+"""The same in a literal without any escapes, such as a heredoc of `<<'XML'`."""
+_ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "s": " ", "\n": "", "\r\n": ""}
+_NOT_READ = frozenset("abefuvxcCM01234567")
+"""Escapes that make control characters, or that characters' numbers follow."""
+_INDENT = re.compile(r"[ \t]*")
+_TAB = 8
+"""Ruby counts a tab up to the next multiple of 8 columns."""
 
 
-def decode_single(
-    source: SourceText, ranges: Iterable[Range], parameters: frozenset[str], quotes: str
-) -> TracedString:
-    """Read a literal in single quotes: only its quotes and the backslash can be escaped."""
-    pattern = re.compile(rf"\r\n|\\[\\{re.escape(quotes)}]")
-    return _decode(source, ranges, parameters, pattern)
+def single_quoted(quotes: str) -> re.Pattern[str]:
+    """Return the same for single quotes: only they and the backslash can be escaped."""
+    return re.compile(rf"\r\n|\\[\\{re.escape(quotes)}]")
 
 
-def _decode(
+def decoded(
     source: SourceText,
     ranges: Iterable[Range],
+    escapes: re.Pattern[str],
     parameters: frozenset[str],
-    pattern: re.Pattern[str],
 ) -> TracedString:
+    """Read stretches of a literal.
+
+    Raises:
+        Unreadable: An escape of a character's number, or of a control character.
+    """
     pieces = [
         Piece(text, Span(source, start, end), True, parameters)
         for first, last in ranges
-        for text, start, end in _stretches(source, first, last, pattern)
+        for text, start, end in _stretches(source, first, last, escapes)
         if text
     ]
     return TracedString(tuple(pieces))
@@ -89,21 +66,103 @@ def _unescaped(source: SourceText, found: re.Match[str]) -> str:
     if whole == "\r\n":
         return "\n"
     body = whole[1:]
-    if body in _SIMPLE:
-        return _SIMPLE[body]
-    if body[0] == "u" and len(body) > 1:
-        codes = [int(code, 16) for code in body.strip("u{}").split()]
-    elif body[0] == "x" and len(body) > 1:
-        codes = [int(body[1:], 16)]
-    elif body[0] in "01234567":
-        codes = [int(body, 8)]
-    elif body[0] in "cCMux":
-        codes = [-1]
-    else:
-        return body
-    single_byte = body[0] != "u" and codes[0] > 127
-    if single_byte or any(not 0 <= code <= 0x10FFFF or 0xD800 <= code < 0xE000 for code in codes):
-        raise Unreadable(
-            Span(source, found.start(), found.end()), f"uses the escape {whole}, which is not read"
-        )
-    return "".join(chr(code) for code in codes)
+    if body in _NOT_READ:
+        span = Span(source, found.start(), found.end())
+        raise Unreadable(span, f"uses the escape {whole}, which is not read")
+    return _ESCAPES.get(body, body)
+
+
+def heredoc_parts(opening: RubyNode) -> list[list[Range] | RubyNode] | None:
+    """Return the stretches of a heredoc's body, and the interpolations between them.
+
+    Args:
+        opening: Such as `<<~XML`.
+
+    Returns:
+        None when its end was not found.
+    """
+    body = opening.heredoc
+    if body is None or not body.children or body.broken:
+        return None
+    text = body.source.text
+    start = text.find("\n", body.start) + 1
+    end = text.rfind("\n", 0, body.children[-1].start) + 1
+    raw = "'" in opening.text
+    holes = [] if raw else [node for node in body.children if node.type == "interpolation"]
+    stretches: list[Range] = []
+    for hole in holes:
+        stretches.append((start, hole.start))
+        start = hole.end
+    stretches.append((start, end))
+    dedent = opening.text.startswith("<<~")
+    kept = _dedented(text, stretches) if dedent else [[stretch] for stretch in stretches]
+    parts: list[list[Range] | RubyNode] = [kept[0]]
+    for hole, ranges in zip(holes, kept[1:], strict=True):
+        parts += [hole, ranges]
+    return parts
+
+
+def _dedented(text: str, stretches: list[Range]) -> list[list[Range]]:
+    """Cut each stretch into lines without the indentation that all lines share."""
+    last = len(stretches) - 1
+    lines = [
+        _lines(text, start, end, begins=index == 0, hole=index < last)
+        for index, (start, end) in enumerate(stretches)
+    ]
+    widths = [
+        _width(text, start, indent_end)
+        for stretch in lines
+        for start, indent_end, end, begins in stretch
+        if begins and not _blank(text, indent_end, end, end == stretches[-1][1])
+    ]
+    common = min(widths, default=0)
+    return [
+        [
+            (_cut(text, start, indent_end, common) if begins else start, end)
+            for start, indent_end, end, begins in stretch
+        ]
+        for stretch in lines
+    ]
+
+
+def _lines(
+    text: str, start: int, end: int, *, begins: bool, hole: bool
+) -> list[tuple[int, int, int, bool]]:
+    """Return each line as its start, the end of its indentation, its end, and if it begins here.
+
+    The first line of a stretch behind `#{}` continues a line; a `#{}` in the first column
+    (`hole`) is a line of its own without indentation.
+    """
+    found = []
+    while start < end:
+        line_end = text.find("\n", start, end) + 1 or end
+        indent = _INDENT.match(text, start, line_end)
+        found.append((start, indent.end() if indent else start, line_end, begins))
+        start, begins = line_end, text[line_end - 1] == "\n"
+    if hole and begins:
+        found.append((end, end, end, True))
+    return found
+
+
+def _blank(text: str, indent_end: int, end: int, last: bool) -> bool:
+    """Whether a line holds nothing but blanks; `#{}` behind the indentation is something."""
+    rest = text[indent_end:end]
+    return rest in {"\n", "\r\n"} or (rest == "" and last)
+
+
+def _width(text: str, start: int, end: int) -> int:
+    width = 0
+    for char in text[start:end]:
+        width = width // _TAB * _TAB + _TAB if char == "\t" else width + 1
+    return width
+
+
+def _cut(text: str, start: int, end: int, common: int) -> int:
+    """Return the start of the line without `common` columns of indentation."""
+    width = 0
+    while start < end and width < common:
+        after = width // _TAB * _TAB + _TAB if text[start] == "\t" else width + 1
+        if after > common:
+            break
+        width, start = after, start + 1
+    return start

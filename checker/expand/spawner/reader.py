@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from checker.base.record import Record
 from checker.expand.spawner.emitted import EmittedText
-from checker.expand.spawner.evaluator.calls import entry_call
-from checker.expand.spawner.evaluator.interpreter import Interpreter
-from checker.expand.spawner.evaluator.statements import function_of
-from checker.expand.spawner.evaluator.table import HANDLERS
+from checker.expand.spawner.evaluator.calls import CALLS, entry_call
+from checker.expand.spawner.evaluator.expressions import EXPRESSIONS
+from checker.expand.spawner.evaluator.interpreter import Handler, Interpreter
+from checker.expand.spawner.evaluator.operators import OPERATORS
+from checker.expand.spawner.evaluator.statements import STATEMENTS, function_of
+from checker.expand.spawner.evaluator.variables import VARIABLES
 from checker.expand.spawner.files import SpawnerFiles
 from checker.expand.spawner.limits import MAX_FILE_LENGTH, LimitReached
 from checker.expand.spawner.scope import Function, Scope
@@ -42,6 +44,15 @@ SPAWNER_ARGUMENTS: tuple[Argument, ...] = (
 """`_name _modelURI _worldName _x _y _z _roll _pitch _yaw`; exact in binary, in m and rad."""
 EXECUTABLES_ARGUMENTS: tuple[Argument, ...] = (SAMPLE_NAME, SAMPLE_WORLD)
 """`_name _worldName`."""
+
+_HANDLERS: Mapping[str, Handler] = {
+    **EXPRESSIONS,
+    **VARIABLES,
+    **OPERATORS,
+    **STATEMENTS,
+    **CALLS,
+}
+"""What each type of node means; any other is not read."""
 
 
 class Spawner(Record, eq=False):
@@ -158,7 +169,7 @@ class _Program:
         whole = self.entry.whole()
         if isinstance(self._tree, str):
             return Unread(whole, self._tree)
-        run = Interpreter(self.files, HANDLERS, self.trees)
+        run = Interpreter(self.files, _HANDLERS, self.trees)
         run.globals[GROUND_TRUTH] = Value(ground_truth, frozenset({GROUND_TRUTH}))
         run.sources[self.path] = self.entry
         try:
@@ -181,7 +192,7 @@ class _Program:
         if function is None:
             return Unread(self.entry.whole(), _NO_FUNCTION.format(name))
         span = function.span
-        run.scope = Scope(self.path, self.trees[self.path])
+        run.scope = Scope(self.path)
         # With a parameter too few, the rest of what it emits is still worth a look.
         given = [_ruby(argument) for argument in arguments[: function.most]]
         result = entry_call(run, function, given, span)

@@ -15,7 +15,8 @@ class Parameter(Record, eq=False):
 
     Attributes:
         name: As written: `_modelURI`.
-        kind: `required`, `optional`, `rest`, `keyword`, `keyword_rest` or `block`.
+        kind: `required`, `optional`, `rest`, `keyword`, `required_keyword`, or `unknown` to the
+            evaluator.
         default: The expression of the default.
         span: The whole parameter.
     """
@@ -61,21 +62,17 @@ class Scope:
 
     Attributes:
         path: Path of the file in the workspace, for `__FILE__`.
-        body: The code whose assignments make variables known.
         variables: By name.
         parent: The scope around a block.
         frame: The call that `return` leaves; the scope of the function itself.
         running: The block whose code runs here.
-        block: The block given to the function.
     """
 
     path: str
-    body: RubyNode
     variables: dict[str, Value] = field(default_factory=dict)
     parent: Scope | None = None
     frame: Scope | None = None
     running: Block | None = None
-    block: Block | None = None
 
     def find(self, name: str) -> Value | None:
         """Return a variable of this scope or of one around it."""
@@ -118,14 +115,11 @@ def parameters_of(node: RubyNode | None) -> tuple[Parameter, ...]:
     return tuple(found)
 
 
-_POSITIONAL = ("required", "optional", "destructured")
+_POSITIONAL = ("required", "optional")
 
 _KINDS = {
     "identifier": "required",
-    "destructured_parameter": "destructured",
     "optional_parameter": "optional",
     "splat_parameter": "rest",
     "keyword_parameter": "keyword",
-    "hash_splat_parameter": "keyword_rest",
-    "block_parameter": "block",
 }

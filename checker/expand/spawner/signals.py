@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
@@ -9,6 +10,27 @@ from checker.source.text import Span
 
 if TYPE_CHECKING:
     from checker.expand.spawner.values import Block, Value
+
+_PARENTS: Mapping[str, str] = {
+    "ScriptError": "Exception",
+    "LoadError": "ScriptError",
+    "NotImplementedError": "ScriptError",
+    "StandardError": "Exception",
+    "ArgumentError": "StandardError",
+    "IOError": "StandardError",
+    "IndexError": "StandardError",
+    "KeyError": "IndexError",
+    "NameError": "StandardError",
+    "RangeError": "StandardError",
+    "FloatDomainError": "RangeError",
+    "RuntimeError": "StandardError",
+    "FrozenError": "RuntimeError",
+    "SystemCallError": "StandardError",
+    "TypeError": "StandardError",
+    "ZeroDivisionError": "StandardError",
+}
+
+ERROR_CLASSES = frozenset(_PARENTS) | {"Exception"}
 
 
 class Unread(Record, eq=False):
@@ -43,6 +65,15 @@ class RubyError(Exception):
     def __init__(self, kind: str, message: str, span: Span) -> None:
         super().__init__(message)
         self.kind, self.message, self.span = kind, message, span
+
+    def is_a(self, wanted: str) -> bool:
+        """Whether Ruby's class of the error is `wanted` or below it."""
+        kind = self.kind
+        while kind != wanted:
+            if kind not in _PARENTS:
+                return False
+            kind = _PARENTS[kind]
+        return True
 
 
 class Returned(Exception):

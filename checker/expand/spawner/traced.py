@@ -83,17 +83,7 @@ class TracedString(Record, eq=False, dict=True):
 
     def cut(self, start: int, end: int) -> TracedString:
         """Return the part from `start` up to `end`."""
-        if start <= 0 and end >= len(self.text):
-            return self
-        kept, at = [], 0
-        for piece in self.pieces:
-            if at >= end:
-                break
-            behind = at + len(piece.text)
-            if behind > start and end > start:
-                kept.append(piece.cut(start - at, end - at))
-            at = behind
-        return TracedString(tuple(kept))
+        return self.cut_many([(start, end)])[0]
 
     def cut_many(self, ranges: Iterable[tuple[int, int]]) -> list[TracedString]:
         """Return several parts, given in ascending order, in one pass."""

@@ -1,31 +1,25 @@
-"""Calls: arguments, the spawner's own functions, and blocks."""
+"""Calls: arguments, blocks, and the spawner's own functions with their parameters."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from types import MappingProxyType
 
-from checker.expand.spawner.evaluator.assignment import special_identifier, variable
-from checker.expand.spawner.evaluator.binding import bind
-from checker.expand.spawner.evaluator.expressions import (
-    elements,
-    hash_of,
-    string_content,
-)
+from checker.expand.spawner.evaluator.expressions import elements, string_content
 from checker.expand.spawner.evaluator.interpreter import Handler, Interpreter
-from checker.expand.spawner.evaluator.kernel import KERNEL
+from checker.expand.spawner.evaluator.variables import variable
 from checker.expand.spawner.files import absolute
 from checker.expand.spawner.limits import MAX_CALLS
-from checker.expand.spawner.methods.call import Call, check_arity, invoke_block
-from checker.expand.spawner.methods.table import invoke_method
-from checker.expand.spawner.scope import Function, Scope
-from checker.expand.spawner.signals import Broken, Returned, Unreadable
+from checker.expand.spawner.methods.call import Call, check_arity
+from checker.expand.spawner.methods.classes import invoke_method
+from checker.expand.spawner.methods.kernel import KERNEL
+from checker.expand.spawner.scope import Function, Parameter, Scope
+from checker.expand.spawner.signals import Broken, Returned, RubyError, Unreadable
 from checker.expand.spawner.values import NIL, Block, Value
 from checker.source.ruby import RubyNode
 from checker.source.text import Span
 
-_HASH_PARTS = frozenset({"pair", "hash_splat_argument"})
+_FIND = re.compile(r"\s*rospack find ([\w-]+)\s*")
 
 
 def _call(run: Interpreter, node: RubyNode) -> Value:
@@ -39,12 +33,8 @@ def _call(run: Interpreter, node: RubyNode) -> Value:
         return receiver
     call = Call(run, node, name.text, receiver or NIL)
     _read_arguments(call, node)
-    return _with_break(call, has_receiver=receiver is not None)
-
-
-def _with_break(call: Call, *, has_receiver: bool) -> Value:
     try:
-        return invoke_method(call) if has_receiver else call_bare(call)
+        return _call_bare(call) if receiver is None else invoke_method(call)
     except Broken as jump:
         if call.block is None or jump.block is not call.block:
             raise
@@ -52,21 +42,28 @@ def _with_break(call: Call, *, has_receiver: bool) -> Value:
 
 
 def _read_arguments(call: Call, node: RubyNode) -> None:
-    run, arguments = call.run, node.fields.get("arguments")
-    parts = arguments.parts if arguments else []
+    arguments, block = node.fields.get("arguments"), node.fields.get("block")
     if arguments is not None and arguments.broken:
         raise Unreadable(node.span, "holds Ruby that the parser does not understand")
-    plain = [part for part in parts if part.type not in _HASH_PARTS | {"block_argument"}]
-    call.arguments = elements(run, plain)
-    pairs = [part for part in parts if part.type in _HASH_PARTS]
-    if pairs:
-        call.keywords = hash_of(run, pairs)
-    block = node.fields.get("block")
     if block is not None:
-        call.block = Block(block, run.scope)
-    for part in parts:
-        if part.type == "block_argument":
+        call.block = Block(block, call.run.scope)
+    plain = []
+    for part in arguments.parts if arguments else []:
+        if part.type == "pair":
+            name, value = _named(call.run, part)
+            call.named[name] = value
+        elif part.type == "block_argument":
             call.block = _block_argument(part)
+        else:
+            plain.append(part)
+    call.arguments = elements(call.run, plain)
+
+
+def _named(run: Interpreter, pair: RubyNode) -> tuple[str, Value]:
+    key, value = pair.fields["key"], pair.fields.get("value")
+    if key.type != "hash_key_symbol" or value is None:
+        raise Unreadable(pair.span, f"passes {pair.text[:40]}, which is not read")
+    return key.text, run.evaluate(value)
 
 
 def _block_argument(node: RubyNode) -> Block:
@@ -77,22 +74,14 @@ def _block_argument(node: RubyNode) -> Block:
 
 def _identifier(run: Interpreter, node: RubyNode) -> Value:
     value = variable(run, node)
-    if value is None:
-        value = special_identifier(run, node)
-    if value is not None:
-        return value
-    return call_bare(Call(run, node, node.text, NIL))
+    return value if value is not None else _call_bare(Call(run, node, node.text, NIL))
 
 
-def call_bare(call: Call) -> Value:
-    """Call a function without receiver: the spawner's own, or one of Ruby's.
-
-    Raises:
-        Unreadable: There is no such function in the subset.
-    """
+def _call_bare(call: Call) -> Value:
+    """Call a function without receiver: the spawner's own, or one of Ruby's."""
     function = call.run.functions.get(call.name)
     if function is not None:
-        return call_function(call, function)
+        return _call_function(call, function)
     known = KERNEL.get(call.name)
     if known is None:
         raise Unreadable(call.span, f"calls {call.name}, which is not read")
@@ -100,27 +89,28 @@ def call_bare(call: Call) -> Value:
     return known(call, *call.arguments)
 
 
-def call_function(call: Call, function: Function, *, entry: bool = False) -> Value:
-    """Call a function of the spawner.
+def entry_call(run: Interpreter, function: Function, arguments: list[Value], span: Span) -> Value:
+    """Call `spawner` or another function from outside."""
+    call = Call(run, function.node, function.name, NIL, arguments, at=span)
+    return _call_function(call, function, entry=True)
 
-    Args:
-        call: The arguments.
-        function: Its definition.
-        entry: Note the parameters' names on their values.
-    """
+
+def _call_function(call: Call, function: Function, *, entry: bool = False) -> Value:
+    """Call a function of the spawner; `entry` notes the parameters' names on their values."""
     run, node = call.run, function.node
     if node.broken:
         raise Unreadable(function.span, "holds Ruby that the parser does not understand")
     if run.calls >= MAX_CALLS:
         raise Unreadable(call.span, f"calls functions more than {MAX_CALLS} deep")
-    scope = Scope(function.path, node, block=call.block)
+    scope = Scope(function.path)
     before = run.influences
     run.calls += 1
     try:
         with run.inside(scope):
-            bind(call, function, scope)
+            _bind(call, function, scope)
             if entry:
-                _name_parameters(scope)
+                for name, value in scope.variables.items():
+                    scope.variables[name] = Value(value.data, value.parameters | {name})
             body = node.fields.get("body")
             return run.evaluate(body) if body else NIL
     except Returned as jump:
@@ -132,20 +122,58 @@ def call_function(call: Call, function: Function, *, entry: bool = False) -> Val
         run.calls -= 1
 
 
-def _name_parameters(scope: Scope) -> None:
-    for name, value in scope.variables.items():
-        scope.variables[name] = Value(value.data, value.parameters | {name})
+def _bind(call: Call, function: Function, scope: Scope) -> None:
+    """Set the parameters of a function in its scope; defaults may use earlier ones."""
+    call.run.budget.spend_items(len(function.parameters))
+    for parameter in function.parameters:
+        if parameter.kind == "unknown":
+            raise Unreadable(parameter.span, f"has the parameter {parameter.span.text[:40]}")
+    _bind_positional(call, function, scope)
+    _bind_named(call, function, scope)
 
 
-def _yield(run: Interpreter, node: RubyNode) -> Value:
-    block = run.scope.call.block
-    if block is None:
-        raise Unreadable(node.span, "yields without a block")
-    arguments = elements(run, [value for part in node.parts for value in part.parts])
-    return invoke_block(Call(run, node, "yield", NIL, block=block), arguments)
+def _bind_positional(call: Call, function: Function, scope: Scope) -> None:
+    listed = [p for p in function.parameters if "keyword" not in p.kind]
+    optional = sum(p.kind == "optional" for p in listed)
+    endless = any(p.kind == "rest" for p in listed)
+    required, count = function.required, len(call.arguments)
+    if count < required or (count > required + optional and not endless):
+        most = "+" if endless else f"..{required + optional}" if optional else ""
+        message = f"wrong number of arguments (given {count}, expected {required}{most})"
+        raise RubyError("ArgumentError", message, call.span)
+    given = min(optional, count - required)
+    surplus = count - required - given
+    at = 0
+    for parameter in listed:
+        if parameter.kind == "rest":
+            scope.variables[parameter.name] = call.run.array(call.arguments[at : at + surplus])
+            at += surplus
+        elif parameter.kind == "optional" and given == 0:
+            scope.variables[parameter.name] = _default(call, parameter)
+        else:
+            given -= parameter.kind == "optional"
+            scope.variables[parameter.name] = call.arguments[at]
+            at += 1
 
 
-_FIND = re.compile(r"\s*(?:rospack find ([\w-]+)|echo \$\(rospack find ([\w-]+)\)(/[\w./-]*)?)\s*")
+def _bind_named(call: Call, function: Function, scope: Scope) -> None:
+    named = dict(call.named)
+    wanted = [p for p in function.parameters if "keyword" in p.kind]
+    if named and not wanted:
+        raise Unreadable(call.span, f"calls {call.name} with named arguments")
+    for parameter in wanted:
+        if parameter.name in named:
+            scope.variables[parameter.name] = named.pop(parameter.name)
+        elif parameter.kind == "keyword":
+            scope.variables[parameter.name] = _default(call, parameter)
+        else:
+            raise RubyError("ArgumentError", f"missing keyword: :{parameter.name}", call.span)
+    if named:
+        raise RubyError("ArgumentError", f"unknown keyword: :{next(iter(named))}", call.span)
+
+
+def _default(call: Call, parameter: Parameter) -> Value:
+    return call.run.evaluate(parameter.default) if parameter.default else NIL
 
 
 def _subshell(run: Interpreter, node: RubyNode) -> Value:
@@ -154,19 +182,10 @@ def _subshell(run: Interpreter, node: RubyNode) -> Value:
     found = _FIND.fullmatch(command)
     if found is None:
         raise Unreadable(node.span, f"runs the command '{command.strip()[:60]}'")
-    package = found.group(1) or found.group(2)
-    folder = run.files.package_folder(package)
+    folder = run.files.package_folder(found.group(1))
     if folder is None:
-        raise Unreadable(node.span, f"package {package} is not at hand")
-    return run.computed(absolute(folder) + (found.group(3) or "") + "\n", node.span)
+        raise Unreadable(node.span, f"package {found.group(1)} is not at hand")
+    return run.computed(absolute(folder) + "\n", node.span)
 
 
-def entry_call(run: Interpreter, function: Function, arguments: list[Value], span: Span) -> Value:
-    """Call `spawner` or another function from outside."""
-    call = Call(run, function.node, function.name, NIL, arguments, at=span)
-    return call_function(call, function, entry=True)
-
-
-CALLS: Mapping[str, Handler] = MappingProxyType(
-    {"call": _call, "identifier": _identifier, "yield": _yield, "subshell": _subshell}
-)
+CALLS: Mapping[str, Handler] = {"call": _call, "identifier": _identifier, "subshell": _subshell}

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from checker.expand.spawner.files import SpawnerFiles
-from checker.expand.spawner.formatting import NotWritable, to_s
 from checker.expand.spawner.limits import (
     ITEMS_PER_STEP,
     MAX_DEPTH,
@@ -19,14 +18,8 @@ from checker.expand.spawner.limits import (
 from checker.expand.spawner.scope import Function, Scope
 from checker.expand.spawner.signals import Unreadable
 from checker.expand.spawner.traced import NO_PARAMETERS, TracedString, computed, joined
-from checker.expand.spawner.values import (
-    NIL,
-    Data,
-    RubyArray,
-    RubyHash,
-    RubyString,
-    Value,
-)
+from checker.expand.spawner.value_text import NotWritable, to_s
+from checker.expand.spawner.values import NIL, Data, RubyArray, RubyString, Value, equal
 from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
 from checker.source.text import SourceText, Span
 
@@ -51,8 +44,6 @@ class Interpreter:
         scope: Variables that the present code sees.
         depth: Evaluations that wait for each other.
         calls: Ruby functions that wait for each other.
-        assigned: Variables that a piece of code sets, by the code's node, with the end of the
-            first such place.
     """
 
     files: SpawnerFiles
@@ -68,7 +59,6 @@ class Interpreter:
     scope: Scope = field(init=False)
     depth: int = 0
     calls: int = 0
-    assigned: dict[RubyNode, Mapping[str, int]] = field(default_factory=dict)
 
     def evaluate(self, node: RubyNode) -> Value:
         """Return the value of an expression or statement.
@@ -152,17 +142,20 @@ class Interpreter:
             text = to_s(value.data, self.budget)
         except NotWritable as error:
             raise Unreadable(span, f"writes out {error}, which is not read") from None
-        return computed(text, span, self._deep_influences(value) | self.influences)
+        items = value.data.items if isinstance(value.data, RubyArray) else []
+        parameters = value.parameters.union(*(item.influences for item in items))
+        return computed(text, span, parameters | self.influences)
 
-    def _deep_influences(self, value: Value) -> frozenset[str]:
-        """Return what influenced a value or anything in it, one level down."""
-        data = value.data
-        inner: Iterable[Value] = ()
-        if isinstance(data, RubyArray):
-            inner = data.items
-        elif isinstance(data, RubyHash):
-            inner = [part for entry in data.entries.values() for part in entry]
-        return value.parameters.union(*(part.influences for part in inner))
+    def equal(self, left: Value, right: Value, span: Span) -> bool:
+        """Compare two values as `==` does.
+
+        Raises:
+            Unreadable: They are arrays or hashes.
+        """
+        try:
+            return equal(left.data, right.data, self.budget)
+        except ValueError as error:
+            raise Unreadable(span, f"compares two values of the class {error}") from None
 
     @contextmanager
     def influenced_by(self, value: Value) -> Iterator[None]:
@@ -214,7 +207,7 @@ class Interpreter:
         else:
             self.sources[path] = tree.source
         self.loaded.add(path)
-        with self.inside(Scope(path, tree)):
+        with self.inside(Scope(path)):
             self.evaluate(tree)
 
 
@@ -223,6 +216,7 @@ _NAMES = {
     "module": "defines a module",
     "regex": "uses a regular expression",
     "lambda": "uses a lambda",
+    "self": "uses self",
     "singleton_method": "defines a method of an object",
     "instance_variable": "uses an instance variable",
     "class_variable": "uses a class variable",

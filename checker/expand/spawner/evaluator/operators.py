@@ -4,29 +4,28 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any
 
-from checker.expand.spawner.arithmetic import NotReal, calculate
 from checker.expand.spawner.evaluator.interpreter import Handler, Interpreter
 from checker.expand.spawner.methods.call import Call
-from checker.expand.spawner.methods.table import invoke_method
+from checker.expand.spawner.methods.classes import invoke_method
+from checker.expand.spawner.methods.number import NotReal, calculate
 from checker.expand.spawner.signals import RubyError, Unreadable
 from checker.expand.spawner.values import (
     RubyArray,
-    RubyHash,
     RubyString,
-    Symbol,
     Value,
     class_name,
-    equal,
     is_number,
 )
 from checker.source.ruby import RubyNode
 
-_COMPARISONS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
-    {"<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge}
-)
+_COMPARISONS: Mapping[str, Callable[[Any, Any], bool]] = {
+    "<": operator.lt,
+    ">": operator.gt,
+    "<=": operator.le,
+    ">=": operator.ge,
+}
 _SHORT = frozenset({"&&", "and", "||", "or"})
 
 
@@ -65,25 +64,12 @@ def operate(run: Interpreter, node: RubyNode, sign: str, left: Value, right: Val
         RubyError: Ruby refuses them.
     """
     if sign in {"==", "!="}:
-        return run.value(_equal(run, node, left, right) is (sign == "=="), left, right)
+        return run.value(run.equal(left, right, node.span) is (sign == "=="), left, right)
     if isinstance(left.data, (int, float)) and not isinstance(left.data, bool):
         return _numeric(run, node, sign, left.data, left, right)
-    if sign in _COMPARISONS and isinstance(left.data, RubyString):
-        if not isinstance(right.data, RubyString):
-            message = f"comparison of String with {class_name(right.data)} failed"
-            raise RubyError("ArgumentError", message, node.span)
-        run.budget.spend_text(len(left.data.text))
-        return run.value(_COMPARISONS[sign](left.data.text, right.data.text), left, right)
-    if isinstance(left.data, (RubyString, RubyArray, RubyHash, Symbol)):
+    if isinstance(left.data, (RubyString, RubyArray)):
         return invoke_method(Call(run, node, sign, left, [right]))
     raise Unreadable(node.span, f"uses {sign} on {class_name(left.data)}")
-
-
-def _equal(run: Interpreter, node: RubyNode, left: Value, right: Value) -> bool:
-    try:
-        return equal(left.data, right.data, run.budget)
-    except ValueError as error:
-        raise Unreadable(node.span, f"compares arrays {error}") from None
 
 
 def _numeric(
@@ -98,8 +84,6 @@ def _numeric(
         raise RubyError("TypeError", f"{name} can't be coerced into {class_name(a)}", node.span)
     if sign in _COMPARISONS:
         return run.value(_COMPARISONS[sign](a, b), left, right)
-    if sign == "<=>":
-        return run.value(None if a != a or b != b else (a > b) - (a < b), left, right)  # noqa: PLR0124 NaN
     try:
         result = calculate(sign, a, b)
     except ZeroDivisionError:
@@ -123,4 +107,4 @@ def _unary(run: Interpreter, node: RubyNode) -> Value:
     raise Unreadable(node.span, f"uses {sign} on {class_name(value.data)}")
 
 
-OPERATORS: Mapping[str, Handler] = MappingProxyType({"binary": _binary, "unary": _unary})
+OPERATORS: Mapping[str, Handler] = {"binary": _binary, "unary": _unary}

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from types import MappingProxyType
+from collections.abc import Iterator, Mapping
 
-from checker.expand.spawner.evaluator.assignment import assign, mark_untaken
 from checker.expand.spawner.evaluator.expressions import elements
 from checker.expand.spawner.evaluator.interpreter import Handler, Interpreter
-from checker.expand.spawner.methods.iteration import items_of
-from checker.expand.spawner.ruby_errors import is_kind, rescued_by_default
+from checker.expand.spawner.evaluator.variables import assign, mark_untaken
+from checker.expand.spawner.methods.enumerable import items_of
 from checker.expand.spawner.scope import Function, parameters_of
 from checker.expand.spawner.signals import (
     Broken,
@@ -18,6 +16,7 @@ from checker.expand.spawner.signals import (
     RubyError,
     Unreadable,
 )
+from checker.expand.spawner.traced import NO_PARAMETERS
 from checker.expand.spawner.values import (
     NIL,
     Constant,
@@ -26,7 +25,6 @@ from checker.expand.spawner.values import (
     Symbol,
     Value,
     class_name,
-    equal,
 )
 from checker.source.ruby import RubyNode
 from checker.source.text import Span
@@ -34,43 +32,22 @@ from checker.source.text import Span
 _CLAUSES = frozenset({"rescue", "else", "ensure"})
 
 
-def _program(run: Interpreter, node: RubyNode) -> Value:
-    try:
-        return run.run(node.parts)
-    except Returned as jump:
-        if jump.frame is not run.scope:
-            raise
-        return jump.value
-
-
 def _statements(run: Interpreter, node: RubyNode) -> Value:
     return run.run(node.parts)
 
 
 def _body(run: Interpreter, node: RubyNode) -> Value:
-    """Evaluate statements with their `rescue`, `else` and `ensure`."""
-    parts = node.parts
-    clauses = [part for part in parts if part.type in _CLAUSES]
-    statements = [part for part in parts if part.type not in _CLAUSES]
-    if not clauses:
-        return run.run(statements)
-    ensure = [clause for clause in clauses if clause.type == "ensure"]
+    """Evaluate statements with their `rescue` and `else`."""
+    clauses = [part for part in node.parts if part.type in _CLAUSES]
+    if any(clause.type == "ensure" for clause in clauses):
+        raise Unreadable(clauses[-1].span, "uses ensure, which is not read")
     try:
-        result = _rescued(run, statements, clauses)
-    except (RubyError, Returned, Broken, Continued):
-        run.run(ensure)
-        raise
-    run.run(ensure)
-    return result
-
-
-def _rescued(run: Interpreter, statements: list[RubyNode], clauses: list[RubyNode]) -> Value:
-    try:
-        result = run.run(statements)
+        result = run.run(part for part in node.parts if part.type not in _CLAUSES)
     except RubyError as error:
         for clause in clauses:
             if clause.type == "rescue" and _catches(run, clause, error):
-                return _handle(run, clause, error)
+                mark_untaken(run, node, NO_PARAMETERS)
+                return _rescue(run, clause, error)
         raise
     for clause in clauses:
         if clause.type == "else":
@@ -81,60 +58,36 @@ def _rescued(run: Interpreter, statements: list[RubyNode], clauses: list[RubyNod
 def _catches(run: Interpreter, clause: RubyNode, error: RubyError) -> bool:
     exceptions = clause.fields.get("exceptions")
     if exceptions is None:
-        return rescued_by_default(error.kind)
+        return error.is_a("StandardError")
     classes = elements(run, exceptions.parts)
-    return any(isinstance(c.data, Constant) and is_kind(error.kind, c.data.name) for c in classes)
+    return any(isinstance(c.data, Constant) and error.is_a(c.data.name) for c in classes)
 
 
-def _handle(run: Interpreter, clause: RubyNode, error: RubyError) -> Value:
-    variable = clause.fields.get("variable")
+def _rescue(run: Interpreter, clause: RubyNode, error: RubyError) -> Value:
+    variable, body = clause.fields.get("variable"), clause.fields.get("body")
     if variable is not None:
         assign(run, variable.parts[0], run.value(ErrorValue(error.kind, error.message)))
-    body = clause.fields.get("body")
     return run.evaluate(body) if body else NIL
 
 
-def _rescue_modifier(run: Interpreter, node: RubyNode) -> Value:
-    try:
-        return run.evaluate(node.fields["body"])
-    except RubyError as error:
-        if not rescued_by_default(error.kind):
-            raise
-        return run.evaluate(node.fields["handler"])
-
-
-def _choose(run: Interpreter, condition: Value, ways: dict[bool, RubyNode | None]) -> Value:
-    """Take one of two ways; what is set on the other one depends on the condition, too."""
-    taken, other = ways[condition.truthy], ways[not condition.truthy]
-    with run.influenced_by(condition):
-        result = run.evaluate(taken) if taken else NIL
-    if other is not None:
-        mark_untaken(run, other, condition.influences)
-    if not condition.influences:
-        return result
-    return Value(result.data, result.parameters | condition.influences)
-
-
 def _if(run: Interpreter, node: RubyNode) -> Value:
-    then, other = node.fields.get("consequence"), node.fields.get("alternative")
-    return _choose(run, run.evaluate(node.fields["condition"]), {True: then, False: other})
-
-
-def _unless(run: Interpreter, node: RubyNode) -> Value:
-    then, other = node.fields.get("consequence"), node.fields.get("alternative")
-    return _choose(run, run.evaluate(node.fields["condition"]), {True: other, False: then})
-
-
-def _if_modifier(run: Interpreter, node: RubyNode) -> Value:
-    wanted = node.type == "if_modifier"
-    ways: dict[bool, RubyNode | None] = {wanted: node.fields["body"], not wanted: None}
-    return _choose(run, run.evaluate(node.fields["condition"]), ways)
+    """Take one of two ways; what is set on the other one depends on the condition, too."""
+    condition = run.evaluate(node.fields["condition"])
+    ways = [node.fields.get("consequence") or node.fields.get("body")]
+    ways.append(node.fields.get("alternative"))
+    if condition.truthy is node.type.startswith("unless"):
+        ways.reverse()
+    with run.influenced_by(condition):
+        result = run.evaluate(ways[0]) if ways[0] else NIL
+    if ways[1] is not None:
+        mark_untaken(run, ways[1], condition.influences)
+    return Value(result.data, result.parameters | condition.influences)
 
 
 def _case(run: Interpreter, node: RubyNode) -> Value:
     subject = node.fields.get("value")
     value = run.evaluate(subject) if subject else None
-    deciding = value.influences if value else frozenset()
+    deciding = value.influences if value else NO_PARAMETERS
     clauses = [part for part in node.parts if part.type in {"when", "else"}]
     taken = None
     for clause in clauses:
@@ -158,63 +111,59 @@ def _matches(run: Interpreter, pattern: Value, value: Value | None, node: RubyNo
     """Compare as `pattern === value` does; without a value, the pattern is the condition."""
     if value is None:
         return pattern.truthy
-    if isinstance(pattern.data, RubyRange):
-        number = value.data
-        first, last = pattern.data.first, pattern.data.last
-        if type(number) not in {int, float} or not isinstance(number, (int, float)):
-            return False
-        return first <= number < last if pattern.data.exclusive else first <= number <= last
-    if isinstance(pattern.data, Constant):
-        name = class_name(value.data)
-        return pattern.data.name == name or (pattern.data.name, name) in {
-            ("Numeric", "Integer"),
-            ("Numeric", "Float"),
-        }
-    try:
-        return equal(pattern.data, value.data, run.budget)
-    except ValueError as error:
-        raise Unreadable(node.span, f"compares arrays {error}") from None
+    if isinstance(pattern.data, (RubyRange, Constant)):
+        raise Unreadable(node.span, f"compares with a {class_name(pattern.data)} in a case")
+    return run.equal(pattern, value, node.span)
 
 
 def _while(run: Interpreter, node: RubyNode) -> Value:
-    wanted = node.type in {"while", "while_modifier"}
-    body, condition_node = node.fields["body"], node.fields["condition"]
-    first = node.type.endswith("modifier") and body.type == "begin"
-    scope = run.scope
+    return _loop(run, node.fields["body"], _conditions(run, node), NIL)
+
+
+def _conditions(run: Interpreter, node: RubyNode) -> Iterator[Value]:
     while True:
-        condition = Value(None) if first else run.evaluate(condition_node)
-        if not first and condition.truthy is not wanted:
-            return NIL
-        first = False
-        run.budget.spend()
-        try:
-            with run.influenced_by(condition):
-                run.evaluate(body)
-        except Continued as jump:
-            if jump.scope is not scope:
-                raise
-        except Broken as jump:
-            if jump.scope is not scope:
-                raise
-            return jump.value
+        condition = run.evaluate(node.fields["condition"])
+        if condition.truthy is not (node.type == "while"):
+            return
+        yield condition
 
 
 def _for(run: Interpreter, node: RubyNode) -> Value:
-    pattern, body, scope = node.fields["pattern"], node.fields["body"], run.scope
     collection = run.evaluate(node.fields["value"].parts[0])
+    return _loop(run, node.fields["body"], _assignments(run, node, collection), collection)
+
+
+def _assignments(run: Interpreter, node: RubyNode, collection: Value) -> Iterator[Value]:
     for item in items_of(run, collection, node):
-        run.budget.spend()
-        assign(run, pattern, item)
-        try:
+        assign(run, node.fields["pattern"], item)
+        yield NIL
+
+
+def _loop(run: Interpreter, body: RubyNode, rounds: Iterator[Value], result: Value) -> Value:
+    """Run the body of a loop once for each round, whose value decides that it runs."""
+    scope, entered = run.scope, False
+    try:
+        for deciding in rounds:
+            entered = True
+            run.budget.spend()
+            _round(run, body, deciding)
+    except Broken as jump:
+        if jump.scope is not scope:
+            raise
+        return jump.value
+    if not entered:
+        mark_untaken(run, body, NO_PARAMETERS)
+    return result
+
+
+def _round(run: Interpreter, body: RubyNode, deciding: Value) -> None:
+    scope = run.scope
+    try:
+        with run.influenced_by(deciding):
             run.evaluate(body)
-        except Continued as jump:
-            if jump.scope is not scope:
-                raise
-        except Broken as jump:
-            if jump.scope is not scope:
-                raise
-            return jump.value
-    return collection
+    except Continued as jump:
+        if jump.scope is not scope:
+            raise
 
 
 def _argument(run: Interpreter, node: RubyNode) -> Value:
@@ -251,25 +200,20 @@ def _define(run: Interpreter, node: RubyNode) -> Value:
     return run.value(Symbol(function.name))
 
 
-def _of(names: Iterable[str], handler: Handler) -> dict[str, Handler]:
-    return dict.fromkeys(names, handler)
+_HOLD_STATEMENTS = ("program", "then", "do", "else", "parenthesized_statements")
+_HOLD_CLAUSES = ("body_statement", "block_body", "begin")
+_CHOOSE = ("if", "elsif", "conditional", "unless", "if_modifier", "unless_modifier")
 
-
-STATEMENTS: Mapping[str, Handler] = MappingProxyType(
-    {
-        "program": _program,
-        **_of(("then", "do", "else", "ensure", "parenthesized_statements"), _statements),
-        **_of(("body_statement", "block_body", "begin"), _body),
-        "rescue_modifier": _rescue_modifier,
-        **_of(("if", "elsif", "conditional"), _if),
-        "unless": _unless,
-        **_of(("if_modifier", "unless_modifier"), _if_modifier),
-        "case": _case,
-        **_of(("while", "until", "while_modifier", "until_modifier"), _while),
-        "for": _for,
-        "return": _return,
-        "break": _break,
-        "next": _next,
-        "method": _define,
-    }
-)
+STATEMENTS: Mapping[str, Handler] = {
+    **dict.fromkeys(_HOLD_STATEMENTS, _statements),
+    **dict.fromkeys(_HOLD_CLAUSES, _body),
+    **dict.fromkeys(_CHOOSE, _if),
+    "case": _case,
+    "while": _while,
+    "until": _while,
+    "for": _for,
+    "return": _return,
+    "break": _break,
+    "next": _next,
+    "method": _define,
+}

@@ -19,7 +19,6 @@ from checker.expand.spawner.values import (
     RubyString,
     Value,
     class_name,
-    equal,
 )
 from checker.source.ruby import RubyNode
 from checker.source.text import Span
@@ -44,7 +43,7 @@ class Call:
         name: Of the method.
         receiver: The object before the dot.
         arguments: Positional arguments.
-        keywords: Keyword arguments as a hash.
+        named: Arguments with a name (`radius: 1`).
         block: `{ … }` or `do … end`.
         at: The place, when it is not the node's.
     """
@@ -54,7 +53,7 @@ class Call:
     name: str
     receiver: Value
     arguments: list[Value] = field(default_factory=list)
-    keywords: Value | None = None
+    named: dict[str, Value] = field(default_factory=dict)
     block: Block | None = None
     at: Span | None = None
 
@@ -136,13 +135,6 @@ class Call:
             raise self.refuse(f"with {class_name(value.data)} instead of a hash")
         return value.data
 
-    def equal(self, left: Value, right: Value) -> bool:
-        """Compare two values as `==` does."""
-        try:
-            return equal(left.data, right.data, self.run.budget)
-        except ValueError as error:
-            raise self.refuse(f"which compares arrays {error}") from None
-
     def changeable(self) -> None:
         """Make sure that the receiver may be changed.
 
@@ -153,7 +145,7 @@ class Call:
         if isinstance(data, (RubyString, RubyArray, RubyHash)) and data.frozen:
             raise RubyError("FrozenError", f"can't modify frozen {class_name(data)}", self.span)
 
-    def each(self, *arguments: Value) -> Value:
+    def block_value(self, *arguments: Value) -> Value:
         """Run the block once."""
         return invoke_block(self, list(arguments))
 
@@ -170,7 +162,7 @@ def check_arity(call: Call, method: Method) -> None:
     count = len(call.arguments)
     if count < least or (count > most and not code.co_flags & _VARIADIC):
         raise call.refuse(f"with {count} arguments")
-    if call.keywords is not None:
+    if call.named:
         raise call.refuse("with named arguments")
 
 
@@ -185,14 +177,13 @@ def invoke_block(call: Call, arguments: list[Value]) -> Value:
         raise call.refuse("without a block")
     run.budget.spend()
     if block.scope is None:
-        from checker.expand.spawner.methods.table import invoke_method
+        from checker.expand.spawner.methods.classes import invoke_method
 
-        rest = arguments[1:]
-        return invoke_method(Call(run, block.node, block.method, arguments[0], rest))
+        return invoke_method(Call(run, block.node, block.method, arguments[0], arguments[1:]))
     if block.node.broken:
         raise Unreadable(block.node.span, "holds Ruby that the parser does not understand")
     around = block.scope
-    scope = Scope(around.path, block.node, {}, around, around.call, block)
+    scope = Scope(around.path, {}, around, around.call, block)
     parameters = block.node.fields.get("parameters")
     targets = parameters.parts if parameters else []
     run.budget.spend_items(len(targets))
@@ -218,10 +209,6 @@ def _bind(call: Call, scope: Scope, targets: list[RubyNode], arguments: list[Val
         value = arguments[index] if index < len(arguments) else NIL
         if target.type == "identifier":
             scope.variables[target.text] = value
-        elif target.type == "splat_parameter" and target is targets[-1]:
-            name = target.fields.get("name")
-            if name is not None:
-                scope.variables[name.text] = call.run.array(arguments[index:])
         elif target.type == "destructured_parameter":
             items = value.data.items if isinstance(value.data, RubyArray) else [value]
             call.run.budget.spend_items(len(items))

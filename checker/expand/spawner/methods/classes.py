@@ -1,34 +1,115 @@
-"""Methods of classes that make new objects, and of errors."""
+"""From a receiver's class and a method's name to the function that answers."""
 
 from __future__ import annotations
 
-from checker.expand.spawner.methods.call import Call, Methods
-from checker.expand.spawner.methods.common import COMMON
-from checker.expand.spawner.ruby_errors import ERROR_CLASSES
-from checker.expand.spawner.values import Constant, ErrorValue, RubyHash, Value
+from collections.abc import Mapping
+
+from checker.expand.spawner.files import FILE, YAML
+from checker.expand.spawner.methods.call import Call, Method, Methods, check_arity
+from checker.expand.spawner.methods.collections import ARRAY, HASH, HASH_WITH_BLOCK
+from checker.expand.spawner.methods.enumerable import (
+    ENUMERABLE,
+    ENUMERABLE_WITH_BLOCK,
+    RANGE,
+)
+from checker.expand.spawner.methods.number import (
+    INTEGER,
+    INTEGER_WITH_BLOCK,
+    MATH,
+    NUMBER,
+)
+from checker.expand.spawner.methods.string import STRING
+from checker.expand.spawner.signals import ERROR_CLASSES
+from checker.expand.spawner.traced import TracedString
+from checker.expand.spawner.values import (
+    Constant,
+    RubyArray,
+    RubyHash,
+    RubyString,
+    Value,
+    class_name,
+)
 
 
-def _new(call: Call, *arguments: Value) -> Value:
-    name = call.receiver.data.name if isinstance(call.receiver.data, Constant) else ""
-    if name == "Hash" and len(arguments) <= 1:
-        return Value(RubyHash(default=arguments[0] if arguments else None))
-    if name == "Array" and len(arguments) <= 2:
-        return _new_array(call, *arguments)
-    if name == "String" and len(arguments) <= 1:
-        return call.run.string(call.run.joined(*(call.traced(text) for text in arguments)))
-    if name in ERROR_CLASSES and len(arguments) <= 1:
-        return Value(ErrorValue(name, call.text(arguments[0]) if arguments else name))
+def invoke_method(call: Call) -> Value:
+    """Answer a method call.
+
+    Raises:
+        Unreadable: The method is not in the whitelist.
+        RubyError: Ruby refuses the call.
+    """
+    data, tables = call.receiver.data, _METHODS if call.block is None else _WITH_BLOCK
+    name = f"{data.name}." if isinstance(data, Constant) else class_name(data)
+    common = () if call.block or isinstance(data, Constant) else (_COMMON,)
+    for methods in (*tables.get(name, ()), *common):
+        method: Method | None = methods.get(call.name)
+        if method is not None:
+            check_arity(call, method)
+            return method(call, *call.arguments)
     raise call.refuse()
 
 
-def _new_array(call: Call, size: Value | None = None, item: Value | None = None) -> Value:
-    count = call.integer(size) if size else 0
-    if count < 0:
-        raise call.refuse("with a negative size")
-    call.run.budget.spend_items(count)
-    return call.run.array([item or Value(None)] * count)
+def _to_s(call: Call) -> Value:
+    if isinstance(call.receiver.data, RubyString):
+        return call.receiver
+    return call.run.string(call.run.written(call.receiver, call.span))
 
 
-CLASSES: Methods = {"new": _new, "to_s": COMMON["to_s"], "name": COMMON["to_s"]}
+def _dup(call: Call) -> Value:
+    data = call.receiver.data
+    if isinstance(data, RubyString):
+        return Value(RubyString(data.content), call.receiver.parameters)
+    if isinstance(data, RubyArray):
+        return call.run.array(list(data.items), call.receiver)
+    if isinstance(data, RubyHash):
+        call.run.budget.spend_items(len(data.entries))
+        return Value(RubyHash(dict(data.entries), data.default), call.receiver.parameters)
+    return call.receiver
 
-ERROR: Methods = {"message": COMMON["to_s"]}
+
+def _freeze(call: Call) -> Value:
+    data = call.receiver.data
+    if isinstance(data, (RubyString, RubyArray, RubyHash)):
+        data.frozen = True
+    return call.receiver
+
+
+def _is_a(call: Call, wanted: Value) -> Value:
+    if not isinstance(wanted.data, Constant) or wanted.data.name in ERROR_CLASSES:
+        raise call.refuse()
+    name, own = wanted.data.name, class_name(call.receiver.data)
+    return call.value(name == own or (name == "Numeric" and own in {"Integer", "Float"}))
+
+
+_COMMON: Methods = {
+    "dup": _dup,
+    "freeze": _freeze,
+    "is_a?": _is_a,
+    "nil?": lambda call: call.value(call.receiver.data is None),
+    "to_s": _to_s,
+}
+
+_METHODS: Mapping[str, tuple[Methods, ...]] = {
+    "String": (STRING,),
+    "Array": (ARRAY, ENUMERABLE),
+    "Hash": (HASH, ENUMERABLE),
+    "Range": (RANGE, ENUMERABLE),
+    "Integer": (INTEGER,),
+    "Float": (NUMBER,),
+    "Exception": ({"message": _to_s},),
+    "File.": (FILE,),
+    "YAML.": (YAML,),
+    "Math.": (MATH,),
+    "String.": ({"new": lambda call: call.run.string(TracedString())},),
+    "Array.": ({"new": lambda call: call.run.array([])},),
+    "Hash.": ({"new": lambda _call, default=None: Value(RubyHash(default=default))},),
+}
+"""A class with a dot stands for its own methods."""
+
+_WITH_BLOCK: Mapping[str, tuple[Methods, ...]] = {
+    "Array": (ENUMERABLE_WITH_BLOCK,),
+    "Hash": (HASH_WITH_BLOCK,),
+    "Range": (ENUMERABLE_WITH_BLOCK,),
+    "Integer": (INTEGER_WITH_BLOCK,),
+}
+"""Methods that take a block stand in tables of their own."""

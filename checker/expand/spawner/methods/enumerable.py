@@ -1,107 +1,127 @@
-"""Methods of arrays, hashes and ranges alike."""
+"""Methods of what can be walked through: arrays, hashes and ranges."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from itertools import pairwise
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
 
-from checker.expand.spawner.arithmetic import calculate
 from checker.expand.spawner.limits import CHARACTERS_PER_STEP
-from checker.expand.spawner.methods.call import Call, Methods
-from checker.expand.spawner.methods.iteration import items_of, listed
+from checker.expand.spawner.methods.call import Call, Method, Methods
+from checker.expand.spawner.methods.number import calculate
+from checker.expand.spawner.signals import Unreadable
 from checker.expand.spawner.values import (
     NIL,
+    RubyArray,
     RubyHash,
+    RubyRange,
     RubyString,
     Value,
     class_name,
     is_number,
 )
+from checker.source.ruby import RubyNode
+
+if TYPE_CHECKING:
+    from checker.expand.spawner.evaluator.interpreter import Interpreter
+
+
+def items_of(run: Interpreter, collection: Value, node: RubyNode) -> Iterator[Value]:
+    """Yield elements, numbers, or pairs of key and value, as `each` does.
+
+    An array that grows meanwhile is followed; a hash must not grow, as in Ruby.
+
+    Raises:
+        Unreadable: The value is no collection.
+    """
+    data, parameters = collection.data, collection.parameters
+    if isinstance(data, RubyArray):
+        at = 0
+        while at < len(data.items):
+            item = data.items[at]
+            yield Value(item.data, item.parameters | parameters) if parameters else item
+            at += 1
+    elif isinstance(data, RubyRange):
+        for number in data.numbers:
+            yield run.value(number, collection)
+    elif isinstance(data, RubyHash):
+        size = len(data.entries)
+        run.budget.spend_items(size)
+        for key, value in list(data.entries.values()):
+            yield run.array([key, value], collection)
+            if len(data.entries) > size:
+                raise Unreadable(node.span, "adds to a hash while walking through it")
+    else:
+        raise Unreadable(node.span, f"walks through {class_name(data)}")
+
+
+def _listed(call: Call, collection: Value) -> list[Value]:
+    """Return all elements at once."""
+    data = collection.data
+    if isinstance(data, RubyRange):
+        call.run.budget.spend(data.count)
+    elif isinstance(data, RubyArray):
+        call.run.budget.spend_items(len(data.items))
+    elif isinstance(data, RubyHash):
+        call.run.budget.spend(len(data.entries))
+    return list(items_of(call.run, collection, call.node))
 
 
 def _all(call: Call) -> list[Value]:
-    return listed(call.run, call.receiver, call.node)
+    return _listed(call, call.receiver)
 
 
 def _each(call: Call) -> Value:
     for item in items_of(call.run, call.receiver, call.node):
-        call.each(item)
+        call.block_value(item)
     return call.receiver
 
 
 def _each_with_index(call: Call) -> Value:
     for index, item in enumerate(items_of(call.run, call.receiver, call.node)):
-        call.each(item, call.run.value(index))
+        call.block_value(item, call.run.value(index))
     return call.receiver
 
 
-def _each_with_object(call: Call, memory: Value) -> Value:
-    for item in items_of(call.run, call.receiver, call.node):
-        call.each(item, memory)
-    return memory
-
-
-def _map(call: Call) -> Value:
-    return call.run.array([call.each(item) for item in _all(call)], call.receiver)
-
-
-def _flat_map(call: Call) -> Value:
-    found: list[Value] = []
+def _answers(call: Call) -> Iterator[tuple[Value, Value]]:
+    """Yield each element, and what the block answers to it."""
     for item in _all(call):
-        value = call.each(item)
-        is_list = class_name(value.data) == "Array"
-        found += listed(call.run, value, call.node) if is_list else [value]
-    return call.run.array(found, call.receiver)
+        yield item, call.block_value(item)
 
 
-def _filter(wanted: bool) -> Callable[[Call], Value]:
-    def keep(call: Call) -> Value:
-        kept = [item for item in _all(call) if call.each(item).truthy is wanted]
+def _filtered(wanted: bool) -> Method:
+    def filtered(call: Call) -> Value:
         if isinstance(call.receiver.data, RubyHash):
             raise call.refuse()
+        kept = [item for item, value in _answers(call) if value.truthy is wanted]
         return call.run.array(kept, call.receiver)
 
-    return keep
+    return filtered
 
 
-def _find(call: Call) -> Value:
-    return next((item for item in _all(call) if call.each(item).truthy), NIL)
-
-
-def _any(call: Call) -> Value:
-    return call.value(any(call.each(item).truthy for item in _all(call)))
-
-
-def _every(call: Call) -> Value:
-    return call.value(all(call.each(item).truthy for item in _all(call)))
-
-
-def _inject(call: Call, first: Value | None = None) -> Value:
+def _first(call: Call, count: Value | None = None) -> Value:
     items = _all(call)
-    if first is None:
-        if not items:
-            return NIL
-        first, items = items[0], items[1:]
-    for item in items:
-        first = call.each(first, item)
-    return first
+    if count is not None:
+        return call.run.array(items[: max(0, call.integer(count))], call.receiver)
+    return items[0] if items else NIL
 
 
-def _sum(call: Call, start: Value | None = None) -> Value:
-    total: int | float = call.number(start) if start else 0
+def last(call: Call) -> Value:
+    """Return the last element, nil when there is none."""
+    items = _all(call)
+    return items[-1] if items else NIL
+
+
+def _sum(call: Call) -> Value:
     items = _all(call)
     numbers = [call.number(item) for item in items]
-    if any(isinstance(number, float) for number in [total, *numbers]):
-        total = _compensated(total, numbers)
-    else:
-        total = calculate("+", total, sum(numbers)) or 0
-    return call.value(total, *items)
+    if any(isinstance(number, float) for number in numbers):
+        return call.value(_compensated(numbers), *items)
+    return call.value(calculate("+", 0, sum(numbers)), *items)
 
 
-def _compensated(start: float, numbers: list[int | float]) -> float:
+def _compensated(numbers: list[int | float]) -> float:
     """Add floats as `Array#sum` does: with Neumaier's (Kahan-Babuska) compensation."""
-    total, lost = float(start), 0.0
+    total, lost = 0.0, 0.0
     for number in numbers:
         after = total + number
         if abs(total) >= abs(number):
@@ -112,15 +132,8 @@ def _compensated(start: float, numbers: list[int | float]) -> float:
     return total + lost
 
 
-def _first(call: Call, count: Value | None = None) -> Value:
-    items = _all(call)
-    if count is not None:
-        return call.run.array(items[: max(0, call.integer(count))], call.receiver)
-    return items[0] if items else NIL
-
-
-def _extreme(choose: Callable[..., Any]) -> Callable[[Call], Value]:
-    def find(call: Call) -> Value:
+def _extreme(choose: Callable[..., Any]) -> Method:
+    def extreme(call: Call) -> Value:
         items = _all(call)
         if not items:
             return NIL
@@ -129,45 +142,28 @@ def _extreme(choose: Callable[..., Any]) -> Callable[[Call], Value]:
         chosen: Value = choose(items, key=lambda item: item.data)
         return call.value(call.number(chosen), *items)
 
-    return find
+    return extreme
 
 
 def _includes(call: Call, wanted: Value) -> Value:
-    if isinstance(call.receiver.data, RubyHash):
-        raise call.refuse()
-    return call.value(any(call.equal(item, wanted) for item in _all(call)), wanted)
-
-
-def _sort_key(call: Call, items: list[Value]) -> Callable[[Value], Any]:
-    if all(is_number(item) for item in items):
-        return lambda item: item.data
-    if all(isinstance(item.data, RubyString) for item in items):
-        texts = [call.text(item) for item in items]
-        call.run.budget.spend(sum(map(len, texts)) // CHARACTERS_PER_STEP)
-        return lambda item: call.string(item).text
-    raise call.refuse("with mixed values")
+    found = any(call.run.equal(item, wanted, call.span) for item in _all(call))
+    return call.value(found, wanted)
 
 
 def _sort(call: Call) -> Value:
     items = _all(call)
     call.run.budget.spend(len(items))
-    return call.run.array(sorted(items, key=_sort_key(call, items)), call.receiver)
-
-
-def _sort_by(call: Call) -> Value:
-    """Sort by distinct keys; the order of equal ones is Ruby's secret."""
-    items = _all(call)
-    keys = [call.each(item) for item in items]
-    key = _sort_key(call, keys)
-    order = sorted(range(len(items)), key=lambda index: key(keys[index]))
-    if any(key(keys[one]) == key(keys[next_one]) for one, next_one in pairwise(order)):
-        raise call.refuse("with equal keys")
-    return call.run.array([items[index] for index in order], call.receiver)
+    if all(is_number(item) for item in items):
+        return call.run.array(sorted(items, key=call.number), call.receiver)
+    if not all(isinstance(item.data, RubyString) for item in items):
+        raise call.refuse("with mixed values")
+    texts = [call.text(item) for item in items]
+    call.run.budget.spend(sum(map(len, texts)) // CHARACTERS_PER_STEP)
+    return call.run.array(sorted(items, key=lambda item: call.string(item).text), call.receiver)
 
 
 def _zip(call: Call, *others: Value) -> Value:
-    items = _all(call)
-    columns = [listed(call.run, other, call.node) for other in others]
+    items, columns = _all(call), [_listed(call, other) for other in others]
     rows = [
         call.run.array([item, *(col[i] if i < len(col) else NIL for col in columns)])
         for i, item in enumerate(items)
@@ -175,45 +171,27 @@ def _zip(call: Call, *others: Value) -> Value:
     return call.run.array(rows, call.receiver)
 
 
-def _each_slice(call: Call, size: Value) -> Value:
-    items, width = _all(call), call.integer(size)
-    if width < 1:
-        raise call.refuse("with a size below 1")
-    for at in range(0, len(items), width):
-        call.each(call.run.array(items[at : at + width], call.receiver))
-    return call.receiver
-
-
 ENUMERABLE: Methods = {
     "to_a": lambda call: call.run.array(_all(call), call.receiver),
-    "entries": lambda call: call.run.array(_all(call), call.receiver),
     "count": lambda call: call.value(len(_all(call))),
     "first": _first,
-    "sum": _sum,
-    "min": _extreme(min),
-    "max": _extreme(max),
     "include?": _includes,
-    "member?": _includes,
+    "max": _extreme(max),
+    "min": _extreme(min),
     "sort": _sort,
+    "sum": _sum,
     "zip": _zip,
 }
 
 ENUMERABLE_WITH_BLOCK: Methods = {
+    "all?": lambda call: call.value(all(value.truthy for _, value in _answers(call))),
+    "any?": lambda call: call.value(any(value.truthy for _, value in _answers(call))),
     "each": _each,
     "each_with_index": _each_with_index,
-    "each_with_object": _each_with_object,
-    "each_slice": _each_slice,
-    "map": _map,
-    "collect": _map,
-    "flat_map": _flat_map,
-    "select": _filter(True),
-    "filter": _filter(True),
-    "reject": _filter(False),
-    "find": _find,
-    "detect": _find,
-    "any?": _any,
-    "all?": _every,
-    "inject": _inject,
-    "reduce": _inject,
-    "sort_by": _sort_by,
+    "find": lambda call: next((item for item, value in _answers(call) if value.truthy), NIL),
+    "map": lambda call: call.run.array([value for _, value in _answers(call)], call.receiver),
+    "reject": _filtered(False),
+    "select": _filtered(True),
 }
+
+RANGE: Methods = {"last": last, "size": ENUMERABLE["count"]}

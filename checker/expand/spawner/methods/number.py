@@ -1,93 +1,145 @@
-"""Methods of Integer and Float."""
+"""Numbers: Ruby's arithmetic, and the methods of Integer, Float and Math."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+import operator
+from collections.abc import Callable, Iterable, Mapping
 
-from checker.expand.spawner.arithmetic import MAX_ROUND_DIGITS, calculate, round_number
-from checker.expand.spawner.methods.call import Call, Methods
-from checker.expand.spawner.signals import RubyError
+from checker.expand.spawner.limits import MAX_INTEGER_BITS, LimitReached
+from checker.expand.spawner.methods.call import Call, Method, Methods
 from checker.expand.spawner.values import Value
 
+Number = int | float
 
-def _own(call: Call) -> int | float:
+_MAX_ROUND_DIGITS = 14
+"""Ruby rounds the scaled double up to here, and by other means beyond."""
+
+
+class NotReal(ValueError):
+    """The result would be a Rational or a Complex number, which the reader does not know."""
+
+
+def _divide(left: Number, right: Number) -> Number:
+    if isinstance(left, int) and isinstance(right, int):
+        return left // right
+    if right == 0:
+        if left == 0 or math.isnan(left):
+            return math.nan
+        return math.copysign(math.inf, left) * math.copysign(1.0, right)
+    return left / right
+
+
+def _modulo(left: Number, right: Number) -> Number:
+    if isinstance(left, int) and isinstance(right, int):
+        return left % right
+    if right == 0:
+        raise ZeroDivisionError
+    if math.isinf(left):
+        return math.nan
+    rest = math.fmod(left, right)
+    return rest + right if rest * right < 0 else rest  # the product may underflow, as in Ruby
+
+
+def _power(left: Number, right: Number) -> Number:
+    if isinstance(left, int) and isinstance(right, int):
+        if right < 0:
+            raise NotReal("an integer to a negative power is a Rational")
+        if left.bit_length() * right > MAX_INTEGER_BITS * 2:
+            raise LimitReached(f"makes an integer of more than {MAX_INTEGER_BITS} bits")
+        return int(left**right)
+    if left < 0 and not float(right).is_integer() and not math.isinf(right):
+        raise NotReal("a negative number to a broken power is Complex")
+    odd = float(right).is_integer() and int(right) % 2 == 1
+    try:
+        return float(math.pow(left, right))
+    except OverflowError:
+        return -math.inf if odd and left < 0 else math.inf
+    except ValueError:  # 0.0 to a negative power
+        return math.copysign(math.inf, left) if odd else math.inf
+
+
+_OPERATIONS: Mapping[str, Callable[[Number, Number], Number]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": _divide,
+    "%": _modulo,
+    "**": _power,
+}
+
+
+def calculate(sign: str, left: Number, right: Number) -> Number | None:
+    """Return the result of an arithmetic operator, or None when it is none.
+
+    Raises:
+        ZeroDivisionError: Division of an integer by the integer 0, or a remainder by any 0.
+        NotReal: The result is no integer and no float.
+        LimitReached: The integer becomes too large.
+    """
+    operation = _OPERATIONS.get(sign)
+    if operation is None:
+        return None
+    result = operation(left, right)
+    if isinstance(result, int) and result.bit_length() > MAX_INTEGER_BITS:
+        raise LimitReached(f"makes an integer of more than {MAX_INTEGER_BITS} bits")
+    return result
+
+
+def _rounded(number: float, digits: int) -> float:
+    """Round halves away from zero, as Ruby does: the double scaled by a power of ten."""
+    exponent = math.frexp(number)[1]
+    whole = exponent // 4 if exponent > 0 else -(-exponent // 3) - 1
+    if not math.isfinite(number) or digits >= 17 - whole:  # no digit is left to lose
+        return number
+    if digits < -exponent // 4:  # far below the last digit: zero without a sign
+        return 0.0
+    scale = 10.0**digits
+    return math.copysign(_half_up(abs(number), scale) / scale, number)
+
+
+def _half_up(size: float, scale: float) -> float:
+    scaled = size * scale
+    if math.isinf(scaled):
+        return scaled
+    near = float(math.floor(scaled))
+    near += scaled - near >= 0.5
+    if scale != 1 and (near + 0.5) / scale <= size:
+        near += 1
+    return near
+
+
+def _own(call: Call) -> Number:
     return call.number(call.receiver)
 
 
-def _finite(call: Call) -> int | float:
-    number = _own(call)
-    call.whole(number)
-    return number
+def _finite(call: Call) -> Number:
+    call.whole(_own(call))
+    return _own(call)
 
 
 def _round(call: Call, digits: Value | None = None) -> Value:
-    places = call.integer(digits) if digits else 0
-    if places > MAX_ROUND_DIGITS:
-        raise call.refuse(f"with more than {MAX_ROUND_DIGITS} digits")
-    number = _finite(call) if places <= 0 else _own(call)
-    return call.value(round_number(number, places))
+    places, number = call.integer(digits) if digits else 0, _own(call)
+    if not 0 <= places <= _MAX_ROUND_DIGITS:
+        raise call.refuse(f"with more than {_MAX_ROUND_DIGITS} digits, or less than none")
+    if isinstance(number, int):
+        return call.value(number)
+    if places:
+        return call.value(_rounded(number, places))
+    return call.value(int(math.copysign(_half_up(abs(_finite(call)), 1.0), number)))
 
 
-def _whole(function: Callable[[int | float], int]) -> Callable[[Call], Value]:
-    return lambda call: call.value(function(_finite(call)))
+def _whole(function: Callable[[Number], int]) -> Method:
+    def whole(call: Call) -> Value:
+        return call.value(function(_finite(call)))
 
-
-def _compare(test: Callable[[int | float], bool]) -> Callable[[Call], Value]:
-    return lambda call: call.value(test(_own(call)))
-
-
-def _div(call: Call, other: Value) -> Value:
-    number = call.number(other)
-    if number == 0:
-        raise RubyError("ZeroDivisionError", "divided by 0", call.span)
-    return call.value(call.whole(_finite(call) // number), other)
-
-
-def _fdiv(call: Call, other: Value) -> Value:
-    return call.value(calculate("/", float(_own(call)), float(call.number(other))), other)
-
-
-def _modulo(call: Call, other: Value) -> Value:
-    try:
-        return call.value(calculate("%", _own(call), call.number(other)), other)
-    except ZeroDivisionError:
-        raise RubyError("ZeroDivisionError", "divided by 0", call.span) from None
-
-
-def _divmod(call: Call, other: Value) -> Value:
-    return call.run.array([_div(call, other), _modulo(call, other)], call.receiver)
-
-
-def _between(call: Call, low: Value, high: Value) -> Value:
-    return call.value(call.number(low) <= _own(call) <= call.number(high), low, high)
-
-
-def _clamp(call: Call, low: Value, high: Value) -> Value:
-    lowest, highest = call.number(low), call.number(high)
-    if lowest > highest:
-        raise call.refuse("with bounds in the wrong order")
-    number = _own(call)
-    chosen = lowest if number < lowest else highest if number > highest else number
-    return call.value(chosen, low, high)
+    return whole
 
 
 def _count(call: Call, numbers: Iterable[int]) -> Value:
     for number in numbers:
-        call.each(call.value(number))
+        call.block_value(call.value(number))
     return call.receiver
-
-
-def _times(call: Call) -> Value:
-    return _count(call, range(call.integer(call.receiver)))
-
-
-def _upto(call: Call, last: Value) -> Value:
-    return _count(call, range(call.integer(call.receiver), call.integer(last) + 1))
-
-
-def _downto(call: Call, last: Value) -> Value:
-    return _count(call, range(call.integer(call.receiver), call.integer(last) - 1, -1))
 
 
 def _step(call: Call, last: Value, width: Value) -> Value:
@@ -99,42 +151,46 @@ def _step(call: Call, last: Value, width: Value) -> Value:
 
 NUMBER: Methods = {
     "to_i": _whole(int),
-    "to_int": _whole(int),
-    "truncate": _whole(int),
     "to_f": lambda call: call.value(float(_own(call))),
     "round": _round,
     "floor": _whole(math.floor),
     "ceil": _whole(math.ceil),
     "abs": lambda call: call.value(abs(_own(call))),
-    "zero?": _compare(lambda number: number == 0),
-    "positive?": _compare(lambda number: number > 0),
-    "negative?": _compare(lambda number: number < 0),
-    "div": _div,
-    "fdiv": _fdiv,
-    "modulo": _modulo,
-    "divmod": _divmod,
-    "between?": _between,
-    "clamp": _clamp,
-    "-@": lambda call: call.value(-_own(call)),
-    "integer?": lambda call: call.value(isinstance(_own(call), int)),
+    "zero?": lambda call: call.value(_own(call) == 0),
 }
 
 INTEGER: Methods = {
+    **NUMBER,
     "even?": lambda call: call.value(call.integer(call.receiver) % 2 == 0),
     "odd?": lambda call: call.value(call.integer(call.receiver) % 2 == 1),
-    "succ": lambda call: call.value(call.integer(call.receiver) + 1),
-    "next": lambda call: call.value(call.integer(call.receiver) + 1),
-    "pred": lambda call: call.value(call.integer(call.receiver) - 1),
 }
 
 INTEGER_WITH_BLOCK: Methods = {
-    "times": _times,
-    "upto": _upto,
-    "downto": _downto,
     "step": _step,
+    "times": lambda call: _count(call, range(call.integer(call.receiver))),
+    "upto": lambda call, last: _count(
+        call, range(call.integer(call.receiver), call.integer(last) + 1)
+    ),
 }
 
-FLOAT: Methods = {
-    "nan?": _compare(math.isnan),
-    "finite?": _compare(math.isfinite),
+
+def _function(compute: Callable[..., float], parameters: int = 1) -> Method:
+    def function(call: Call, *numbers: Value) -> Value:
+        if len(numbers) != parameters:
+            raise call.refuse(f"with {len(numbers)} arguments")
+        try:
+            result = compute(*(float(call.number(number)) for number in numbers))
+        except (ValueError, OverflowError):
+            raise call.refuse("outside the function's domain") from None
+        return call.value(result, *numbers)
+
+    return function
+
+
+_FUNCTIONS = (math.sqrt, math.sin, math.cos, math.tan, math.asin, math.acos, math.atan)
+
+MATH: Methods = {
+    **{function.__name__: _function(function) for function in _FUNCTIONS},
+    "atan2": _function(math.atan2, 2),
+    "hypot": _function(math.hypot, 2),
 }

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 
-from checker.expand.spawner.methods.array import slice_bounds
-from checker.expand.spawner.methods.call import Call, Methods
-from checker.expand.spawner.methods.conversion import leading_float, leading_integer
-from checker.expand.spawner.methods.format import formatted
+from checker.expand.spawner.limits import MAX_INTEGER_BITS, LimitReached
+from checker.expand.spawner.methods.call import Call, Method, Methods
 from checker.expand.spawner.signals import RubyError
 from checker.expand.spawner.traced import TracedString, joined
+from checker.expand.spawner.value_text import formatted
 from checker.expand.spawner.values import (
     NIL,
     RubyArray,
@@ -21,6 +21,9 @@ from checker.expand.spawner.values import (
 )
 
 _BLANKS = "\t\n\v\f\r "
+_INTEGER = re.compile(r"\s*([+-]?\d{1,400}(?:_\d{1,400})*)")
+_FLOAT = re.compile(r"\s*([+-]?\d+(?:_\d+)*(?:\.\d+(?:_\d+)*)?(?:[eE][+-]?\d+)?)")
+_MAX_DIGITS = MAX_INTEGER_BITS // 4
 
 
 def _own(call: Call) -> TracedString:
@@ -35,15 +38,10 @@ def _cut(call: Call, start: int, end: int) -> Value:
     return call.run.string(_own(call).cut(start, end))
 
 
-def _chomp(call: Call, suffix: Value | None = None) -> Value:
+def _chomp(call: Call) -> Value:
     text = _text(call)
-    if suffix is not None:
-        ending = call.text(suffix)
-        return _cut(call, 0, len(text) - len(ending) if text.endswith(ending) else len(text))
-    for ending in ("\r\n", "\n", "\r"):
-        if text.endswith(ending):
-            return _cut(call, 0, len(text) - len(ending))
-    return _cut(call, 0, len(text))
+    end = next((end for end in ("\r\n", "\n", "\r") if text.endswith(end)), "")
+    return _cut(call, 0, len(text) - len(end))
 
 
 def _strip(call: Call) -> Value:
@@ -51,26 +49,14 @@ def _strip(call: Call) -> Value:
     return _cut(call, len(text) - len(text.lstrip(_BLANKS)), len(text.rstrip(_BLANKS + "\0")))
 
 
-def _lstrip(call: Call) -> Value:
-    text = _text(call)
-    return _cut(call, len(text) - len(text.lstrip(_BLANKS)), len(text))
-
-
-def _rstrip(call: Call) -> Value:
-    return _cut(call, 0, len(_text(call).rstrip(_BLANKS + "\0")))
-
-
-def _slice(call: Call, index: Value, count: Value | None = None) -> Value:
-    text = _text(call)
-    if isinstance(index.data, RubyString) and count is None:
-        at = text.find(index.data.text)
-        return NIL if at < 0 else _cut(call, at, at + len(index.data.text))
-    if count is None and not isinstance(index.data, RubyRange):
-        start = call.integer(index)
-        start += len(text) if start < 0 else 0
-        return _cut(call, start, start + 1) if 0 <= start < len(text) else NIL
-    bounds = slice_bounds(call, len(text), index, count)
-    return NIL if bounds is None else _cut(call, *bounds)
+def _at(call: Call, index: Value) -> Value:
+    length = len(_text(call))
+    if isinstance(index.data, RubyRange):
+        bounds = index.data.bounds_in(length)
+        return _cut(call, *bounds) if bounds else NIL
+    start = call.integer(index)
+    start += length if start < 0 else 0
+    return _cut(call, start, start + 1) if 0 <= start < length else NIL
 
 
 def _plus(call: Call, other: Value) -> Value:
@@ -85,13 +71,6 @@ def _append(call: Call, *others: Value) -> Value:
     more = [call.traced(other) for other in others]
     own = call.string(call.receiver)
     own.content = call.run.joined(own.content, *more)
-    return call.receiver
-
-
-def _prepend(call: Call, other: Value) -> Value:
-    call.changeable()
-    own = call.string(call.receiver)
-    own.content = call.run.joined(call.traced(other), own.content)
     return call.receiver
 
 
@@ -115,15 +94,19 @@ def _occurrences(call: Call, wanted: str) -> Iterator[tuple[int, int]]:
             return
 
 
-def _replace(call: Call, wanted: Value, replacement: Value, *, every: bool) -> Value:
+def _between(text: str, found: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """Return the ranges of a text before, between and behind others."""
+    starts = [0, *(end for _, end in found)]
+    return list(zip(starts, [*(start for start, _ in found), len(text)], strict=True))
+
+
+def _replaced(call: Call, wanted: Value, replacement: Value, *, every: bool) -> Value:
     content, new = _own(call), call.traced(replacement)
     if "\\" in new.text:
         raise call.refuse("with a backslash in the replacement")
     found = list(_occurrences(call, call.text(wanted)))
     found = found if every else found[:1]
-    starts = [0, *(end for _, end in found)]
-    ends = [*(start for start, _ in found), len(content.text)]
-    kept = content.cut_many(zip(starts, ends, strict=True))
+    kept = content.cut_many(_between(content.text, found))
     call.run.budget.spend_text(len(new.text) * len(found), len(new.pieces) * len(found))
     parts = [kept[0]]
     for part in kept[1:]:
@@ -132,11 +115,11 @@ def _replace(call: Call, wanted: Value, replacement: Value, *, every: bool) -> V
 
 
 def _gsub(call: Call, wanted: Value, replacement: Value) -> Value:
-    return _replace(call, wanted, replacement, every=True)
+    return _replaced(call, wanted, replacement, every=True)
 
 
 def _sub(call: Call, wanted: Value, replacement: Value) -> Value:
-    return _replace(call, wanted, replacement, every=False)
+    return _replaced(call, wanted, replacement, every=False)
 
 
 def _split(call: Call, separator: Value | None = None) -> Value:
@@ -145,108 +128,53 @@ def _split(call: Call, separator: Value | None = None) -> Value:
     if between == "":
         ranges = [(at, at + 1) for at in range(len(text))]
     elif between == " ":
-        ranges = _words(text)
+        ranges = [found.span() for found in _WORD.finditer(text)]
     else:
-        found = list(_occurrences(call, between))
-        starts = [0, *(end for _, end in found)]
-        ranges = list(zip(starts, [*(start for start, _ in found), len(text)], strict=True))
+        ranges = _between(text, list(_occurrences(call, between)))
     while ranges and ranges[-1][0] == ranges[-1][1]:
         ranges.pop()
     call.run.budget.spend(len(ranges))
     return call.run.array([call.run.string(part) for part in content.cut_many(ranges)])
 
 
-def _words(text: str) -> list[tuple[int, int]]:
-    ranges, start = [], -1
-    for at, char in enumerate([*text, " "]):
-        if char in _BLANKS or char == "\0":
-            if start >= 0:
-                ranges.append((start, at))
-            start = -1
-        elif start < 0:
-            start = at
-    return ranges
+_WORD = re.compile(rf"[^{_BLANKS}\0]+")
 
 
-def _lines(call: Call) -> Value:
-    content, ranges, at = _own(call), [], 0
-    for line in content.text.split("\n"):
-        end = min(at + len(line) + 1, len(content.text))
-        if end > at:
-            ranges.append((at, end))
-        at = end
-    call.run.budget.spend(len(ranges))
-    return call.run.array([call.run.string(part) for part in content.cut_many(ranges)])
-
-
-def _each_line(call: Call) -> Value:
-    lines = _lines(call)
-    for line in call.array(lines).items:
-        call.each(line)
-    return call.receiver
-
-
-def _changed(change: Callable[[str], str]) -> Callable[[Call], Value]:
+def _changed(change: Callable[[str], str]) -> Method:
     """Make a method that computes new characters, such as `upcase`."""
 
-    def method(call: Call) -> Value:
+    def changed(call: Call) -> Value:
         return call.run.computed(change(_text(call)), call.span, call.receiver)
 
-    return method
+    return changed
 
 
-def _pad(adjust: Callable[[str, int, str], str]) -> Callable[..., Value]:
-    def method(call: Call, width: Value, filler: Value | None = None) -> Value:
-        fill = call.text(filler) if filler else " "
-        if len(fill) != 1:
-            raise call.refuse("with a filler of several characters")
-        length = max(0, call.integer(width))
-        call.run.budget.spend_text(length)
-        text = adjust(_text(call), length, fill)
-        return call.run.computed(text, call.span, call.receiver)
-
-    return method
-
-
-def _center(text: str, width: int, fill: str) -> str:
-    missing = max(0, width - len(text))
-    return fill * (missing // 2) + text + fill * (missing - missing // 2)
-
-
-def _test(test: Callable[[str, str], bool]) -> Callable[..., Value]:
-    def method(call: Call, *others: Value) -> Value:
+def _tested(test: Callable[[str, str], bool]) -> Method:
+    def tested(call: Call, *others: Value) -> Value:
         texts = [call.text(other) for other in others]
         return call.value(any(test(_text(call), text) for text in texts), *others)
 
-    return method
+    return tested
 
 
-def _index(call: Call, wanted: Value) -> Value:
-    at = _text(call).find(call.text(wanted))
-    return call.value(at if at >= 0 else None, wanted)
+def _to_i(call: Call) -> Value:
+    """Read the integer that leads the text, else 0."""
+    found = _INTEGER.match(_text(call))
+    digits = found.group(1).replace("_", "") if found else "0"
+    if len(digits) > _MAX_DIGITS:
+        raise LimitReached(f"makes an integer of more than {_MAX_DIGITS} digits")
+    return call.value(int(digits))
 
 
-def _to_sym(call: Call) -> Value:
-    return call.run.value(Symbol(_text(call)), call.receiver)
+def _to_f(call: Call) -> Value:
+    """Read the number that leads the text, else 0.0."""
+    found = _FLOAT.match(_text(call)[:2000])
+    return call.value(float(found.group(1).replace("_", "")) if found else 0.0)
 
 
 def _format(call: Call, values: Value) -> Value:
     items = values.data.items if isinstance(values.data, RubyArray) else [values]
     return formatted(call, call.receiver, list(items))
-
-
-def _in_place(method: Callable[..., Value]) -> Callable[..., Value]:
-    """Make `gsub!` of `gsub`: it changes the receiver, and answers nil when nothing changed."""
-
-    def changed(call: Call, wanted: Value, replacement: Value) -> Value:
-        call.changeable()
-        result = method(call, wanted, replacement)
-        own, new = call.string(call.receiver), call.string(result)
-        same = own.text == new.text
-        own.content = new.content
-        return NIL if same else call.receiver
-
-    return changed
 
 
 STRING: Methods = {
@@ -255,39 +183,22 @@ STRING: Methods = {
     "%": _format,
     "<<": _append,
     "concat": _append,
-    "prepend": _prepend,
-    "[]": _slice,
-    "slice": _slice,
+    "[]": _at,
     "chomp": _chomp,
-    "chop": lambda call: _cut(call, 0, len(_text(call)) - 1),
     "strip": _strip,
-    "lstrip": _lstrip,
-    "rstrip": _rstrip,
     "gsub": _gsub,
     "sub": _sub,
-    "gsub!": _in_place(_gsub),
-    "sub!": _in_place(_sub),
     "split": _split,
-    "lines": _lines,
     "upcase": _changed(str.upper),
     "downcase": _changed(str.lower),
     "capitalize": _changed(lambda text: text[:1].upper() + text[1:].lower()),
-    "reverse": _changed(lambda text: text[::-1]),
-    "ljust": _pad(str.ljust),
-    "rjust": _pad(str.rjust),
-    "center": _pad(_center),
-    "start_with?": _test(str.startswith),
-    "end_with?": _test(str.endswith),
-    "include?": _test(lambda text, part: part in text),
-    "index": _index,
+    "start_with?": _tested(str.startswith),
+    "end_with?": _tested(str.endswith),
+    "include?": _tested(lambda text, part: part in text),
     "length": lambda call: call.value(len(_text(call))),
     "size": lambda call: call.value(len(_text(call))),
     "empty?": lambda call: call.value(not _text(call)),
-    "to_str": lambda call: call.receiver,
-    "to_sym": _to_sym,
-    "to_i": lambda call: call.value(leading_integer(_text(call))),
-    "to_f": lambda call: call.value(leading_float(_text(call))),
-    "+@": lambda call: call.receiver,
+    "to_sym": lambda call: call.run.value(Symbol(_text(call)), call.receiver),
+    "to_i": _to_i,
+    "to_f": _to_f,
 }
-
-STRING_WITH_BLOCK: Methods = {"each_line": _each_line}

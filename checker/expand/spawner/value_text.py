@@ -1,4 +1,4 @@
-"""`format` and `String#%`: the plain directives."""
+"""How Ruby writes values: `to_s`, `inspect`, and the plain directives of `format`."""
 
 from __future__ import annotations
 
@@ -7,15 +7,89 @@ import re
 from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from checker.expand.spawner.formatting import NotWritable, to_s
-from checker.expand.spawner.methods.call import Call
+from checker.expand.spawner.limits import Budget
 from checker.expand.spawner.signals import RubyError
-from checker.expand.spawner.values import Value
+from checker.expand.spawner.values import (
+    Data,
+    ErrorValue,
+    RubyArray,
+    RubyRange,
+    RubyString,
+    Symbol,
+    Value,
+    class_name,
+)
 
+if TYPE_CHECKING:
+    from checker.expand.spawner.methods.call import Call
+
+_MAX_NESTING = 12
 _CLOSE = Fraction(1, 10**9)
 """Far above the error of a double (1e-16), far below any digit that a spawner writes."""
-_DIRECTIVE = re.compile(r"%([-+0 #]{0,5})(\d{0,4})(?:\.(\d{1,3}))?(.)?", re.DOTALL)
+_DIRECTIVE = re.compile(r"%([-+0 ]{0,4})(\d{0,4})(?:\.(\d{1,3}))?(.)?", re.DOTALL)
+
+
+class NotWritable(ValueError):
+    """A value whose text spawners do not use, or that is nested too deeply."""
+
+
+def float_text(number: float) -> str:
+    """Write a float as Ruby does: the shortest digits that read back as the same number.
+
+    Ruby writes an exponent below 0.0001, and from 1e15 on unless digits behind the point are
+    left (up to 1e16).
+    """
+    if math.isnan(number):
+        return "NaN"
+    if math.isinf(number):
+        return "Infinity" if number > 0 else "-Infinity"
+    size = abs(number)
+    if size == 0 or 1e-4 <= size < 1e15 or (1e15 <= size < 1e16 and size % 1):
+        return repr(number)
+    sign, digits, exponent = Decimal(repr(number)).normalize().as_tuple()
+    text = "".join(map(str, digits))
+    power = int(exponent) + len(digits) - 1
+    mark = "-" if power < 0 else "+"
+    return f"{'-' * sign}{text[0]}.{text[1:] or '0'}e{mark}{abs(power):02d}"
+
+
+def to_s(data: Data, budget: Budget) -> str:
+    """Write a value as string interpolation does.
+
+    Raises:
+        NotWritable: The value has no text of its own.
+    """
+    if data is None:
+        return ""
+    if isinstance(data, RubyString):
+        return data.text
+    if isinstance(data, Symbol):
+        return data.name
+    if isinstance(data, ErrorValue):
+        return data.message
+    if isinstance(data, RubyRange):
+        return f"{data.first}{'...' if data.exclusive else '..'}{data.last}"
+    return _element_text(data, budget, 0)
+
+
+def _element_text(data: Data, budget: Budget, depth: int) -> str:
+    """Write a value as it stands inside an array: numbers, as in a pose."""
+    budget.spend()
+    if depth > _MAX_NESTING:
+        raise NotWritable("arrays nested too deeply")
+    if isinstance(data, RubyArray):
+        elements = [_element_text(item.data, budget, depth + 1) for item in data.items]
+        return f"[{', '.join(elements)}]"
+    if data is None:
+        return "nil"
+    if isinstance(data, float):
+        return float_text(data)
+    if isinstance(data, int):
+        return str(data).lower()
+    within = " in an array" if depth else ""
+    raise NotWritable(f"a value of the class {class_name(data)}{within}")
 
 
 def formatted(call: Call, template: Value, values: list[Value]) -> Value:
@@ -44,7 +118,7 @@ def _directive(call: Call, found: re.Match[str], waiting: Iterator[Value]) -> st
     flags, width, precision, kind = found.groups()
     if found.group() == "%%":
         return "%"
-    if kind is None or kind not in "diufFgGeEsx" or "#" in flags:
+    if kind is None or kind not in "difegs":
         raise call.refuse(f"with the directive {found.group()[:20]}")
     value = next(waiting, None)
     if value is None:
@@ -55,13 +129,10 @@ def _directive(call: Call, found: re.Match[str], waiting: Iterator[Value]) -> st
     number = call.number(value)
     if not math.isfinite(number):
         raise call.refuse(f"with {number} for {found.group()}")
-    if kind in "diux":
-        if kind == "x" and number < 0:
-            raise call.refuse("with a negative number for %x")
+    if kind in "di":
         flags = flags.replace("0", "") if dot else flags
-        return f"%{flags}{width}{dot}{'x' if kind == 'x' else 'd'}" % math.trunc(number)
-    digits = 6 if precision is None else int(precision)
-    if _on_limit(float(number), kind.lower(), digits):
+        return f"%{flags}{width}{dot}d" % math.trunc(number)
+    if _on_limit(float(number), kind, 6 if precision is None else int(precision)):
         raise call.refuse(f"with {number}, which {found.group()} may round up or down")
     return f"%{flags}{width}{dot}{kind}" % float(number)
 
