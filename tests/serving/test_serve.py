@@ -15,8 +15,8 @@ from urllib.parse import urlsplit
 import pytest
 
 from checker.submitting.connection import Connection
-from checker.submitting.form import Form
 from checker.submitting.server import parse_server
+from checker.submitting.upload import Upload
 from tests.conftest import SAMPLES
 from tests.serving.conftest import SECONDS, Serve, Serving, command_of, environment_of, wait_for
 
@@ -236,7 +236,7 @@ def test_the_public_address_is_the_one_of_links(serve: Serve, tmp_path: Path) ->
     model = tmp_path / "robot.sdf"
     model.write_text("<sdf version='1.6'/>", "utf-8")
     connection = Connection(parse_server(serving.url))
-    said = json.loads(connection.ask("POST", "/api/checks", Form(model, model.name)).body)
+    said = json.loads(connection.ask("POST", "/api/checks", Upload(model)).body)
     assert said["url"] == f"https://check.example/checks/{said['id']}"
 
 
