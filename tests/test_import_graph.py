@@ -48,7 +48,7 @@ FOR_RULES = {
 """What a rule may import: the parts of a package, and what a rule's author reads."""
 
 HEAVY = {"dbos", "fastapi", "mujoco", "numpy", "pinocchio", "rich", "scipy", "trimesh", "yourdfpy"}
-NOT_FOR_HELP = {"lxml", "markdown_it", "tree_sitter", "yaml", "rules"} | HEAVY
+NOT_FOR_HELP = {"httpx", "lxml", "markdown_it", "msgspec", "tree_sitter", "yaml", "rules"} | HEAVY
 
 
 def modules(folder: str) -> list[Path]:

@@ -26,7 +26,7 @@ from checker.store.place import data_folder
 if TYPE_CHECKING:
     from checker.store.store import Store
 
-_NEEDED = ("blake3", "dbos", "fastapi", "uvicorn")
+_NEEDED = ("blake3", "dbos", "fastapi", "prometheus_client", "uvicorn")
 _MOST_WORKERS = 2
 """Unless more are asked for: a trial keeps a core busy."""
 
