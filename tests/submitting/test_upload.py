@@ -13,11 +13,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.errors import CheckerError, UnreadableInput
-from checker.package.archive import unpack_archive
-from checker.package.archive_index import ArchiveLimits
-from checker.submitting.upload import Upload, pack
-from checker.web.form import UploadForm
+from checker.base.errors import CheckerError, UnreadableInput
+from checker.package.archives.archive import unpack_archive
+from checker.package.archives.index import ArchiveLimits
+from checker.service.client.upload import Upload, pack
+from checker.service.web.form import UploadForm
 from tests.conftest import SAMPLES
 
 BROKEN = SAMPLES / "broken_rover_sensor_config_1"

@@ -1,0 +1,243 @@
+"""Requests to a service, with bounds on time and size, repeated where that may help."""
+
+from __future__ import annotations
+
+import socket
+import ssl
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext, suppress
+from dataclasses import field
+from functools import cache
+from time import monotonic, sleep
+from typing import Any, TypeVar
+
+import httpx
+import msgspec
+
+from checker.base.errors import CheckerError
+from checker.base.progress import Say, say_nothing
+from checker.base.record import record
+from checker.base.words import plain, shortened
+from checker.service.client.server import Server
+from checker.service.client.upload import Upload
+
+T = TypeVar("T")
+Trace = Callable[[str, Mapping[str, Any]], None]
+"""Is told of each step of a request by its name."""
+ANSWER_LIMIT = 1_000_000
+"""Bytes of an answer that tells how a check stands."""
+_BUSY = (408, 429, 502, 503, 504)
+"""Answers of a service, or of what stands before it, that cannot do it just now."""
+_SHOWN = 300
+
+
+@record()
+class Patience:
+    """How long something is waited for.
+
+    Attributes:
+        silence: Seconds without a byte.
+        answer: Seconds for a whole answer, once the request is sent.
+        trouble: Seconds in which a request is tried again.
+        pause: Seconds before the first repetition; they double each time.
+        longest_pause: Seconds, unless the service asks for more.
+    """
+
+    silence: float = 60.0
+    answer: float = 300.0
+    trouble: float = 120.0
+    pause: float = 0.5
+    longest_pause: float = 30.0
+
+
+@record()
+class Answer:
+    """What a service answers.
+
+    Attributes:
+        headers: Their names in any case.
+        body: Whole.
+    """
+
+    status: int
+    headers: Mapping[str, str]
+    body: bytes
+
+    def read_as(self, kind: type[T]) -> T | None:
+        """Return the body read as JSON of a type; None if it is none."""
+        try:
+            return msgspec.json.decode(self.body, type=kind)
+        except (msgspec.MsgspecError, ValueError, RecursionError):
+            return None
+
+    @property
+    def retry_after(self) -> float:
+        """Seconds that the service asks to wait; 0 where it does not say."""
+        text = self.headers.get("retry-after", "")
+        return float(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0.0
+
+
+class NoAnswer(Exception):
+    """A request came to nothing; the text says why."""
+
+
+@record()
+class Connection:
+    """Speaks with one service, and with no other: it follows no redirect and asks no proxy.
+
+    Attributes:
+        token: Shown to the service; may be empty.
+        say: Told why a request is repeated.
+    """
+
+    server: Server
+    token: str = field(default="", repr=False)
+    patience: Patience = Patience()
+    say: Say = say_nothing
+
+    def ask(
+        self, method: str, path: str, upload: Upload | None = None, limit: int = ANSWER_LIMIT
+    ) -> Answer:
+        """Send a request, again and again while the service is busy or away, and return its answer.
+
+        Args:
+            method: Of HTTP.
+            path: Below the address of the service.
+            upload: What goes with it.
+            limit: Bytes of the answer that are read.
+
+        Raises:
+            CheckerError: No answer of use comes.
+        """
+        ends, pause = monotonic() + self.patience.trouble, self.patience.pause
+        while True:
+            wanted = 0.0
+            try:
+                answer = self._once(method, path, upload, limit)
+                if answer.status not in _BUSY:
+                    return self._direct(answer)
+                trouble, wanted = f"answers {answer.status}", answer.retry_after
+            except NoAnswer as problem:
+                trouble = str(problem)
+            wait = max(min(pause, self.patience.longest_pause), wanted)
+            if monotonic() + wait > ends:
+                raise CheckerError(f"{self.server} {trouble}; try again later")
+            self.say(f"{self.server} {trouble}; trying again in {wait:.0f} s")
+            sleep(wait)
+            pause *= 2.0
+
+    def _direct(self, answer: Answer) -> Answer:
+        """Return an answer unless it sends elsewhere: the token is for nobody else.
+
+        Raises:
+            CheckerError: It does.
+        """
+        if 300 <= answer.status < 400:
+            where = plain(shortened(answer.headers.get("location", "elsewhere"), _SHOWN))
+            raise CheckerError(
+                f"{self.server} sends on to {where}; if that is right, give its address as --server"
+            )
+        return answer
+
+    def _once(self, method: str, path: str, upload: Upload | None, limit: int) -> Answer:
+        form: AbstractContextManager[Mapping[str, Any]] = (
+            upload.form() if upload else nullcontext({})
+        )
+        # A client above the transport would read where the service sends on to, and keep cookies.
+        transport = httpx.HTTPTransport(verify=_trust(), trust_env=False)
+        try:
+            with transport, form as members, _cut_off(self.patience.answer) as trace:
+                request = self._request(method, path, members, trace)
+                with closing(transport.handle_request(request)) as response:
+                    body = self._body(response, limit)
+        except (httpx.TransportError, httpx.InvalidURL) as error:
+            cause = _cause(error)
+            said = plain(shortened(getattr(cause, "strerror", None) or str(cause), _SHOWN))
+            if _is_final(cause):
+                raise CheckerError(f"{self.server} cannot be reached: {said}") from None
+            raise NoAnswer(f"does not answer ({said})") from None
+        return Answer(response.status_code, response.headers, body)
+
+    def _request(
+        self, method: str, path: str, members: Mapping[str, Any], trace: Trace
+    ) -> httpx.Request:
+        headers = {"Accept": "application/json", "User-Agent": "subt-check"}
+        # Nothing packed is asked for, and nothing is unpacked: it could be a bomb.
+        headers |= {"Accept-Encoding": "identity", "Connection": "close"}
+        if self.token:
+            headers["Authorization"] = f"Bearer {self.token}"
+        silence = httpx.Timeout(self.patience.silence).as_dict()
+        return httpx.Request(
+            method,
+            f"{self.server}{path}",
+            headers=headers,
+            extensions={"timeout": silence, "trace": trace},
+            **members,
+        )
+
+    def _body(self, response: httpx.Response, limit: int) -> bytes:
+        body = b""
+        for piece in response.iter_raw():
+            body += piece
+            if len(body) > limit:
+                raise CheckerError(f"{self.server} answers with more than {limit / 1e6:g} MB")
+        # Without a length, what was cut off could not be told from what is whole.
+        has_end = {"content-length", "transfer-encoding"} & {*response.headers}
+        if not has_end and response.status_code != 204:
+            raise NoAnswer("hangs up in the middle of its answer")
+        return body
+
+
+@cache
+def _trust() -> ssl.SSLContext:
+    """Return what holds by the system's certificates, not by those that a library brings."""
+    return ssl.create_default_context()
+
+
+@contextmanager
+def _cut_off(seconds: float) -> Iterator[Trace]:
+    """Hang up so many seconds after a request is sent, however slowly its answer drips.
+
+    Yields:
+        What is to be told of the steps of the request.
+
+    Raises:
+        NoAnswer: It came to that.
+    """
+    late = threading.Event()
+    streams: list[Any] = []
+
+    def hang_up() -> None:
+        late.set()
+        with suppress(OSError):
+            streams[-1].get_extra_info("socket").shutdown(socket.SHUT_RDWR)
+
+    def trace(event: str, said: Mapping[str, Any]) -> None:
+        if event in ("connection.connect_tcp.complete", "connection.start_tls.complete"):
+            streams.append(said["return_value"])
+        elif event == "http11.receive_response_headers.started":
+            timer.start()
+
+    timer = threading.Timer(seconds, hang_up)
+    timer.daemon = True
+    try:
+        yield trace
+    finally:
+        timer.cancel()
+        if late.is_set():
+            raise NoAnswer(f"takes longer than {seconds:g} s to answer")
+
+
+def _cause(error: BaseException) -> BaseException:
+    """Return what an error began with: the library wraps those of the system."""
+    while inner := error.__cause__ or error.__context__:
+        error = inner
+    return error
+
+
+def _is_final(cause: BaseException) -> bool:
+    """Whether it stays so: a wrong name or certificate does not become right in a minute."""
+    if isinstance(cause, socket.gaierror):
+        return cause.errno != socket.EAI_AGAIN
+    return isinstance(cause, httpx.InvalidURL | ValueError)

@@ -1,0 +1,126 @@
+"""What is counted of requests, for Prometheus.
+
+Where several web processes share a port, each answers for all: `PROMETHEUS_MULTIPROC_DIR` names the
+folder in which the library keeps what each of them has counted.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from prometheus_client import CollectorRegistry, Counter, Histogram, generate_latest
+from prometheus_client.core import GaugeMetricFamily
+from prometheus_client.multiprocess import MultiProcessCollector
+
+from checker.base.errors import CheckerError
+from checker.base.record import record
+from checker.service.jobs.port import Alive
+
+FOLDER = "PROMETHEUS_MULTIPROC_DIR"
+"""The variable that has to be set before this module is loaded, as the library looks then."""
+BOUNDS = (0.005, 0.02, 0.1, 0.5, 2.0, 10.0)
+"""Upper bounds of the histogram of durations, in seconds."""
+_OURS = "subt_check"
+_ROOM = 1 << 18
+"""Bytes for the counts of one process; less than two hundred are needed for each."""
+
+
+class Metrics:
+    """Counts since the service began.
+
+    Attributes:
+        uploads: Taken.
+        refused: Requests, by their cause.
+    """
+
+    def __init__(self) -> None:
+        if FOLDER in os.environ:
+            _make_room(Path(os.environ[FOLDER]))
+        self._registry = CollectorRegistry()
+        own: dict[str, Any] = {"namespace": _OURS, "registry": self._registry}
+        self._requests = Counter(
+            "requests_total",
+            "Requests by method, route and status.",
+            ("method", "route", "status"),
+            **own,
+        )
+        self._seconds = Histogram(
+            "request_seconds",
+            "Seconds until the end of the answer, by route.",
+            ("route",),
+            buckets=BOUNDS,
+            **own,
+        )
+        self.uploads = Counter("uploads_total", "Uploads that were taken.", **own)
+        self.refused = Counter(
+            "refused_total", "Requests that were refused, by cause.", ("cause",), **own
+        )
+
+    def count(self, method: str, route: str, status: int, seconds: float) -> None:
+        """Count a request.
+
+        Args:
+            method: Of HTTP.
+            route: Its template, such as `/checks/{id}`, of which there are few.
+            status: Of the answer; 0 if there was none.
+            seconds: Until its end.
+        """
+        self._requests.labels(method, route, status).inc()
+        self._seconds.labels(route).observe(seconds)
+
+    def text(self, alive: Alive | None) -> bytes:
+        """Return all figures.
+
+        Args:
+            alive: What is known of the engine; None if it does not answer.
+        """
+        counted: Any = self._registry
+        if FOLDER in os.environ:
+            counted = MultiProcessCollector(None)  # type: ignore[no-untyped-call]
+        return generate_latest(counted) + generate_latest(_Engine(alive))
+
+
+def _make_room(folder: Path) -> None:
+    """Have the disk hold what this process will count.
+
+    The library maps these files into memory: a full disk would end the process by a signal.
+
+    Raises:
+        CheckerError: It has no room.
+    """
+    try:
+        for kind in ("counter", "histogram"):
+            with (folder / f"{kind}_{os.getpid()}.db").open("ab") as file:
+                os.posix_fallocate(file.fileno(), 0, _ROOM)
+    except OSError as error:
+        raise CheckerError(f"{folder} cannot hold the metrics ({error.strerror})") from None
+
+
+@record()
+class _Engine:
+    """Figures of the engine: not counted, but asked for each time."""
+
+    alive: Alive | None
+
+    def collect(self) -> Iterator[GaugeMetricFamily]:
+        alive = self.alive
+        yield _gauge("engine_up", "Whether the job engine answers.", int(alive is not None))
+        if alive is not None:
+            yield _gauge("running", "Checks that run.", alive.running)
+            yield _gauges("waiting", "Checks that wait, by queue.", "queue", alive.waiting)
+            said = "Since each worker's last sign of life."
+            yield _gauges("worker_silent_seconds", said, "worker", alive.workers)
+
+
+def _gauge(name: str, about: str, value: float) -> GaugeMetricFamily:
+    return GaugeMetricFamily(f"{_OURS}_{name}", about, value)
+
+
+def _gauges(name: str, about: str, label: str, values: Mapping[str, float]) -> GaugeMetricFamily:
+    family = GaugeMetricFamily(f"{_OURS}_{name}", about, labels=(label,))
+    for each, value in sorted(values.items()):
+        family.add_metric((each,), value)
+    return family
