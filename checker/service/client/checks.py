@@ -12,7 +12,7 @@ from msgspec import Meta, Struct
 
 from checker.base.errors import CheckerError
 from checker.base.progress import Say
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, plain, shortened
 from checker.report.files import ARTEFACT_NAME, INDEX
 from checker.report.from_json import SIZE_LIMIT
@@ -69,8 +69,7 @@ class Standing(Struct, frozen=True):
         return said + before
 
 
-@record()
-class Check:
+class Check(Record):
     """One check on a service."""
 
     connection: Connection

@@ -7,7 +7,6 @@ import ssl
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, closing, contextmanager, nullcontext, suppress
-from dataclasses import field
 from functools import cache
 from time import monotonic, sleep
 from typing import Any, TypeVar
@@ -17,7 +16,7 @@ import msgspec
 
 from checker.base.errors import CheckerError
 from checker.base.progress import Say, say_nothing
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.service.client.server import Server
 from checker.service.client.upload import Upload
@@ -32,8 +31,7 @@ _BUSY = (408, 429, 502, 503, 504)
 _SHOWN = 300
 
 
-@record()
-class Patience:
+class Patience(Record):
     """How long something is waited for.
 
     Attributes:
@@ -51,8 +49,7 @@ class Patience:
     longest_pause: float = 30.0
 
 
-@record()
-class Answer:
+class Answer(Record):
     """What a service answers.
 
     Attributes:
@@ -82,8 +79,7 @@ class NoAnswer(Exception):
     """A request came to nothing; the text says why."""
 
 
-@record()
-class Connection:
+class Connection(Record):
     """Speaks with one service, and with no other: it follows no redirect and asks no proxy.
 
     Attributes:
@@ -92,7 +88,7 @@ class Connection:
     """
 
     server: Server
-    token: str = field(default="", repr=False)
+    token: str = ""
     patience: Patience = Patience()
     say: Say = say_nothing
 

@@ -13,7 +13,7 @@ from typing import Any, BinaryIO
 
 from checker.base.errors import CheckerError, UnreadableInput
 from checker.base.progress import Say, say_nothing
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, listed, plain, shortened
 from checker.package.archives.archive import ARCHIVE_SUFFIXES
 from checker.package.archives.index import ArchiveLimits
@@ -32,8 +32,7 @@ _LARGE = 1_000_000
 """Bytes of a file from which on it is said how much of it is sent."""
 
 
-@record()
-class Upload:
+class Upload(Record):
     """A file to send.
 
     Attributes:

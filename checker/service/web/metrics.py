@@ -16,7 +16,7 @@ from prometheus_client.core import GaugeMetricFamily
 from prometheus_client.multiprocess import MultiProcessCollector
 
 from checker.base.errors import CheckerError
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.port import Alive
 
 FOLDER = "PROMETHEUS_MULTIPROC_DIR"
@@ -99,8 +99,7 @@ def _make_room(folder: Path) -> None:
         raise CheckerError(f"{folder} cannot hold the metrics ({error.strerror})") from None
 
 
-@record()
-class _Engine:
+class _Engine(Record):
     """Figures of the engine: not counted, but asked for each time."""
 
     alive: Alive | None
