@@ -15,8 +15,8 @@ from urllib.parse import urlsplit
 import pytest
 
 from checker.service.client.connection import Connection
-from checker.service.client.form import Form
 from checker.service.client.server import parse_server
+from checker.service.client.upload import Upload
 from tests.conftest import SAMPLES
 from tests.serving.conftest import SECONDS, Serve, Serving, command_of, environment_of, wait_for
 
@@ -81,12 +81,16 @@ def test_a_worker_that_dies_is_followed_by_another_of_its_name(serve: Serve) -> 
 def test_a_web_server_that_dies_is_followed_by_another_at_its_address(serve: Serve) -> None:
     serving = serve("--workers", 0)
     url = serving.url
+    assert get(url, "/healthz")[0] == 200
+    counted = 'requests_total{method="GET",route="/healthz",status="200"}'
+    wait_for(lambda: f"{counted} 1.0" in get(url, "/metrics")[1].decode())
     (dead,) = serving.web()
     os.kill(dead, signal.SIGKILL)
     # Who asks meanwhile waits.
     assert get(url, "/healthz")[0] == 200
     assert serving.web() != [dead]
     assert "the web server was ended by SIGKILL; it starts again" in serving.told
+    wait_for(lambda: f"{counted} 2.0" in get(url, "/metrics")[1].decode())
 
 
 def processes_of(serving: Serving) -> list[int]:
@@ -236,7 +240,7 @@ def test_the_public_address_is_the_one_of_links(serve: Serve, tmp_path: Path) ->
     model = tmp_path / "robot.sdf"
     model.write_text("<sdf version='1.6'/>", "utf-8")
     connection = Connection(parse_server(serving.url))
-    said = json.loads(connection.ask("POST", "/api/checks", Form(model, model.name)).body)
+    said = json.loads(connection.ask("POST", "/api/checks", Upload(model)).body)
     assert said["url"] == f"https://check.example/checks/{said['id']}"
 
 

@@ -10,8 +10,8 @@ import pytest
 
 from checker.base.errors import CheckerError
 from checker.service.client.connection import Answer, Connection, Patience
-from checker.service.client.form import Form
 from checker.service.client.server import parse_server
+from checker.service.client.upload import Upload
 from tests.submitting.conftest import QUICK, Asked, Service, StartService, answer, in_turn
 
 
@@ -26,7 +26,7 @@ def ask(service: Service, **options: int) -> Answer:
 def test_an_answer(start_service: StartService) -> None:
     service = start_service(in_turn(answer(200, {"a": 1}, X_Y="z")))
     said = connection_to(service, "secret").ask("GET", "/api/checks/x")
-    assert (said.status, said.json(), said.headers["x-y"]) == (200, {"a": 1}, "z")
+    assert (said.status, said.read_as(dict), said.headers["x-y"]) == (200, {"a": 1}, "z")
     (asked,) = service.asked
     assert asked.headers["authorization"] == "Bearer secret"
     assert asked.headers["host"] == f"127.0.0.1:{service.port}"
@@ -48,7 +48,7 @@ def test_the_path_of_the_address_stands_before_all_others(start_service: StartSe
 def test_a_busy_service_is_asked_again(start_service: StartService, status: int) -> None:
     busy = answer(status, "x", Retry_After="0")
     service = start_service(in_turn(busy, busy, answer(200, "1")))
-    assert ask(service).json() == 1
+    assert ask(service).read_as(int) == 1
     assert len(service.asked) == 3
 
 
@@ -92,7 +92,7 @@ def test_what_is_cut_off_or_no_answer_is_asked_for_again(
     start_service: StartService, said: bytes
 ) -> None:
     service = start_service(in_turn(said, answer(200, "1")))
-    assert ask(service).json() == 1
+    assert ask(service).read_as(int) == 1
     assert len(service.asked) == 2
 
 
@@ -145,9 +145,9 @@ def test_a_token_is_not_carried_elsewhere(
 ) -> None:
     other = start_service(in_turn(answer(200, {"id": "x" * 22})))
     service = start_service(in_turn(answer(status, "x", Location=f"{other.url}/\x1bx")))
-    form = Form(model, "robot.sdf") if method == "POST" else None
+    upload = Upload(model) if method == "POST" else None
     with pytest.raises(CheckerError, match=r"sends on to http.*give its address") as raised:
-        connection_to(service, "secret").ask(method, "/api/checks", form)
+        connection_to(service, "secret").ask(method, "/api/checks", upload)
     assert str(raised.value).isprintable()
     assert not other.asked
     assert len(service.asked) == 1
@@ -161,18 +161,19 @@ def test_a_large_upload_that_is_refused_at_once_tells_why(
         sparse.truncate(50_000_000)
     service = start_service(in_turn(answer(500)))
     service.early = lambda _: answer(413, {"error": "The file is too large."})
-    said = connection_to(service).ask("POST", "/api/checks", Form(file, file.name))
+    said = connection_to(service).ask("POST", "/api/checks", Upload(file))
     assert said.status == 413
-    assert said.json() == {"error": "The file is too large."}
+    assert said.read_as(dict) == {"error": "The file is too large."}
 
 
 def test_an_upload_is_sent_whole_again(start_service: StartService, model: Path) -> None:
     service = start_service(in_turn(answer(503, "x"), b"", answer(201, "1")))
-    form = Form(model, "robot.sdf", {"profile": "sdf"})
-    assert connection_to(service).ask("POST", "/api/checks", form).status == 201
-    bodies = {asked.body for asked in service.asked}
+    upload = Upload(model, "sdf")
+    assert connection_to(service).ask("POST", "/api/checks", upload).status == 201
     assert len(service.asked) == 3
-    assert bodies == {b"".join(form.pieces())}
+    for asked in service.asked:
+        assert asked.body.count(model.read_bytes()) == 1
+        assert len(asked.body) == int(asked.headers["content-length"])
 
 
 def test_a_name_that_nobody_has_is_not_asked_again() -> None:
@@ -190,6 +191,6 @@ def test_a_service_that_is_gone(start_service: StartService) -> None:
 
 
 def test_an_answer_that_is_no_json() -> None:
-    for body in (b"", b"<html>", b"\xff", b"[" * 100_000):
-        assert Answer(200, {}, body).json() is None
-    assert Answer(200, {}, json.dumps([1]).encode()).json() == [1]
+    for body in (b"", b"<html>", b"\xff", b'"\xff"', b"[" * 100_000, b'{"a":' * 100_000):
+        assert Answer(200, {}, body).read_as(dict) is None
+    assert Answer(200, {}, json.dumps([1]).encode()).read_as(list) == [1]

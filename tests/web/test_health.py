@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import logging
+import os
+import subprocess
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,6 +14,7 @@ import pytest
 from fastapi.testclient import TestClient
 from hypothesis import given
 from hypothesis import strategies as st
+from prometheus_client.parser import text_string_to_metric_families
 
 from checker.base.sandbox.layers import Layer
 from checker.service.jobs.port import Alive, JobsUnreachable, State
@@ -18,7 +22,7 @@ from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.logs import FIELDS, JsonLines, short
-from checker.service.web.metrics import BOUNDS, Metrics
+from checker.service.web.metrics import BOUNDS, FOLDER, Metrics
 from tests.web.board import DONE, ID, BoardJobs
 
 
@@ -116,30 +120,35 @@ def test_metrics_count_requests_by_route(tmp_path: Path) -> None:
     client.post("/api/checks", files={"file": ("a.exe", b"<sdf/>")})
     text = client.get("/metrics").text
     for line in (
-        'subt_check_requests_total{method="GET",route="/api/checks/{id}",status="200"} 1',
-        'subt_check_requests_total{method="GET",route="/api/checks/{id}",status="404"} 1',
-        'subt_check_requests_total{method="GET",route="/",status="200"} 1',
-        'subt_check_requests_total{method="GET",route="/checks/{id}",status="200"} 1',
-        'subt_check_requests_total{method="GET",route="none",status="404"} 1',
-        'subt_check_request_seconds_count{route="/api/checks/{id}"} 2',
-        "subt_check_uploads_total 1",
-        'subt_check_refused_total{cause="kind"} 1',
-        'subt_check_waiting{queue="trial"} 3',
-        "subt_check_running 1",
-        "subt_check_engine_up 1",
+        'subt_check_requests_total{method="GET",route="/api/checks/{id}",status="200"} 1.0',
+        'subt_check_requests_total{method="GET",route="/api/checks/{id}",status="404"} 1.0',
+        'subt_check_requests_total{method="GET",route="/",status="200"} 1.0',
+        'subt_check_requests_total{method="GET",route="/checks/{id}",status="200"} 1.0',
+        'subt_check_requests_total{method="GET",route="none",status="404"} 1.0',
+        'subt_check_request_seconds_count{route="/api/checks/{id}"} 2.0',
+        "subt_check_uploads_total 1.0",
+        'subt_check_refused_total{cause="kind"} 1.0',
+        'subt_check_waiting{queue="trial"} 3.0',
+        "subt_check_running 1.0",
+        "subt_check_engine_up 1.0",
     ):
         assert line in text.splitlines()
     assert ID not in text
 
 
+def figures(text: str) -> dict[tuple[str, ...], float]:
+    """Return what a metrics page says, by name and labels, as Prometheus reads it."""
+    samples = [each for family in text_string_to_metric_families(text) for each in family.samples]
+    return {(each.name, *each.labels.values()): each.value for each in samples}
+
+
 def test_metrics_are_in_the_format_of_prometheus() -> None:
     metrics = Metrics()
     metrics.count("GET", "/{id}", 200, 0.01)
-    text = metrics.text(Alive({'a"\\\nb': 1.0}, {"static": 1}, 0))
-    for line in text.splitlines():
-        assert line.startswith(("# HELP ", "# TYPE ", "subt_check_"))
-        assert "\n" not in line
-    assert r'worker="a\"\\\nb"' in text
+    read = figures(metrics.text(Alive({'a"\\\nb': 1.0}, {"static": 1}, 0)).decode())
+    assert read["subt_check_requests_total", "GET", "/{id}", "200"] == 1
+    assert read["subt_check_worker_silent_seconds", 'a"\\\nb'] == 1
+    assert all(name.startswith("subt_check_") for name, *_ in read)
 
 
 @given(st.lists(st.floats(0, 100), min_size=1, max_size=50))
@@ -147,12 +156,41 @@ def test_the_histogram_adds_up(seconds: list[float]) -> None:
     metrics = Metrics()
     for each in seconds:
         metrics.count("GET", "/", 200, each)
-    lines = dict(line.rsplit(" ", 1) for line in metrics.text(None).splitlines() if "/" in line)
-    for bound in BOUNDS:
-        name = f'subt_check_request_seconds_bucket{{route="/",le="{bound}"}}'
-        assert int(lines[name]) == sum(each <= bound for each in seconds)
-    total = 'subt_check_request_seconds_bucket{route="/",le="+Inf"}'
-    assert int(lines[total]) == len(seconds)
+    read = figures(metrics.text(None).decode())
+    for bound in (*BOUNDS, float("inf")):
+        le = "+Inf" if bound == float("inf") else str(bound)
+        expected = sum(each <= bound for each in seconds)
+        assert read["subt_check_request_seconds_bucket", le, "/"] == expected
+
+
+COUNTING = """
+import sys
+from checker.web.metrics import Metrics
+metrics = Metrics()
+metrics.count("GET", "/", 200, 0.01)
+metrics.uploads.inc()
+metrics.refused.labels("size").inc(2)
+sys.stdout.buffer.write(metrics.text(None))
+"""
+
+
+def test_each_of_several_processes_answers_for_all(tmp_path: Path) -> None:
+    environment = {**os.environ, FOLDER: str(tmp_path)}
+    for number in (1, 2, 3):
+        command = [sys.executable, "-c", COUNTING]
+        done = subprocess.run(command, capture_output=True, check=True, env=environment)
+        assert figures(done.stdout.decode()) == {
+            ("subt_check_requests_total", "GET", "/", "200"): number,
+            **{
+                ("subt_check_request_seconds_bucket", le, "/"): number * (le != "0.005")
+                for le in ("+Inf", *map(str, BOUNDS))
+            },
+            ("subt_check_request_seconds_count", "/"): number,
+            ("subt_check_request_seconds_sum", "/"): pytest.approx(number / 100),
+            ("subt_check_uploads_total",): number,
+            ("subt_check_refused_total", "size"): 2 * number,
+            ("subt_check_engine_up",): 0,
+        }
 
 
 @pytest.mark.parametrize(

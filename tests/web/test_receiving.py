@@ -23,7 +23,7 @@ from tests.web.board import ID, BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
 
 LIMIT = 600_000
-CUT = 'refused_total{cause="cut"} 1'
+CUT = 'refused_total{cause="cut"} 1.0'
 
 
 @pytest.fixture

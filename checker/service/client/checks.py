@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import enum
-import re
 from collections.abc import Iterator
 from time import sleep
 from typing import Annotated
 from urllib.parse import quote, unquote
 
-import msgspec
+from msgspec import Meta, Struct
 
 from checker.base.errors import CheckerError
 from checker.base.progress import Say
@@ -18,7 +17,7 @@ from checker.base.words import count, plain, shortened
 from checker.report.files import ARTEFACT_NAME, INDEX
 from checker.report.json_report import SIZE_LIMIT
 from checker.service.client.connection import Answer, Connection
-from checker.service.client.form import Form
+from checker.service.client.upload import Upload
 
 FILE_LIMIT = SIZE_LIMIT
 """Bytes of a result's file."""
@@ -37,13 +36,20 @@ class End(enum.StrEnum):
     CANCELLED = "cancelled"
 
 
-class Given(Record):
+class Given(Struct, frozen=True):
     """What the service answers to an upload."""
 
-    id: Annotated[str, re.compile(r"[A-Za-z0-9_-]{16,100}")]
+    id: Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{16,100}\Z")]
 
 
-class Standing(Record):
+class Problem(Struct, frozen=True):
+    """What the service answers to what it does not take."""
+
+    error: str
+    advice: str | None = None
+
+
+class Standing(Struct, frozen=True):
     """How a check stands, as far as it matters here; the members are those of the API."""
 
     stage: str
@@ -110,7 +116,7 @@ class Check(Record):
         """
         answer = self.connection.ask("DELETE", self._path)
         if answer.status not in (200, 202, 204, 404, 409):
-            raise refusal(self.connection, answer)
+            raise _refusal(self.connection, answer)
 
     def file(self, name: str) -> bytes | None:
         """Return a file of the result; None if there is none of that name.
@@ -124,47 +130,37 @@ class Check(Record):
         if answer.status == 404:
             return None
         if answer.status != 200:
-            raise refusal(self.connection, answer)
+            raise _refusal(self.connection, answer)
         return answer.body
 
     def _standing(self) -> Standing:
         answer = self.connection.ask("GET", self._path)
-        if answer.status != 200:
-            raise refusal(self.connection, answer)
-        try:
-            return msgspec.convert(answer.json(), Standing)
-        except msgspec.ValidationError:
-            raise _unclear(self.connection, answer) from None
+        standing = answer.read_as(Standing) if answer.status == 200 else None
+        if standing is None:
+            raise _refusal(self.connection, answer)
+        return standing
 
 
-def order(connection: Connection, form: Form) -> Check:
+def order(connection: Connection, upload: Upload) -> Check:
     """Upload a file and return its check.
 
     Raises:
         CheckerError: The service does not take it; the text says why.
     """
-    answer = connection.ask("POST", _CHECKS, form)
-    if answer.status != 201:
-        raise refusal(connection, answer)
-    try:
-        given = msgspec.convert(answer.json(), Given)
-    except msgspec.ValidationError:
-        raise _unclear(connection, answer) from None
+    answer = connection.ask("POST", _CHECKS, upload)
+    given = answer.read_as(Given) if answer.status == 201 else None
+    if given is None:
+        raise _refusal(connection, answer)
     return Check(connection, given.id)
 
 
-def refusal(connection: Connection, answer: Answer) -> CheckerError:
+def _refusal(connection: Connection, answer: Answer) -> CheckerError:
     """Return what a service says against a request, in its own words where it has some."""
-    said = answer.json()
-    if isinstance(said, dict) and isinstance(said.get("error"), str):
-        words = [said["error"], said.get("advice", "")]
-        told = " ".join(word for word in words if isinstance(word, str) and word)
-        return CheckerError(f"{connection.server}: {plain(shortened(told, _SHOWN))}")
-    return _unclear(connection, answer)
-
-
-def _unclear(connection: Connection, answer: Answer) -> CheckerError:
-    return CheckerError(
-        f"{connection.server} answers {answer.status}, and not as the service of subt-check does; "
-        "check the address"
-    )
+    problem = answer.read_as(Problem)
+    if problem is None:
+        return CheckerError(
+            f"{connection.server} answers {answer.status}, and not as the service of subt-check "
+            "does; check the address"
+        )
+    said = " ".join(filter(None, (problem.error, problem.advice)))
+    return CheckerError(f"{connection.server}: {plain(shortened(said, _SHOWN))}")

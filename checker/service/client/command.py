@@ -5,26 +5,18 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 
-from checker.base.errors import CheckerError, UnreadableInput
+from checker.base.errors import CheckerError
 from checker.base.output import empty_of, here, say_progress
 from checker.base.progress import Say, say_nothing
-from checker.package.archives.archive import ARCHIVE_SUFFIXES
-from checker.package.inputs import SINGLE_FILE_SUFFIXES
-from checker.package.kind import enclosing_package
 from checker.report.report import Report
 from checker.service.client.checks import Check, End, Standing, order
 from checker.service.client.connection import Connection, Patience
-from checker.service.client.form import Form
-from checker.service.client.packing import pack
+from checker.service.client.result import tell
 from checker.service.client.server import Server, parse_server
-from checker.service.client.telling import tell
-
-_TENTHS = 10
+from checker.service.client.upload import Upload, file_to_send
 
 
 def submit(options: argparse.Namespace, patience: Patience | None = None) -> Report | None:
@@ -48,9 +40,9 @@ def submit(options: argparse.Namespace, patience: Patience | None = None) -> Rep
     if token and server.scheme == "http" and not server.is_here:
         _say(f"the token is sent to {server} without encryption; use https://")
     connection = Connection(server, token, patience or Patience(), say)
-    with _file_of(Path(options.package)) as file:
-        fields = {"profile": options.profile} if options.profile else {}
-        check = order(connection, Form(file, file.name, fields, _told(file, say)))
+    with file_to_send(Path(options.package), _say) as file:
+        say(f"uploading {file.name}, {file.stat().st_size / 1e6:.1f} MB")
+        check = order(connection, Upload(file, options.profile or "", say))
     _say(f"the check is at {check.link}")
     try:
         standing = _waited(check, say)
@@ -71,66 +63,6 @@ def _token(options: argparse.Namespace) -> str:
     if not (token.isascii() and token.isprintable() and " " not in token):
         raise CheckerError("the token holds other than ASCII letters, digits and signs")
     return token
-
-
-@contextmanager
-def _file_of(path: Path) -> Iterator[Path]:
-    """Give the file to send: an archive or a model file as it is, a folder packed.
-
-    Raises:
-        UnreadableInput: It is none of them, or cannot be read.
-    """
-    if not _is_folder(path):
-        _refuse_file(path)
-        around = enclosing_package(path.resolve().parent)
-        if around and path.name.lower().endswith(SINGLE_FILE_SUFFIXES):
-            _say(f"{path} is sent alone; for its meshes, give the folder {around}")
-        yield path
-        return
-    with tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True) as own:
-        packed = Path(own) / f"{path.resolve().name or 'package'}.zip"
-        with packed.open("wb") as archive:
-            left_out = pack(path, archive)
-        for words in left_out:
-            _say(f"{path}: {words}")
-        yield packed
-
-
-def _is_folder(path: Path) -> bool:
-    try:
-        return path.is_dir()
-    except OSError:  # such as a name that is too long: said when it is opened
-        return False
-
-
-def _refuse_file(path: Path) -> None:
-    advice = "give a package folder, a .zip or .tar.gz archive, or a model file"
-    try:
-        if not path.exists():
-            raise UnreadableInput(path, "does not exist", "check the spelling")
-        known = path.name.lower().endswith((*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES))
-        if not known or not path.is_file():
-            raise UnreadableInput(path, "is no package, archive or model file", advice)
-        with path.open("rb"):
-            pass
-    except (OSError, ValueError) as error:
-        reason = f"cannot be opened: {getattr(error, 'strerror', None) or error}"
-        raise UnreadableInput(path, reason, "check its permissions") from None
-
-
-def _told(file: Path, say: Say) -> Callable[[int], None]:
-    """Return what says how much of a file is sent, each tenth once."""
-    size, said = max(file.stat().st_size, 1), 0
-    say(f"uploading {file.name}, {size / 1e6:.1f} MB")
-
-    def told(sent: int) -> None:
-        nonlocal said
-        tenths = _TENTHS * sent // size
-        if tenths != said and size > 1_000_000:
-            said = tenths
-            say(f"uploaded {100 * tenths // _TENTHS} %")
-
-    return told
 
 
 def _waited(check: Check, say: Say) -> Standing:

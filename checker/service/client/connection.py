@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-import http.client
-import json
 import socket
+import ssl
 import threading
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext, suppress
+from functools import cache
 from time import monotonic, sleep
-from typing import TYPE_CHECKING
+from typing import Any, TypeVar
+
+import httpx
+import msgspec
 
 from checker.base.errors import CheckerError
 from checker.base.progress import Say, say_nothing
 from checker.base.record import Record
 from checker.base.words import plain, shortened
-from checker.service.client.form import Form
 from checker.service.client.server import Server
+from checker.service.client.upload import Upload
 
-if TYPE_CHECKING:
-    from ssl import SSLContext
-
+T = TypeVar("T")
+Trace = Callable[[str, Mapping[str, Any]], None]
+"""Is told of each step of a request by its name."""
 ANSWER_LIMIT = 1_000_000
 """Bytes of an answer that tells how a check stands."""
 _BUSY = (408, 429, 502, 503, 504)
@@ -50,7 +53,7 @@ class Answer(Record):
     """What a service answers.
 
     Attributes:
-        headers: By names in small letters.
+        headers: Their names in any case.
         body: Whole.
     """
 
@@ -58,17 +61,18 @@ class Answer(Record):
     headers: Mapping[str, str]
     body: bytes
 
-    @property
-    def is_busy(self) -> bool:
-        """Whether the same request may be taken later."""
-        return self.status in _BUSY
-
-    def json(self) -> object:
-        """Return the body read as JSON; None if it is none."""
+    def read_as(self, kind: type[T]) -> T | None:
+        """Return the body read as JSON of a type; None if it is none."""
         try:
-            return json.loads(self.body)
-        except (ValueError, RecursionError):
+            return msgspec.json.decode(self.body, type=kind)
+        except (msgspec.MsgspecError, ValueError, RecursionError):
             return None
+
+    @property
+    def retry_after(self) -> float:
+        """Seconds that the service asks to wait; 0 where it does not say."""
+        text = self.headers.get("retry-after", "")
+        return float(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0.0
 
 
 class NoAnswer(Exception):
@@ -76,7 +80,7 @@ class NoAnswer(Exception):
 
 
 class Connection(Record):
-    """Speaks with one service, and with no other: it follows no redirect.
+    """Speaks with one service, and with no other: it follows no redirect and asks no proxy.
 
     Attributes:
         token: Shown to the service; may be empty.
@@ -89,14 +93,14 @@ class Connection(Record):
     say: Say = say_nothing
 
     def ask(
-        self, method: str, path: str, form: Form | None = None, limit: int = ANSWER_LIMIT
+        self, method: str, path: str, upload: Upload | None = None, limit: int = ANSWER_LIMIT
     ) -> Answer:
         """Send a request, again and again while the service is busy or away, and return its answer.
 
         Args:
             method: Of HTTP.
             path: Below the address of the service.
-            form: What goes with it.
+            upload: What goes with it.
             limit: Bytes of the answer that are read.
 
         Raises:
@@ -106,10 +110,10 @@ class Connection(Record):
         while True:
             wanted = 0.0
             try:
-                answer = self._once(method, path, form, limit)
-                if not answer.is_busy:
+                answer = self._once(method, path, upload, limit)
+                if answer.status not in _BUSY:
                     return self._direct(answer)
-                trouble, wanted = f"answers {answer.status}", _retry_after(answer)
+                trouble, wanted = f"answers {answer.status}", answer.retry_after
             except NoAnswer as problem:
                 trouble = str(problem)
             wait = max(min(pause, self.patience.longest_pause), wanted)
@@ -132,88 +136,104 @@ class Connection(Record):
             )
         return answer
 
-    def _once(self, method: str, path: str, form: Form | None, limit: int) -> Answer:
-        connection = self._connection()
+    def _once(self, method: str, path: str, upload: Upload | None, limit: int) -> Answer:
+        form: AbstractContextManager[Mapping[str, Any]] = (
+            upload.form() if upload else nullcontext({})
+        )
+        # A client above the transport would read where the service sends on to, and keep cookies.
+        transport = httpx.HTTPTransport(verify=_trust(), trust_env=False)
         try:
-            self._send(connection, method, path, form)
-            with _cut_off(connection.sock, self.patience.answer):
-                response = connection.getresponse()
-                body = response.read(limit + 1)
-        except (socket.gaierror, ValueError) as error:
-            if getattr(error, "errno", 0) == socket.EAI_AGAIN:
-                raise NoAnswer(f"cannot be reached ({_cause(error)})") from None
-            # Neither a wrong name nor a wrong certificate becomes right in a minute.
-            raise CheckerError(f"{self.server} cannot be reached: {_cause(error)}") from None
-        except (OSError, http.client.HTTPException) as error:
-            raise NoAnswer(f"does not answer ({_cause(error)})") from None
-        finally:
-            connection.close()
-        if len(body) > limit:
-            raise CheckerError(f"{self.server} answers with more than {limit / 1e6:g} MB")
-        # Without a length, what was cut off could not be told from what is whole.
-        if response.length != 0 and not response.chunked:
-            raise NoAnswer("hangs up in the middle of its answer")
-        headers = {name.lower(): value for name, value in response.getheaders()}
-        return Answer(response.status, headers, body)
+            with transport, form as members, _cut_off(self.patience.answer) as trace:
+                request = self._request(method, path, members, trace)
+                with closing(transport.handle_request(request)) as response:
+                    body = self._body(response, limit)
+        except (httpx.TransportError, httpx.InvalidURL) as error:
+            cause = _cause(error)
+            said = plain(shortened(getattr(cause, "strerror", None) or str(cause), _SHOWN))
+            if _is_final(cause):
+                raise CheckerError(f"{self.server} cannot be reached: {said}") from None
+            raise NoAnswer(f"does not answer ({said})") from None
+        return Answer(response.status_code, response.headers, body)
 
-    def _connection(self) -> http.client.HTTPConnection:
-        host, port, silence = self.server.host, self.server.port, self.patience.silence
-        if self.server.scheme == "http":
-            return http.client.HTTPConnection(host, port, timeout=silence)
-        return http.client.HTTPSConnection(host, port, timeout=silence, context=_trust())
-
-    def _send(
-        self, connection: http.client.HTTPConnection, method: str, path: str, form: Form | None
-    ) -> None:
+    def _request(
+        self, method: str, path: str, members: Mapping[str, Any], trace: Trace
+    ) -> httpx.Request:
         headers = {"Accept": "application/json", "User-Agent": "subt-check"}
+        # Nothing packed is asked for, and nothing is unpacked: it could be a bomb.
+        headers |= {"Accept-Encoding": "identity", "Connection": "close"}
         if self.token:
             headers["Authorization"] = f"Bearer {self.token}"
-        body: Iterator[bytes] | None = None
-        if form is not None:
-            headers |= {"Content-Type": form.content_type, "Content-Length": str(form.length)}
-            body = form.pieces()
-        # A service that refuses an upload answers before it has all of it, and hangs up.
-        with suppress(BrokenPipeError, ConnectionResetError):
-            connection.request(method, self.server.base + path, body, headers)
+        silence = httpx.Timeout(self.patience.silence).as_dict()
+        return httpx.Request(
+            method,
+            f"{self.server}{path}",
+            headers=headers,
+            extensions={"timeout": silence, "trace": trace},
+            **members,
+        )
+
+    def _body(self, response: httpx.Response, limit: int) -> bytes:
+        body = b""
+        for piece in response.iter_raw():
+            body += piece
+            if len(body) > limit:
+                raise CheckerError(f"{self.server} answers with more than {limit / 1e6:g} MB")
+        # Without a length, what was cut off could not be told from what is whole.
+        has_end = {"content-length", "transfer-encoding"} & {*response.headers}
+        if not has_end and response.status_code != 204:
+            raise NoAnswer("hangs up in the middle of its answer")
+        return body
 
 
-def _trust() -> SSLContext:
-    import ssl
-
+@cache
+def _trust() -> ssl.SSLContext:
+    """Return what holds by the system's certificates, not by those that a library brings."""
     return ssl.create_default_context()
 
 
 @contextmanager
-def _cut_off(connected: socket.socket, seconds: float) -> Iterator[None]:
-    """Hang up after so many seconds, however slowly an answer drips.
+def _cut_off(seconds: float) -> Iterator[Trace]:
+    """Hang up so many seconds after a request is sent, however slowly its answer drips.
+
+    Yields:
+        What is to be told of the steps of the request.
 
     Raises:
         NoAnswer: It came to that.
     """
     late = threading.Event()
+    streams: list[Any] = []
 
     def hang_up() -> None:
         late.set()
         with suppress(OSError):
-            connected.shutdown(socket.SHUT_RDWR)
+            streams[-1].get_extra_info("socket").shutdown(socket.SHUT_RDWR)
+
+    def trace(event: str, said: Mapping[str, Any]) -> None:
+        if event in ("connection.connect_tcp.complete", "connection.start_tls.complete"):
+            streams.append(said["return_value"])
+        elif event == "http11.receive_response_headers.started":
+            timer.start()
 
     timer = threading.Timer(seconds, hang_up)
     timer.daemon = True
-    timer.start()
     try:
-        yield
+        yield trace
     finally:
         timer.cancel()
         if late.is_set():
             raise NoAnswer(f"takes longer than {seconds:g} s to answer")
 
 
-def _retry_after(answer: Answer) -> float:
-    """Return the seconds that a service asks to wait; 0 where it does not say."""
-    text = answer.headers.get("retry-after", "")
-    return float(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0.0
+def _cause(error: BaseException) -> BaseException:
+    """Return what an error began with: the library wraps those of the system."""
+    while inner := error.__cause__ or error.__context__:
+        error = inner
+    return error
 
 
-def _cause(error: Exception) -> str:
-    said = getattr(error, "strerror", None) or str(error) or type(error).__name__
-    return plain(shortened(said, _SHOWN))
+def _is_final(cause: BaseException) -> bool:
+    """Whether it stays so: a wrong name or certificate does not become right in a minute."""
+    if isinstance(cause, socket.gaierror):
+        return cause.errno != socket.EAI_AGAIN
+    return isinstance(cause, httpx.InvalidURL | ValueError)

@@ -26,7 +26,7 @@ from checker.service.store.place import data_folder
 if TYPE_CHECKING:
     from checker.service.store.store import Store
 
-_NEEDED = ("blake3", "dbos", "fastapi", "uvicorn")
+_NEEDED = ("blake3", "dbos", "fastapi", "prometheus_client", "uvicorn")
 _MOST_WORKERS = 2
 """Unless more are asked for: a trial keeps a core busy."""
 
@@ -42,11 +42,11 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
     store = _data_made(options)
     _refuse_without_database()
     environment = _environment(options)
-    with listening(options.host, options.port) as bound:
+    with listening(options.host, options.port) as bound, store.workplace() as counts:
         for warning in filter(None, _warnings(bound, environment, store)):
             _say(warning)
         stop, at_once = _signals()
-        processes = _processes(options, bound, environment)
+        processes = _processes(options, bound, environment, counts)
         for each in processes:
             each.start()
         try:
@@ -149,7 +149,10 @@ def _data_made(options: argparse.Namespace) -> Store:
 
 
 def _processes(
-    options: argparse.Namespace, bound: socket.socket, environment: Mapping[str, str]
+    options: argparse.Namespace,
+    bound: socket.socket,
+    environment: Mapping[str, str],
+    counts: Path,
 ) -> Sequence[Process]:
     number = options.workers
     if number is None:
@@ -161,7 +164,9 @@ def _processes(
         Process(f"worker {n}", (*child, "worker", f"worker-{group}-{n}"), environment)
         for n in range(1, number + 1)
     ]
-    return [Process("the web server", web, environment, (descriptor,)), *workers]
+    # Where web processes add up what they count; see `checker.service.web.metrics`.
+    counting = {**environment, "PROMETHEUS_MULTIPROC_DIR": str(counts)}
+    return [Process("the web server", web, counting, (descriptor,)), *workers]
 
 
 def _signals() -> tuple[threading.Event, threading.Event]:

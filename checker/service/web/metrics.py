@@ -1,32 +1,63 @@
-"""What is counted of requests, in the text format of Prometheus."""
+"""What is counted of requests, for Prometheus.
+
+Where several web processes share a port, each answers for all: `PROMETHEUS_MULTIPROC_DIR` names the
+folder in which the library keeps what each of them has counted.
+"""
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections import Counter, defaultdict
+import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
+from prometheus_client import CollectorRegistry, Counter, Histogram, generate_latest
+from prometheus_client.core import GaugeMetricFamily
+from prometheus_client.multiprocess import MultiProcessCollector
+
+from checker.base.errors import CheckerError
+from checker.base.record import Record
 from checker.service.jobs.port import Alive
 
+FOLDER = "PROMETHEUS_MULTIPROC_DIR"
+"""The variable that has to be set before this module is loaded, as the library looks then."""
 BOUNDS = (0.005, 0.02, 0.1, 0.5, 2.0, 10.0)
 """Upper bounds of the histogram of durations, in seconds."""
+_OURS = "subt_check"
+_ROOM = 1 << 18
+"""Bytes for the counts of one process; less than two hundred are needed for each."""
 
 
-@dataclass
 class Metrics:
-    """Counts since the process began; used by the event loop alone.
+    """Counts since the service began.
 
     Attributes:
         uploads: Taken.
         refused: Requests, by their cause.
     """
 
-    uploads: int = 0
-    refused: Counter[str] = field(default_factory=Counter)
-    _requests: Counter[tuple[str, str, int]] = field(default_factory=Counter)
-    _seconds: defaultdict[str, float] = field(default_factory=lambda: defaultdict(float))
-    _buckets: Counter[tuple[str, int]] = field(default_factory=Counter)
+    def __init__(self) -> None:
+        if FOLDER in os.environ:
+            _make_room(Path(os.environ[FOLDER]))
+        self._registry = CollectorRegistry()
+        own: dict[str, Any] = {"namespace": _OURS, "registry": self._registry}
+        self._requests = Counter(
+            "requests_total",
+            "Requests by method, route and status.",
+            ("method", "route", "status"),
+            **own,
+        )
+        self._seconds = Histogram(
+            "request_seconds",
+            "Seconds until the end of the answer, by route.",
+            ("route",),
+            buckets=BOUNDS,
+            **own,
+        )
+        self.uploads = Counter("uploads_total", "Uploads that were taken.", **own)
+        self.refused = Counter(
+            "refused_total", "Requests that were refused, by cause.", ("cause",), **own
+        )
 
     def count(self, method: str, route: str, status: int, seconds: float) -> None:
         """Count a request.
@@ -37,69 +68,58 @@ class Metrics:
             status: Of the answer; 0 if there was none.
             seconds: Until its end.
         """
-        self._requests[method, route, status] += 1
-        self._seconds[route] += seconds
-        self._buckets[route, bisect_left(BOUNDS, seconds)] += 1
+        self._requests.labels(method, route, status).inc()
+        self._seconds.labels(route).observe(seconds)
 
-    def text(self, alive: Alive | None) -> str:
+    def text(self, alive: Alive | None) -> bytes:
         """Return all figures.
 
         Args:
             alive: What is known of the engine; None if it does not answer.
         """
-        lines = [*self._of_requests(), *self._of_durations(), *self._of_uploads()]
-        lines += _of_engine(alive)
-        return "\n".join(lines) + "\n"
-
-    def _of_requests(self) -> Iterator[str]:
-        yield from _head("requests_total", "counter", "Requests by method, route and status.")
-        for (method, route, status), number in sorted(self._requests.items()):
-            labels = {"method": method, "route": route, "status": str(status)}
-            yield _sample("requests_total", labels, number)
-
-    def _of_durations(self) -> Iterator[str]:
-        name = "request_seconds"
-        yield from _head(name, "histogram", "Seconds until the end of the answer, by route.")
-        for route, seconds in sorted(self._seconds.items()):
-            total = 0
-            for at, bound in enumerate((*map(str, BOUNDS), "+Inf")):
-                total += self._buckets[route, at]
-                yield _sample(f"{name}_bucket", {"route": route, "le": bound}, total)
-            yield _sample(f"{name}_sum", {"route": route}, round(seconds, 6))
-            yield _sample(f"{name}_count", {"route": route}, total)
-
-    def _of_uploads(self) -> Iterator[str]:
-        yield from _head("uploads_total", "counter", "Uploads that were taken.")
-        yield _sample("uploads_total", {}, self.uploads)
-        yield from _head("refused_total", "counter", "Requests that were refused, by cause.")
-        for cause, number in sorted(self.refused.items()):
-            yield _sample("refused_total", {"cause": cause}, number)
+        counted: Any = self._registry
+        if FOLDER in os.environ:
+            counted = MultiProcessCollector(None)  # type: ignore[no-untyped-call]
+        return generate_latest(counted) + generate_latest(_Engine(alive))
 
 
-def _of_engine(alive: Alive | None) -> Iterator[str]:
-    yield from _head("engine_up", "gauge", "Whether the job engine answers.")
-    yield _sample("engine_up", {}, int(alive is not None))
-    if alive is None:
-        return
-    yield from _head("waiting", "gauge", "Checks that wait, by queue.")
-    for queue, number in sorted(alive.waiting.items()):
-        yield _sample("waiting", {"queue": queue}, number)
-    yield from _head("running", "gauge", "Checks that run.")
-    yield _sample("running", {}, alive.running)
-    yield from _head("worker_silent_seconds", "gauge", "Since each worker's last sign of life.")
-    for worker, seconds in sorted(alive.workers.items()):
-        yield _sample("worker_silent_seconds", {"worker": worker}, round(seconds, 3))
+def _make_room(folder: Path) -> None:
+    """Have the disk hold what this process will count.
+
+    The library maps these files into memory: a full disk would end the process by a signal.
+
+    Raises:
+        CheckerError: It has no room.
+    """
+    try:
+        for kind in ("counter", "histogram"):
+            with (folder / f"{kind}_{os.getpid()}.db").open("ab") as file:
+                os.posix_fallocate(file.fileno(), 0, _ROOM)
+    except OSError as error:
+        raise CheckerError(f"{folder} cannot hold the metrics ({error.strerror})") from None
 
 
-def _head(name: str, kind: str, about: str) -> Iterator[str]:
-    yield f"# HELP subt_check_{name} {about}"
-    yield f"# TYPE subt_check_{name} {kind}"
+class _Engine(Record):
+    """Figures of the engine: not counted, but asked for each time."""
+
+    alive: Alive | None
+
+    def collect(self) -> Iterator[GaugeMetricFamily]:
+        alive = self.alive
+        yield _gauge("engine_up", "Whether the job engine answers.", int(alive is not None))
+        if alive is not None:
+            yield _gauge("running", "Checks that run.", alive.running)
+            yield _gauges("waiting", "Checks that wait, by queue.", "queue", alive.waiting)
+            said = "Since each worker's last sign of life."
+            yield _gauges("worker_silent_seconds", said, "worker", alive.workers)
 
 
-def _sample(name: str, labels: Mapping[str, str], value: float) -> str:
-    shown = ",".join(f'{label}="{_escaped(text)}"' for label, text in labels.items())
-    return f"subt_check_{name}{{{shown}}} {value}" if shown else f"subt_check_{name} {value}"
+def _gauge(name: str, about: str, value: float) -> GaugeMetricFamily:
+    return GaugeMetricFamily(f"{_OURS}_{name}", about, value)
 
 
-def _escaped(text: str) -> str:
-    return text.replace("\\", r"\\").replace('"', r"\"").replace("\n", r"\n")
+def _gauges(name: str, about: str, label: str, values: Mapping[str, float]) -> GaugeMetricFamily:
+    family = GaugeMetricFamily(f"{_OURS}_{name}", about, labels=(label,))
+    for each, value in sorted(values.items()):
+        family.add_metric((each,), value)
+    return family

@@ -59,7 +59,7 @@ class Observing(Record):
         about = _about(scope)
         self.metrics.count(about["method"], about["route"], status, seconds)
         if cause := scope["state"].get(CAUSE):
-            self.metrics.refused[cause] += 1
+            self.metrics.refused.labels(cause).inc()
         fields = {**about, "status": status, "ms": round(seconds * 1e3, 1)}
         _LOG.info("request", extra={FIELDS: fields})
 

@@ -58,7 +58,7 @@ async def new_check(request: Request, services: Services) -> str:
             raise too_large(config.upload_limit) from None
         except OSError as error:
             raise _no_room(error) from None
-    services.metrics.uploads += 1
+    services.metrics.uploads.inc()
     return id
 
 

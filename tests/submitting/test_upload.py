@@ -1,4 +1,4 @@
-"""A folder is packed as a repository would have it, within what the service takes."""
+"""A file is sent as it is, a folder packed as a repository would have it."""
 
 from __future__ import annotations
 
@@ -8,17 +8,66 @@ import time
 import zipfile
 from pathlib import Path
 
+import httpx
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.base.errors import UnreadableInput
+from checker.base.errors import CheckerError, UnreadableInput
 from checker.package.archives.archive import unpack_archive
 from checker.package.archives.index import ArchiveLimits
-from checker.service.client.packing import pack
+from checker.service.client.upload import Upload, pack
+from checker.service.web.form import UploadForm
 from tests.conftest import SAMPLES
 
 BROKEN = SAMPLES / "broken_rover_sensor_config_1"
+
+
+HOSTILE = ('a"; filename="b', "x\r\nContent-Type: text%html\r\n\r\n", "--", "ü\u202e.zip", "\udcff")
+TEXT = st.sampled_from(HOSTILE) | st.text(st.characters(exclude_categories=("Cs",)), max_size=20)
+FILE_NAMES = TEXT.map(lambda name: name.replace("/", "").replace("\0", "") + ".zip")
+
+
+def request_of(upload: Upload) -> tuple[dict[str, str], list[bytes]]:
+    """Return the head and the pieces of the request that sends a file."""
+    with upload.form() as form:
+        request = httpx.Request("POST", "http://localhost", **form)
+        assert isinstance(request.stream, httpx.SyncByteStream)
+        return dict(request.headers), list(request.stream)
+
+
+@given(content=st.binary(max_size=200), name=FILE_NAMES, profile=st.sampled_from(["", "sdf"]))
+def test_a_form_is_read_by_the_service_as_it_was_written(
+    content: bytes, name: str, profile: str, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    file = tmp_path_factory.mktemp("form") / name
+    file.write_bytes(b"PK\x03\x04" + content)
+    headers, pieces = request_of(Upload(file, profile))
+    written = io.BytesIO()
+    form = UploadForm(headers["content-type"], written.write, lambda _: None)
+    for piece in pieces:
+        form.feed(piece)
+    form.end()
+    assert sum(map(len, pieces)) == int(headers["content-length"])
+    assert written.getvalue() == file.read_bytes()
+    assert form.fields == ({"profile": profile} if profile else {})
+    assert form.name.endswith(".zip")
+
+
+def test_a_large_file_is_sent_in_pieces_and_counted(tmp_path: Path) -> None:
+    file = tmp_path / "large.zip"
+    with file.open("wb") as sparse:
+        sparse.truncate(50_000_000)
+    said: list[str] = []
+    _, pieces = request_of(Upload(file, say=said.append))
+    assert sum(map(len, pieces)) > 50_000_000
+    assert max(map(len, pieces)) <= 65536
+    assert said == [f"uploaded {tenth}0 %" for tenth in range(1, 11)]
+
+
+def test_a_file_that_is_gone_is_not_sent(tmp_path: Path) -> None:
+    with pytest.raises(CheckerError, match=r"gone\.zip cannot be read: No such file"):
+        request_of(Upload(tmp_path / "gone.zip"))
 
 
 def packed(folder: Path, limits: ArchiveLimits | None = None) -> tuple[zipfile.ZipFile, str]:

@@ -1,0 +1,199 @@
+"""What is sent: an archive or a model file as it is, a folder packed as a repository has it."""
+
+from __future__ import annotations
+
+import io
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from checker.base.errors import CheckerError, UnreadableInput
+from checker.base.progress import Say, say_nothing
+from checker.base.record import Record
+from checker.base.words import count, listed, plain, shortened
+from checker.package.archives.archive import ARCHIVE_SUFFIXES
+from checker.package.archives.index import ArchiveLimits
+from checker.package.index import EntryKind, FileEntry, FileIndex
+from checker.package.inputs import SINGLE_FILE_SUFFIXES
+from checker.package.kind import enclosing_package
+from checker.package.walk import MAX_ENTRIES, build_index
+
+LEFT_OUT = frozenset({".git", ".hg", ".svn", "__pycache__"})
+"""Folders that are no part of what is checked."""
+_LONG_AGO = (1980, 1, 1, 0, 0, 0)
+"""For every file, so that the same content makes the same archive, and is checked once."""
+_NAMED = 3
+_ADVICE = "leave out what the package does not need"
+_LARGE = 1_000_000
+"""Bytes of a file from which on it is said how much of it is sent."""
+
+
+class Upload(Record):
+    """A file to send.
+
+    Attributes:
+        file: Its name goes along.
+        profile: That it is checked by; empty for the service's own choice.
+        say: Told how much of it is sent, each tenth once.
+    """
+
+    file: Path
+    profile: str = ""
+    say: Say = say_nothing
+
+    @contextmanager
+    def form(self) -> Iterator[Mapping[str, Any]]:
+        """Open the file, and give the members of a request that sends it piece by piece.
+
+        Raises:
+            CheckerError: It cannot be read any more.
+        """
+        name = self.file.name.encode("utf-8", "replace").decode()
+        fields = {"profile": self.profile} if self.profile else {}
+        try:
+            with _Counted(self.file, self.say) as file:
+                yield {"data": fields, "files": {"file": (name, file, "application/octet-stream")}}
+        except OSError as error:
+            raise CheckerError(f"{self.file} cannot be read: {error.strerror or error}") from None
+
+
+class _Counted(io.FileIO):
+    """A file that says how much of it has been read."""
+
+    def __init__(self, path: Path, say: Say) -> None:
+        super().__init__(path)
+        self._size, self._say, self._tenths = path.stat().st_size, say, 0
+
+    def read(self, size: int | None = -1) -> bytes:
+        piece = super().read(size) or b""
+        tenths = 10 * self.tell() // max(self._size, 1)
+        if tenths > self._tenths and self._size > _LARGE:
+            self._tenths = tenths
+            self._say(f"uploaded {10 * tenths} %")
+        return piece
+
+
+@contextmanager
+def file_to_send(path: Path, say: Say) -> Iterator[Path]:
+    """Give an archive or a model file as it is, a folder packed.
+
+    Args:
+        path: Of a package.
+        say: Told what the service will not see.
+
+    Raises:
+        UnreadableInput: It is none of them, or cannot be read.
+    """
+    if not _is_folder(path):
+        _refuse_file(path)
+        around = enclosing_package(path.resolve().parent)
+        if around and path.name.lower().endswith(SINGLE_FILE_SUFFIXES):
+            say(f"{path} is sent alone; for its meshes, give the folder {around}")
+        yield path
+        return
+    with tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True) as own:
+        packed = Path(own) / f"{path.resolve().name or 'package'}.zip"
+        with packed.open("wb") as archive:
+            left_out = pack(path, archive)
+        for words in left_out:
+            say(f"{path}: {words}")
+        yield packed
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except OSError:  # such as a name that is too long: said when it is opened
+        return False
+
+
+def _refuse_file(path: Path) -> None:
+    advice = "give a package folder, a .zip or .tar.gz archive, or a model file"
+    try:
+        if not path.exists():
+            raise UnreadableInput(path, "does not exist", "check the spelling")
+        known = path.name.lower().endswith((*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES))
+        if not known or not path.is_file():
+            raise UnreadableInput(path, "is no package, archive or model file", advice)
+        with path.open("rb"):
+            pass
+    except (OSError, ValueError) as error:
+        reason = f"cannot be opened: {getattr(error, 'strerror', None) or error}"
+        raise UnreadableInput(path, reason, "check its permissions") from None
+
+
+def pack(folder: Path, archive: BinaryIO, limits: ArchiveLimits | None = None) -> tuple[str, ...]:
+    """Write a folder into a ZIP archive, below its own name.
+
+    Args:
+        folder: A package, or a folder of packages.
+        archive: Where the archive goes, open for writing.
+        limits: What an archive may hold.
+
+    Returns:
+        What is left out of it and why, in sentences without their dots.
+
+    Raises:
+        UnreadableInput: It holds more than is allowed, or what cannot be read.
+    """
+    root = folder.resolve()
+    index = build_index(root, lambda _: False)
+    entries = [each for each in index.entries.values() if not LEFT_OUT & {*each.path.split("/")}]
+    packed = [each for each in entries if each.kind in (EntryKind.FILE, EntryKind.FOLDER)]
+    _refuse(folder, index, packed, limits or ArchiveLimits())
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
+        for each in packed:
+            _add(folder, file, root.name, each)
+    return tuple(_words_of_left_out(entries))
+
+
+def _refuse(folder: Path, index: FileIndex, packed: list[FileEntry], limits: ArchiveLimits) -> None:
+    """Refuse what the service would refuse, before anything is sent.
+
+    Raises:
+        UnreadableInput: There is too much, or something cannot be read.
+    """
+    if index.faults:
+        fault = index.faults[0]
+        what = f"'{plain(shortened(fault.path, 200))}' in it {plain(fault.reason)}"
+        raise UnreadableInput(folder, f"is not sent: {what}", _ADVICE)
+    if len(packed) > min(limits.entries, MAX_ENTRIES):
+        reason = f"holds {len(packed)} files and folders, expected {limits.entries} or fewer"
+        raise UnreadableInput(folder, reason, _ADVICE)
+    size = sum(each.size for each in packed)
+    if size > limits.unpacked_bytes:
+        reason = f"holds {size / 1e6:.0f} MB, expected {limits.unpacked_bytes / 1e6:.0f} or less"
+        raise UnreadableInput(folder, reason, _ADVICE)
+
+
+def _add(folder: Path, archive: zipfile.ZipFile, name: str, entry: FileEntry) -> None:
+    is_folder = entry.kind is EntryKind.FOLDER
+    info = zipfile.ZipInfo(f"{name}/{entry.path}{'/' * is_folder}", _LONG_AGO)
+    info.external_attr = (0o40755 if is_folder else 0o100644) << 16
+    info.compress_type = zipfile.ZIP_DEFLATED
+    if is_folder:
+        archive.writestr(info, b"")
+        return
+    try:
+        with entry.location.open("rb") as source, archive.open(info, "w") as target:
+            shutil.copyfileobj(source, target)
+    except (OSError, UnicodeEncodeError, ValueError) as error:
+        problem = getattr(error, "strerror", None) or "its name cannot be written"
+        reason = f"cannot be packed: '{plain(shortened(entry.path, 200))}': {problem}"
+        raise UnreadableInput(folder, reason, "check its permissions and names") from None
+
+
+def _words_of_left_out(entries: list[FileEntry]) -> list[str]:
+    kinds = {EntryKind.LINK: "link", EntryKind.SPECIAL: "special file"}
+    words = []
+    for kind, noun in kinds.items():
+        paths = [plain(shortened(each.path, 200)) for each in entries if each.kind is kind]
+        if paths:
+            more = [f"{len(paths) - _NAMED} more"] * (len(paths) > _NAMED)
+            named = listed([*paths[:_NAMED], *more])
+            words.append(f"{count(len(paths), noun)} left out, as archives hold none: {named}")
+    return words
