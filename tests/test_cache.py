@@ -76,8 +76,8 @@ def test_a_key_of_text_that_is_no_unicode() -> None:
 
 
 def test_the_hash_of_the_code_depends_on_what_it_is_asked_for() -> None:
-    assert code_hash("mesh") == code_hash("mesh")
-    assert len({code_hash("mesh"), code_hash("cache.py"), code_hash("mesh", "cache.py")}) == 3
+    assert code_hash("base") == code_hash("base")
+    assert len({code_hash("base"), code_hash("rule.py"), code_hash("base", "rule.py")}) == 3
 
 
 def test_where_results_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,7 +14,6 @@ ROOT = Path(__file__).parent.parent
 HEAVY = {
     "dbos",
     "fastapi",
-    "httpx",
     "mujoco",
     "numpy",
     "pinocchio",
@@ -23,7 +22,7 @@ HEAVY = {
     "trimesh",
     "yourdfpy",
 }
-NOT_FOR_HELP = {"lxml", "markdown_it", "tree_sitter", "yaml", "rules"} | HEAVY
+NOT_FOR_HELP = {"httpx", "lxml", "markdown_it", "tree_sitter", "yaml", "rules"} | HEAVY
 LOOSE = {"__init__", "finding", "pipeline", "rule", "rule_testing", "settings"}
 
 

@@ -7,6 +7,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from checker.model.sensing.mounting import Mounted, called_directions, mounted_sensors
 from tests.model.robots import sdf
@@ -87,8 +88,8 @@ def test_two_words_allow_what_lies_between_them() -> None:
 @given(st.text(max_size=300))
 def test_any_name_can_be_read(name: str) -> None:
     part = mounted('<sensor name="s" type="camera"/>')
-    object.__setattr__(part.sensor.name, "value", name)
-    called_directions(part)
+    sensor = replace(part.sensor, name=replace(part.sensor.name, value=name))
+    called_directions(replace(part, sensor=sensor))
 
 
 def test_light_is_divided_as_its_attenuation_says() -> None:
