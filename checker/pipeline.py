@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from checker.base.child_process import Child
 
 
-def check_package(path: Path, settings: Settings | None = None) -> Report:
+def check_package(path: str | Path, settings: Settings | None = None) -> Report:
     """Check a package, an archive, a folder of packages or a model file.
 
     Args:
@@ -47,7 +47,7 @@ def check_package(path: Path, settings: Settings | None = None) -> Report:
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
             own folder, which the report tells among what was not opened.
     """
-    return _report([list(_check_input(Task(path, settings=settings)))])
+    return _report([list(_check_input(Task(Path(path), settings=settings)))])
 
 
 def check_paths(

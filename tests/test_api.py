@@ -1,0 +1,46 @@
+"""The Python API is what docs/api.md says."""
+
+from __future__ import annotations
+
+import doctest
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import checker
+
+ROOT = Path(__file__).parent.parent
+
+
+def test_the_examples_of_the_page_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    outcome = doctest.testfile(str(ROOT / "docs/api.md"), module_relative=False, encoding="utf-8")
+    assert outcome.attempted > 15
+    assert outcome.failed == 0
+
+
+def test_every_name_is_there() -> None:
+    for name in checker.__all__:
+        assert getattr(checker, name) is not None
+
+
+def test_type_checkers_see_the_same_names(tmp_path: Path) -> None:
+    code = "\n".join(f"from checker import {name}\nreveal_type({name})" for name in checker.__all__)
+    (tmp_path / "uses.py").write_text(code, "utf-8")
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--no-incremental",
+        str(tmp_path / "uses.py"),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    assert done.returncode == 0, done.stdout
+
+
+def test_another_name_is_no_part_of_the_api() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'chekc'"):
+        checker.chekc  # noqa: B018 - the look-up is what is tested
