@@ -2,61 +2,94 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+import subprocess
+import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from checker.base.cache import Cache, cache_folder
-from checker.engine.review import run_and_set_aside
-from checker.engine.subject import Subject
-from checker.package.inputs import open_input
-from checker.report.report import Cause
 from checker.rule import Rule
+from checker.rule_testing import Example, check_example, examples_of
 from checker.rulebook.discovery import all_rules
-from checker.settings import find_settings
-from tests.examples import expected_places, judge_of, write_example
 
+ROOT = Path(__file__).parent.parent
 CASES = [
-    pytest.param(rule, kind, example, id=f"{rule.id}-{kind}-{number}")
-    for rule in all_rules()
-    for kind in ("good", "bad")
-    for number, example in enumerate(getattr(rule, kind), 1)
+    pytest.param(rule, kind, example, id=f"{rule.id}-{kind}")
+    for rule, kind, example in examples_of(all_rules())
 ]
 
 
 @pytest.mark.parametrize(("rule", "kind", "example"), CASES)
-def test_example(rule: Rule, kind: str, example: Any, tmp_path: Path) -> None:
-    package = write_example(example, tmp_path)
-    with open_input(package) as opened:
-        subject = Subject(opened.packages[0], Cache(cache_folder()))
-        settings = find_settings([package]).overridden(thorough=True)
-        outcome = run_and_set_aside(
-            [rule, *_companions(example)], subject, judge_of(rule), settings
-        )
-    unseen = [each for each in outcome.not_checked if each.rule == rule.id]
-    looked_away = [each for each in unseen if each.cause is not Cause.NOT_APPLICABLE]
-    assert not looked_away
-    reported = {
-        f"{place.file or '.'}:{place.line}"
-        for finding in outcome.findings
-        if finding.rule == rule.id
-        for place in finding.places
-        if not place.note
-    }
-    expected = expected_places(example, rule.id, package)
-    assert reported == expected
-    assert bool(expected) is (kind == "bad")
+def test_example(rule: Rule, kind: str, example: Example, tmp_path: Path) -> None:
+    check_example(rule, kind, example, tmp_path)
 
 
-def _companions(example: Any) -> list[Rule]:
-    """Return the rules that run along."""
-    names = example.get("@with", ()) if isinstance(example, Mapping) else ()
-    return [rule for rule in all_rules() if rule.id in names]
+def test_every_rule_has_examples_of_both_kinds() -> None:
+    assert not [rule.id for rule in all_rules() if not (rule.good and rule.bad)]
 
 
-@pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)
-def test_every_rule_has_examples_of_both_kinds(rule: Rule) -> None:
-    assert rule.good
-    assert rule.bad
+RULE = '''"""A robot whose name is shouted.
+
+People read it all day.
+
+Fix: write it in small letters.
+Source: the house style of Acme.
+"""
+
+from checker.model.robot import Robot
+from checker.rule import Findings, Severity, finding, rule
+
+
+@rule("ACM001", "shouted-name", Severity.WARNING)
+def check(robot: Robot) -> Findings:
+    """Report names in capital letters."""
+    for link in robot.links:
+        if link.name.value.isupper():
+            yield finding(link.name, f"link {link.name.value!r} is written in capital letters")
+
+
+GOOD = ['<link name="arm"/>']
+BAD = [@EXAMPLE@]
+'''
+TEST = """import pytest
+
+from checker.rule_testing import check_example, examples_of, rules_in
+
+
+@pytest.mark.parametrize(("rule", "kind", "example"), examples_of(rules_in("acme_rules")))
+def test_example(rule, kind, example, tmp_path):
+    check_example(rule, kind, example, tmp_path)
+"""
+
+
+@pytest.mark.parametrize(
+    ("example", "told"),
+    [
+        ('<link name="ARM"/>  <!-- ^ ACM001 -->', "2 passed"),
+        ('<link name="ARM"/>', "reports ['model.sdf:5'], expected []"),
+        ('<link name="arm"/>  <!-- ^ ACM001 -->', "reports [], expected ['model.sdf:5']"),
+    ],
+)
+def test_a_rule_of_another_distribution_is_tested_by_the_kit(
+    tmp_path: Path, example: str, told: str
+) -> None:
+    package = tmp_path / "acme_rules"
+    package.mkdir()
+    (package / "__init__.py").write_text('"""Rules of Acme."""\n', "utf-8")
+    (package / "acm001_shouted_name.py").write_text(
+        RULE.replace("@EXAMPLE@", repr(example)), "utf-8"
+    )
+    (tmp_path / "test_rules.py").write_text(TEST, "utf-8")
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path)]
+    paths = f"{tmp_path}{os.pathsep}{ROOT}"
+    done = subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": paths},
+    )
+    assert told in done.stdout
+    assert (done.returncode == 0) is ("passed" in told)

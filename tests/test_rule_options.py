@@ -18,10 +18,10 @@ from checker.finding import Severity
 from checker.package.inputs import open_input
 from checker.report.report import Cause
 from checker.rule import Findings, Rule
+from checker.rule_testing import judge_of, write_example
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import Option, told_options, words_of, work_of
 from checker.settings import Settings
-from tests.examples import judge_of, write_example
 
 RULES = [
     rule

@@ -40,6 +40,11 @@ def all_rules() -> tuple[Rule, ...]:
     return tuple(found[id] for id in sorted(found))
 
 
+def rules_in(package: str) -> tuple[Rule, ...]:
+    """Return the rules of a module or package by its name, sorted by id."""
+    return tuple(sorted(_rules_below(importlib.import_module(package)), key=lambda rule: rule.id))
+
+
 def _registered_rules() -> Iterator[Rule]:
     for entry_point in entry_points(group=ENTRY_POINT_GROUP):
         try:

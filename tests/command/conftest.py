@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from checker.rule_testing import write_example
 from tests.conftest import SAMPLES
-from tests.examples import write_example
 
 Run = Callable[..., subprocess.CompletedProcess[str]]
 

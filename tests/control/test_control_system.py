@@ -13,7 +13,7 @@ from checker.engine.subject import Subject
 from checker.expand.launch.graph import LaunchGraph
 from checker.model.control.controllers import ControlSystem
 from checker.package.inputs import open_input
-from tests.examples import URDF_NAME, write_example
+from checker.rule_testing import URDF_NAME, write_example
 
 Part = Callable[..., Any]
 

@@ -14,7 +14,7 @@ from checker.package.inputs import open_input
 from checker.physics.mesh.package_meshes import TimedMeshes
 from checker.report.scene.files.wire import Looked
 from checker.report.scene.mesh_files import MeshFiles, surfaces_of
-from tests.examples import write_example
+from checker.rule_testing import write_example
 
 
 def picture(colours: Mapping[tuple[int, int], tuple[int, int, int]], side: int = 2) -> bytes:

@@ -10,8 +10,8 @@ from checker.base.errors import InvalidSettings
 from checker.engine.report_cache import memory_key
 from checker.package.inputs import open_input
 from checker.pipeline import check_package
+from checker.rule_testing import write_example
 from checker.settings import Settings, find_settings
-from tests.examples import write_example
 
 OWN = r"""[[devices]]
 id = "acme_l1"

@@ -9,8 +9,8 @@ import pytest
 
 from checker.pipeline import check_package
 from checker.report.report import PackageReport, VerdictKind
+from checker.rule_testing import NAME, SPAWNER, write_example
 from checker.settings import Settings
-from tests.examples import NAME, SPAWNER, write_example
 
 ARM = """<sdf version="1.6"><model name="arm"><link name="wrist">
 <visual name="v"><geometry><mesh><uri>meshes/a.dae</uri></mesh></geometry></visual>

@@ -20,9 +20,9 @@ from checker.finding import Safety
 from checker.fix.rounds import patch
 from checker.pipeline import check_package
 from checker.report.report import ReportedFinding
+from checker.rule_testing import write_example
 from checker.settings import Settings
 from tests.conftest import SAMPLES
-from tests.examples import write_example
 
 BROKEN = "broken_rover_sensor_config_1"
 STILL = Settings(trial=False)

@@ -20,11 +20,11 @@ from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.report.report import ReportedFinding
 from checker.rule import Rule
+from checker.rule_testing import judge_of, write_example
 from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
-from tests.examples import judge_of, write_example
 
 CASES = [
     pytest.param(rule, example, id=f"{rule.id}-{number}")

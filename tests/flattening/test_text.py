@@ -11,8 +11,8 @@ from checker.finding import Safety
 from checker.fix.flattening.mentions import mentions
 from checker.fix.flattening.names import FlatNames
 from checker.fix.flattening.obstacles import obstacle
+from checker.rule_testing import write_example
 from checker.source.text import SourceText
-from tests.examples import write_example
 from tests.flattening.nested import flattened, read
 
 NESTED = """<sdf version="1.6">

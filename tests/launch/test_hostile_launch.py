@@ -13,10 +13,10 @@ from checker.expand.launch.graph import LaunchFaultKind as Kind
 from checker.model.ros.robot_description import robot_descriptions
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
+from checker.rule_testing import write_example
 from checker.settings import Settings
 from checker.source.xml import Element
 from tests.effort import limited
-from tests.examples import write_example
 
 TOPICS = "launch/vehicle_topics.launch"
 SECONDS = 30.0

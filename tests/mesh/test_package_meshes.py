@@ -19,7 +19,7 @@ from checker.physics.mesh import package_meshes
 from checker.physics.mesh.early import early_child
 from checker.physics.mesh.uris import MeshFile
 from checker.report.scene.early import EarlyChildren
-from tests.examples import NAME, write_example
+from checker.rule_testing import NAME, write_example
 from tests.mesh.files import binary_stl, box, dae, obj
 
 CUBE = binary_stl(box(1, 1, 1))

@@ -15,10 +15,10 @@ from checker.engine.run import run_rules
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
 from checker.report.report import Cause
+from checker.rule_testing import NAME, write_example
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.profiles import profile
 from checker.settings import Settings
-from tests.examples import NAME, write_example
 
 RULES = [rule for rule in all_rules() if rule.group in ("SDF", "KIN")]
 BASE = "base_link"

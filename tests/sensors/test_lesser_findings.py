@@ -11,8 +11,8 @@ import pytest
 from checker.finding import Severity
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
+from checker.rule_testing import write_example
 from checker.settings import Settings
-from tests.examples import write_example
 
 _SIZE = "<camera><image><width>{}</width><height>480</height></image></camera>"
 _BRIDGE = """<node pkg="ros_ign_bridge" type="parameter_bridge" name="lidar"

@@ -8,8 +8,8 @@ from typing import Any
 
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
+from checker.rule_testing import write_example
 from checker.settings import find_settings
-from tests.examples import write_example
 
 REASON = "it is so"
 TYRE = "<child>tyre</child>"

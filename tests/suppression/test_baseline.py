@@ -13,6 +13,7 @@ from checker.base.errors import InvalidSettings
 from checker.cli.baseline import baseline_to_renew
 from checker.finding import Severity
 from checker.report.report import IN_BASELINE
+from checker.rule_testing import NAME, write_example
 from checker.rulebook.suppression.baseline import (
     ENTRIES_LIMIT,
     SIZE_LIMIT,
@@ -22,7 +23,6 @@ from checker.rulebook.suppression.baseline import (
 )
 from checker.rulebook.suppression.entries import REASON_LIMIT
 from checker.settings import parse_settings
-from tests.examples import NAME, write_example
 from tests.suppression.stage import axle, checked_again, found, set_aside
 
 PLACE = f"model.sdf#sdf/model[{NAME}]/joint[axle]/child"

@@ -12,7 +12,7 @@ from checker.cli import main
 from checker.finding import Place, Severity
 from checker.report.report import IN_BASELINE, ReportedFinding, Suppressed, SuppressedBy
 from checker.report.text_report import suppressed_text
-from tests.examples import NAME, write_example
+from checker.rule_testing import NAME, write_example
 from tests.suppression.stage import TYRE, axle, ignore
 
 CHOSEN = ("--no-trial", "--select", "CFG,KIN001")

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from checker.rule import Rule
+from checker.rule_testing import MINIMAL, NAME, SPAWNER, model_with, write_example
 from checker.rulebook.discovery import all_rules
-from tests.examples import MINIMAL, NAME, SPAWNER, model_with, write_example
 from tests.suppression.stage import (
     REASON,
     TYRE,

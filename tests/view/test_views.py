@@ -12,7 +12,7 @@ from checker.engine.subject import Subject
 from checker.model.sensing.view import SensorViews
 from checker.package.inputs import open_input
 from checker.physics.views import sensor_views
-from tests.examples import write_example
+from checker.rule_testing import write_example
 from tests.mesh.files import binary_stl, box
 
 PLATE = binary_stl(box(0.02, 1.0, 1.0))

@@ -1,24 +1,50 @@
-"""The examples of rules, made into packages.
+"""The rule kit: examples of rules, made into packages, and checked.
 
 An example is an XML fragment for model.sdf, or a mapping from paths to texts that change a minimal
-package: `None` removes a file, bytes are written as they are, `../other/…` lies in a sibling,
-`@fragment` goes into model.sdf, `@name` names the package, `@links` maps paths to the targets of
-symbolic links, `@with` lists rules that run along, and `@reported` what must be reported where no
-marker can stand. The marker `^ SEN005` stands on the line that must be reported.
+package: `None` removes a file, bytes are written as they are, `../other/…` lies in a sibling. Names
+with `@` mean:
 
-`@urdf` makes it a URDF package: an arm of one joint, its controller and its launch files. A text is
-put into the robot in place of the arm's transmission and plugin; True leaves these as they are.
+- `@fragment`: a fragment for model.sdf.
+- `@robot`: the name of a shared robot (`ROBOTS`) that becomes model.sdf.
+- `@change`: a mapping of texts in model.sdf to what takes their place.
+- `@name`: the name of the package's folder.
+- `@links`: symbolic links, each with its target.
+- `@urdf`: a URDF package instead: an arm of one joint, its controller and its launch files. The
+  text takes the place of the arm's transmission and plugin; True leaves these as they are.
+- `@with`: ids of rules that run along.
+- `@reported`: what must be reported where no marker can stand.
+
+The marker `^ SEN005` stands on the line that must be reported. Rules of other distributions are
+tested by the same two functions:
+
+    @pytest.mark.parametrize(("rule", "kind", "example"), examples_of(rules_in("acme_rules")))
+    def test_example(rule, kind, example, tmp_path):
+        check_example(rule, kind, example, tmp_path)
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from checker.base.cache import Cache, cache_folder
+from checker.engine.review import run_and_set_aside
+from checker.engine.subject import Subject
+from checker.package.inputs import open_input
+from checker.report.report import Cause
 from checker.rule import Rule
+from checker.rulebook.discovery import all_rules, rules_in
 from checker.rulebook.profiles import Profile, profile
+from checker.settings import find_settings
+
+__all__ = ["ROBOTS", "Example", "check_example", "examples_of", "rules_in", "write_example"]
+
+Example = str | Mapping[str, Any]
+ROBOTS = ("rover",)
+"""Robots that examples share: `rover` drives on four wheels by DiffDrive (checker/data/robots)."""
 
 NAME = "acme_rover_sensor_config_1"
 
@@ -169,22 +195,25 @@ def judge_of(rule: Rule) -> Profile:
     return profile("subt") if profile("subt").includes(rule) else profile("urdf")
 
 
-def write_example(example: str | Mapping[str, Any], workspace: Path) -> Path:
+def write_example(example: Example, workspace: Path) -> Path:
     """Write the package of an example below a folder and return its own folder."""
-    changes = {"@fragment": example} if isinstance(example, str) else dict(example)
+    changes: dict[str, Any] = {"@fragment": example} if isinstance(example, str) else dict(example)
     urdf = changes.pop("@urdf", None)
-    package = workspace / changes.pop("@name", NAME if urdf is None else URDF_NAME)
+    package: Path = workspace / changes.pop("@name", NAME if urdf is None else URDF_NAME)
     links: Mapping[str, str] = changes.pop("@links", {})
-    files: dict[str, str | bytes | None] = {**MINIMAL, "model.sdf": model_with("")}
+    contents: dict[str, str | bytes | None] = {**MINIMAL, "model.sdf": model_with("")}
     if urdf is not None:
         inside = _ARM_CONTROL if urdf is True else urdf
-        files = {**URDF_MINIMAL, "urdf/arm.urdf": _ARM.replace("@", inside)}
+        contents = {**URDF_MINIMAL, "urdf/arm.urdf": _ARM.replace("@", inside)}
     for path, text in changes.items():
         if path == "@fragment":
-            files["model.sdf"] = model_with(text)
+            contents["model.sdf"] = model_with(text)
         elif not path.startswith("@"):
-            files[path] = text
-    for path, content in files.items():
+            contents[path] = text
+    if "@robot" in changes or "@change" in changes:
+        robot = _robot(changes["@robot"]) if "@robot" in changes else str(contents["model.sdf"])
+        contents["model.sdf"] = _changed(robot, changes.get("@change", {}))
+    for path, content in contents.items():
         if content is not None:
             target = package / path
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -194,7 +223,19 @@ def write_example(example: str | Mapping[str, Any], workspace: Path) -> Path:
     return package
 
 
-def expected_places(example: str | Mapping[str, Any], rule: str, package: Path) -> set[str]:
+def _robot(name: str) -> str:
+    return files("checker").joinpath("data", "robots", f"{name}.sdf").read_text("utf-8")
+
+
+def _changed(text: str, changes: Mapping[str, str]) -> str:
+    for old, new in changes.items():
+        if old not in text:
+            raise ValueError(f"the example changes {old!r}, which the robot does not hold")
+        text = text.replace(old, new)
+    return text
+
+
+def expected_places(example: Example, rule: str, package: Path) -> set[str]:
     """Return `file:line` of all that must be reported."""
     places = set(example.get("@reported", ())) if isinstance(example, Mapping) else set()
     for file in package.rglob("*"):
@@ -203,3 +244,54 @@ def expected_places(example: str | Mapping[str, Any], rule: str, package: Path) 
                 if f"^ {rule}" in line:
                     places.add(f"{file.relative_to(package).as_posix()}:{number}")
     return places
+
+
+def examples_of(rules: Sequence[Rule]) -> Iterator[tuple[Rule, str, Example]]:
+    """Yield each example of some rules with its rule and its kind, `good` or `bad`."""
+    for rule in rules:
+        for kind in ("good", "bad"):
+            for example in getattr(rule, kind):
+                yield rule, kind, example
+
+
+def check_example(rule: Rule, kind: str, example: Example, folder: Path) -> None:
+    """Run a rule on one of its examples: a bad one is reported at its marks, a good one nowhere.
+
+    Args:
+        rule: Whose example it is.
+        kind: `good` or `bad`.
+        example: As the module's docstring describes it.
+        folder: An empty folder; the package is written below it.
+
+    Raises:
+        AssertionError: The rule did not look, or reported other lines than those with a mark.
+    """
+    package = write_example(example, folder)
+    with open_input(package) as opened:
+        subject = Subject(opened.packages[0], Cache(cache_folder()))
+        settings = find_settings([package]).overridden(thorough=True)
+        rules = [rule, *_companions(example)]
+        outcome = run_and_set_aside(rules, subject, judge_of(rule), settings)
+        subject.close()
+    for skipped in outcome.not_checked:
+        if skipped.rule == rule.id and skipped.cause is not Cause.NOT_APPLICABLE:
+            raise AssertionError(f"{rule.id} did not look at its example: {skipped.reason}")
+    reported = {
+        f"{place.file or '.'}:{place.line}"
+        for finding in outcome.findings
+        if finding.rule == rule.id
+        for place in finding.places
+        if not place.note
+    }
+    expected = expected_places(example, rule.id, package)
+    if reported != expected:
+        raise AssertionError(f"{rule.id} reports {sorted(reported)}, expected {sorted(expected)}")
+    if bool(expected) is not (kind == "bad"):
+        marks = "no mark" if kind == "bad" else "a mark"
+        raise AssertionError(f"a {kind} example of {rule.id} has {marks} `^ {rule.id}`")
+
+
+def _companions(example: Example) -> list[Rule]:
+    """Return the rules that run along."""
+    names = example.get("@with", ()) if isinstance(example, Mapping) else ()
+    return [rule for rule in all_rules() if rule.id in names]
