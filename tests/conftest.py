@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Generator, Iterator
 from pathlib import Path
@@ -15,8 +16,9 @@ from tests.real_packages import CORPUS, needed_folder
 from tests.tiers import MARKS, Guard, marks_of
 
 # Machines differ and are shared: no example of a property is held against the clock.
-settings.register_profile("shared machines", deadline=None)
-settings.load_profile("shared machines")
+settings.register_profile("working", deadline=None, max_examples=20)
+settings.register_profile("ci", deadline=None, max_examples=100)
+settings.load_profile("ci" if os.environ.get("CI") else "working")
 
 # Where the tests run in the background, a shell has all that they start ignore Ctrl-C.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -64,8 +66,15 @@ def samples() -> Path:
 
 
 @pytest.fixture(scope="session", autouse=True)
-def _cache_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Keep results of tests out of the user's cache, and the user's out of the tests."""
+def _cache_of_the_tests(
+    pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[None]:
+    """Keep results of tests out of the user's cache, and the user's out of the tests.
+
+    All workers and runs share them: their keys hold the code and the versions of libraries.
+    """
+    shared: pytest.Cache | None = getattr(pytestconfig, "cache", None)
+    folder = shared.mkdir("results") if shared else tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("SUBT_CHECK_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("SUBT_CHECK_CACHE", str(folder))
         yield

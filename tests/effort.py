@@ -1,4 +1,6 @@
-"""How much work code does: the same on a slow machine, and on one that others keep busy.
+"""How much work tests do, and how much the code does that they look at.
+
+The code's is the same on a slow machine, and on one that others keep busy.
 
 Work is the processor time of this process. Where that is too much, it is held against the time of a
 task of a known size at the same moment.
@@ -11,8 +13,15 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from hypothesis import settings
+
 _TASK_SECONDS = 0.02
 """What the task takes on a machine of today that does nothing else."""
+
+
+def examples(number: int) -> int:
+    """Return how many examples a property gets: this number in CI, a fifth of it while working."""
+    return max(1, number * settings.default.max_examples // 100)
 
 
 def seconds(work: Callable[[], object]) -> float:

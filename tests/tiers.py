@@ -17,7 +17,7 @@ import pytest
 TESTS = Path(__file__).parent
 MARKS: Mapping[str, str] = {
     "browser": "needs Chromium and the viewer that is built",
-    "service": "needs a network port or a database server",
+    "service": "needs a network port, a database server or workers of the service",
     "install": "needs a second installation of the project, or what makes one: pip, git, an image",
     "programs": "needs a program or library beside Python: ruby, git, node, OpenGL",
     "corpus": "needs real packages",
@@ -34,9 +34,15 @@ BY_PLACE: Mapping[str, str] = {
     "deployment": "install",
     "repository": "install",
     "test_wheel.py": "install",
+    "command/test_nothing_is_fetched.py": "service",
     "survival": "service",
     "viewer": "browser",
+    "jobs/test_contract.py": "service",
+    "jobs/test_end_to_end.py": "service",
+    "serving/test_connection.py": "service",
     "web/test_hostile_requests.py": "service",
+    "web/test_main.py": "service",
+    "web/test_turns.py": "service",
 }
 """Folders and modules, all of whose tests need the same."""
 _PROGRAMS = {"chromium": "browser", "postgres": "service"} | dict.fromkeys(

@@ -1,6 +1,6 @@
 """Whatever is given, the command ends soon, with a sentence or a finding, and without a traceback.
 
-The fixture `run` fails on tracebacks, on text that is no UTF-8, and after half a minute.
+The fixture `run` fails on tracebacks, on text that is no UTF-8, and on work of half a minute.
 """
 
 from __future__ import annotations
@@ -161,11 +161,11 @@ def test_names_with_terminal_escapes_reach_no_terminal(run: Run, tmp_path: Path)
     assert not CONTROL.search(missing.stderr.replace("\n", ""))
 
 
-def test_names_that_are_no_text(run: Run, rover: Path) -> None:
+def test_names_that_are_no_text(run_apart: Run, rover: Path) -> None:
     strange = rover.rename(rover.with_name(f"{rover.name}\udcff"))
     (strange / "\udcfe.sdf").write_text("<sdf")
     for arguments in (["--format", "json"], [], ["--output", "out.txt"]):
-        assert run(strange, *arguments).returncode == 1
+        assert run_apart(strange, *arguments).returncode == 1
 
 
 @pytest.mark.parametrize("length", [10_000, 1_000_000])

@@ -17,10 +17,10 @@ from checker.jobs.place import database_url
 from checker.jobs.port import JobsUnreachable, Order, Stage
 from checker.store.store import Store
 from tests.jobs.site import Site, site_in
-from tests.postgres import fresh_database
+from tests.postgres import DATABASES, fresh_database
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=DATABASES)
 def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     if request.param == "sqlite":
         return f"sqlite:///{tmp_path}/jobs.sqlite"

@@ -18,6 +18,7 @@ from checker.profiles import profile
 from checker.report.report import Cause
 from checker.settings import Settings
 from checker.subject import Subject
+from tests.effort import examples
 from tests.examples import NAME, write_example
 
 RULES = [rule for rule in all_rules() if rule.group in ("SDF", "KIN")]
@@ -245,14 +246,14 @@ def reported(robot: Robot) -> list[str]:
     return crashed + [finding.rule for finding in outcome.findings]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=examples(40))
 @given(robots())
 def test_a_sound_robot_is_clean(robot: Robot) -> None:
     assert reported(robot) == []
 
 
 @pytest.mark.parametrize("name", MUTATIONS)
-@settings(deadline=None, max_examples=12)
+@settings(max_examples=examples(12))
 @given(data=st.data())
 def test_a_broken_robot_gets_its_finding(name: str, data: st.DataObject) -> None:
     rule, mutate, also = MUTATIONS[name]

@@ -7,6 +7,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from checker.spawner.reader import EXECUTABLES_ARGUMENTS, SPAWNER_ARGUMENTS, Unread
+from tests.effort import examples
 
 from .snippets import SNIPPETS
 
@@ -69,7 +70,7 @@ def test_habit(habit, emit, real_snippets):
 
 # Each example is a batch of values for one Ruby process; shrinking it would start hundreds.
 in_batches = settings(
-    max_examples=5,
+    max_examples=examples(5),
     deadline=None,
     suppress_health_check=list(HealthCheck),
     phases=[Phase.generate],
