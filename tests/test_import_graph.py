@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.each import of_each
+
 ROOT = Path(__file__).parent.parent
 
 LAYERS = (
@@ -91,9 +93,7 @@ def layer_of(unit: str) -> int:
     return layers[0]
 
 
-@pytest.mark.parametrize(
-    "path", modules("checker"), ids=lambda path: str(path.relative_to(ROOT / "checker"))
-)
+@of_each("path", modules("checker"), ids=lambda path: str(path.relative_to(ROOT / "checker")))
 def test_a_module_imports_only_what_lies_below_it(path: Path) -> None:
     unit = path.relative_to(ROOT / "checker").parts[0].removesuffix(".py")
     if unit == "__init__":

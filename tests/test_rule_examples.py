@@ -16,6 +16,7 @@ from checker.rule import Rule
 from checker.settings import find_settings
 from checker.subject import Subject
 from checker.suppressing import run_and_set_aside
+from tests.each import of_each
 from tests.examples import expected_places, judge_of, write_example
 
 CASES = [
@@ -56,7 +57,7 @@ def _companions(example: Any) -> list[Rule]:
     return [rule for rule in all_rules() if rule.id in names]
 
 
-@pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)
+@of_each("rule", all_rules(), ids=lambda rule: rule.id)
 def test_every_rule_has_examples_of_both_kinds(rule: Rule) -> None:
     assert rule.good
     assert rule.bad

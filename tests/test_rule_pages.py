@@ -19,6 +19,7 @@ from checker.discovery import all_rules
 from checker.page import parse_page
 from checker.rule_options import told_options
 from checker.rule_pages import anchor, escaped, pages
+from tests.each import of_each
 
 FOLDER = Path(__file__).parent.parent / "docs/rules"
 RULES = [rule for rule in all_rules() if rule.check.__module__.startswith("rules.")]
@@ -57,7 +58,7 @@ def test_the_pages_are_fresh(pytestconfig: pytest.Config) -> None:
     assert not stale, "pytest tests/test_rule_pages.py --update-golden"
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+@of_each("rule", RULES, ids=lambda rule: rule.id)
 def test_a_rule_is_told_in_full(rule: object) -> None:
     (wanted,) = (each for each in RULES if each is rule)
     text = PAGES[f"{wanted.group}.md"]

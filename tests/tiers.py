@@ -18,8 +18,8 @@ TESTS = Path(__file__).parent
 MARKS: Mapping[str, str] = {
     "browser": "needs Chromium and the viewer that is built",
     "service": "needs a network port, a database server or workers of the service",
-    "install": "needs a second installation of the project, or what makes one: pip, git, an image",
-    "programs": "needs a program or library beside Python: ruby, git, node, OpenGL",
+    "install": "needs a second installation of the project: a wheel, an image, a hook",
+    "programs": "needs what `make dev` does not install: ruby, git, OpenGL, published schemas",
     "corpus": "needs real packages",
 }
 BY_FIXTURE: Mapping[str, str] = {
@@ -28,11 +28,16 @@ BY_FIXTURE: Mapping[str, str] = {
     "serve": "service",
     "start_service": "service",
     "ruby": "programs",
+    "sarif": "programs",
+    "junit": "programs",
     "corpus": "corpus",
 }
 BY_PLACE: Mapping[str, str] = {
-    "deployment": "install",
-    "repository": "install",
+    "deployment/test_image.py": "install",
+    "deployment/test_running.py": "install",
+    "repository/test_action.py": "install",
+    "repository/test_init.py": "programs",
+    "repository/test_pre_commit.py": "install",
     "test_wheel.py": "install",
     "command/test_nothing_is_fetched.py": "service",
     "survival": "service",

@@ -17,6 +17,7 @@ from checker.cli import main
 from checker.discovery import all_rules
 from checker.rule import Rule
 from tests.command.conftest import BROKEN, GOOD, Run, clean_environment
+from tests.each import of_each
 from tests.test_samples import SCHEMA
 
 CRASHING = """
@@ -224,7 +225,7 @@ def test_a_rule_is_explained_by_id_or_name(run: Run) -> None:
         assert words in by_id.stdout
 
 
-@pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)
+@of_each("rule", all_rules(), ids=lambda rule: rule.id)
 def test_every_rule_has_a_page(rule: Rule, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rule", rule.id]) == 0
     page = capsys.readouterr()
