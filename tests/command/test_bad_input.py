@@ -206,7 +206,7 @@ def test_what_may_not_be_read_is_said(rover: Path, spoilt: str) -> None:
 
 def zipped(*members: tuple[str, bytes]) -> bytes:
     data = io.BytesIO()
-    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         for name, content in members:
             archive.writestr(name, content)
     return data.getvalue()

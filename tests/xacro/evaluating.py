@@ -16,6 +16,7 @@ from checker.xacro.expression.builtin import FUNCTIONS
 from checker.xacro.expression.evaluation import evaluate
 from checker.xacro.symbols import global_symbols
 from checker.xacro.yaml_values import read
+from tests.effort import slowness
 from tests.xacro import hostile_expressions as hostile
 
 MEMORY = 200_000_000
@@ -64,4 +65,5 @@ if __name__ == "__main__":
     before = measured("VmRSS")
     groups = (hostile.REFUSED, hostile.LIMITED, hostile.ERRORS)
     done = [[outcome(each) for each in group] for group in groups]
-    json.dump({"done": done, "grown": measured("VmHWM") - before}, sys.stdout)
+    grown = measured("VmHWM") - before
+    json.dump({"done": done, "grown": grown, "slowness": slowness()}, sys.stdout)
