@@ -32,7 +32,7 @@ def of_each(
                     test(**fixtures, **{name: value})
                 except AssertionError as error:
                     failed[ids(value)] = str(error)
-            assert not failed
+            assert not failed, "\n".join(f"{each}: {said}" for each, said in failed.items())
 
         signature = inspect.signature(test)
         others = [each for each in signature.parameters.values() if each.name != name]
