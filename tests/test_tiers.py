@@ -9,6 +9,11 @@ import pytest
 
 from tests.each import of_each
 from tests.effort import limited, seconds
+from tests.tiers import BY_PLACE, TESTS
+
+
+def test_places_of_tiers_exist() -> None:
+    assert not [place for place in BY_PLACE if not (TESTS / place).exists()]
 
 
 def test_the_first_tier_opens_no_port() -> None:
