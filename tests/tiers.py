@@ -27,6 +27,7 @@ BY_FIXTURE: Mapping[str, str] = {
     "postgres_url": "service",
     "serve": "service",
     "start_service": "service",
+    "outside": "service",
     "ruby": "programs",
     "sarif": "programs",
     "junit": "programs",
@@ -34,6 +35,7 @@ BY_FIXTURE: Mapping[str, str] = {
 }
 BY_PLACE: Mapping[str, str] = {
     "deployment/test_image.py": "install",
+    "deployment/test_postgres.py": "service",
     "deployment/test_running.py": "install",
     "repository/test_action.py": "install",
     "repository/test_init.py": "programs",
@@ -44,6 +46,7 @@ BY_PLACE: Mapping[str, str] = {
     "viewer": "browser",
     "jobs/test_contract.py": "service",
     "jobs/test_end_to_end.py": "service",
+    "sandbox/test_as_others.py": "service",
     "serving/test_connection.py": "service",
     "web/test_hostile_requests.py": "service",
     "web/test_main.py": "service",

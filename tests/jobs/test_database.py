@@ -74,6 +74,7 @@ def test_an_address_that_is_none_is_not_repeated(address: str) -> None:
     assert "expected sqlite:///" in str(caught.value)
 
 
+@pytest.mark.service
 def test_a_server_that_is_not_there_is_unreachable(tmp_path: Path) -> None:
     with socket.socket() as nobody:
         nobody.bind(("127.0.0.1", 0))
