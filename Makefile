@@ -1,5 +1,6 @@
-# `make demo` shows what the checker does; `make test` runs all tests. Both start from a bare
-# Debian or Ubuntu with Python 3.11 or newer.
+# `make demo` shows what the checker does; `make test` runs the first tier of tests, `make test-all`
+# all that continuous integration runs. All start from a bare Debian or Ubuntu with Python 3.11 or
+# newer.
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -7,6 +8,7 @@ CORPUS ?= $(wildcard ../shared/corpus)
 REVIEWS ?= $(wildcard ../shared/reviews)
 MODERN ?= $(wildcard ../shared/modern)
 WORKERS ?= auto
+MORE := browser or service or install or programs or corpus
 # Folders of real packages, where there are any: tests and benches do without.
 PACKAGES := $(if $(CORPUS),SUBT_CHECK_CORPUS=$(abspath $(CORPUS))) \
   $(if $(REVIEWS),SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS))) \
@@ -15,7 +17,7 @@ VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo test viewer lint types format bench constraints clean golden
+.PHONY: demo dev test test-more test-all viewer lint types format bench constraints clean golden
 
 demo: .venv/installed $(VIEWER)
 	@mkdir -p demo
@@ -29,18 +31,30 @@ demo: .venv/installed $(VIEWER)
 	@tail -n 1 demo/broken.txt
 	@echo "== results: demo/report.html (open it in a browser), demo/broken.txt, demo/good.txt"
 
-test: .venv/tested $(VIEWER)
-	$(PACKAGES) $(BIN)/pytest -n $(WORKERS)
+# The environment of the first tier, of lint and of types.
+dev: .venv/dev
 
-lint: .venv/tested
+# The first tier: what needs neither a browser, a server, a second installation nor real packages.
+test: .venv/dev
+	$(BIN)/pytest -n $(WORKERS) -m "not ($(MORE))"
+
+# The other tiers.
+test-more: .venv/tested $(VIEWER)
+	$(PACKAGES) $(BIN)/pytest -n $(WORKERS) -m "$(MORE)"
+
+# Lint, types and all tiers.
+test-all:
+	.ci/run
+
+lint: .venv/dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports --no-cache
 
-types: .venv/tested
+types: .venv/dev
 	$(BIN)/mypy
 
-format: .venv/tested
+format: .venv/dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
@@ -70,10 +84,14 @@ golden: .venv/tested $(VIEWER)
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[service]'
 	@touch $@
 
-.venv/tested: .venv/installed
+.venv/dev: .venv/installed requirements-dev.txt
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-dev.txt
+	@touch $@
+
+.venv/tested: .venv/dev requirements-all.txt
 	scripts/require ruby=ruby git=git chromium=chromium bwrap=bubblewrap \
 	  "libEGL.so.1=libegl1 libgl1-mesa-dri" libOpenGL.so.0=libopengl0
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-dev.txt
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-all.txt
 	scripts/schemas $(BIN)/python
 	@touch $@
 
@@ -89,4 +107,4 @@ constraints: .venv/tested
 	@mv constraints.new constraints.txt
 
 clean:
-	rm -rf .venv build dist demo
+	rm -rf .venv .pytest_cache build dist demo

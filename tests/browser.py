@@ -30,7 +30,7 @@ def _program() -> str:
     for name in _PROGRAMS:
         if found := shutil.which(name):
             return found
-    reason = "Chromium is not installed; `make test` installs it"
+    reason = "Chromium is not installed; `make test-more` installs it"
     if os.environ.get("CI"):
         pytest.fail(reason)
     pytest.skip(reason)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import tempfile
 from collections.abc import Generator, Iterator
 from pathlib import Path
 
@@ -15,8 +17,9 @@ from tests.real_packages import CORPUS, needed_folder
 from tests.tiers import MARKS, Guard, marks_of
 
 # Machines differ and are shared: no example of a property is held against the clock.
-settings.register_profile("shared machines", deadline=None)
-settings.load_profile("shared machines")
+settings.register_profile("working", deadline=None, max_examples=20)
+settings.register_profile("ci", deadline=None, max_examples=100)
+settings.load_profile("ci" if os.environ.get("CI") else "working")
 
 # Where the tests run in the background, a shell has all that they start ignore Ctrl-C.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -63,9 +66,24 @@ def samples() -> Path:
     return SAMPLES
 
 
+@pytest.fixture
+def open_folder() -> Iterator[Path]:
+    """A folder that every user may look into, which pytest's own is not."""
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        yield Path(folder)
+
+
 @pytest.fixture(scope="session", autouse=True)
-def _cache_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Keep results of tests out of the user's cache, and the user's out of the tests."""
+def _cache_of_the_tests(
+    pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[None]:
+    """Keep results of tests out of the user's cache, and the user's out of the tests.
+
+    All workers and runs share them: their keys hold the code and the versions of libraries.
+    """
+    shared: pytest.Cache | None = getattr(pytestconfig, "cache", None)
+    folder = shared.mkdir("results") if shared else tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("SUBT_CHECK_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("SUBT_CHECK_CACHE", str(folder))
         yield

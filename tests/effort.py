@@ -1,4 +1,6 @@
-"""How much work code does: the same on a slow machine, and on one that others keep busy.
+"""How much work tests do, and how much the code does that they look at.
+
+The code's is the same on a slow machine, and on one that others keep busy.
 
 Work is the processor time of this process. Where that is too much, it is held against the time of a
 task of a known size at the same moment.
@@ -11,8 +13,15 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from hypothesis import settings
+
 _TASK_SECONDS = 0.02
 """What the task takes on a machine of today that does nothing else."""
+
+
+def examples(number: int) -> int:
+    """Return how many examples a property gets: this number in CI, a fifth of it while working."""
+    return max(1, number * settings.default.max_examples // 100)
 
 
 def seconds(work: Callable[[], object]) -> float:
@@ -41,14 +50,15 @@ def limited(most: float) -> Iterator[None]:
     start = time.process_time()
     yield
     taken = time.process_time() - start
-    slowness = max(_task_seconds() / _TASK_SECONDS, 1.0) if taken > most else 1.0
-    assert taken <= most * slowness, f"{taken:.2f} s of work, {most * slowness:.2f} allowed"
+    allowed = most * (slowness() if taken > most else 1.0)
+    assert taken <= allowed, f"{taken:.2f} s of work, {allowed:.2f} allowed"
 
 
-def _task_seconds() -> float:
+def slowness() -> float:
+    """Return how much longer work takes at the moment than on a machine of today: 1 or more."""
     start = time.process_time()
     words: dict[str, int] = {}
     for number in range(120_000):
         word = f"{number % 1000} "
         words[word] = words.get(word, 0) + len(word)
-    return time.process_time() - start
+    return max(1.0, (time.process_time() - start) / _TASK_SECONDS)

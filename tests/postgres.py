@@ -27,6 +27,8 @@ import pytest
 
 from checker.base.sandbox.task import end_with_parent
 
+DATABASES = ("sqlite", pytest.param("postgresql", marks=pytest.mark.service))
+"""Kinds of databases, as parameters of fixtures."""
 _NOBODY = 65534
 """Who runs the server in place of root, which PostgreSQL refuses."""
 _FOR_ALL = ("/tmp", "/var/tmp")  # noqa: S108 - only where the folder is made

@@ -34,7 +34,8 @@ def needed_folder(variable: str) -> Path:
     return folder
 
 
-def needs(variable: str) -> pytest.MarkDecorator:
-    """Return the mark of tests that are skipped without the folder of a variable."""
+def needs(variable: str) -> list[pytest.MarkDecorator]:
+    """Return the marks of tests that are skipped without the folder of a variable."""
     absent = named_folder(variable) is None
-    return pytest.mark.skipif(absent, reason=f"{variable} names no folder of real packages")
+    reason = f"{variable} names no folder of real packages"
+    return [pytest.mark.corpus, pytest.mark.skipif(absent, reason=reason)]

@@ -25,6 +25,7 @@ from checker.rulebook.discovery import _rules_in, all_rules
 from checker.rulebook.pages import parse_page
 from checker.rulebook.profiles import profile, profile_names
 from checker.settings import parse_settings
+from tests.each import of_each
 from tests.test_rule_examples import test_example as check_example
 
 ROOT = Path(__file__).parent.parent
@@ -141,7 +142,7 @@ def test_commands_in_the_documents_are_understood() -> None:
 
 def test_make_targets_in_the_documents_exist() -> None:
     makefile = (ROOT / "Makefile").read_text("utf-8")
-    targets = set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))
+    targets = set(re.findall(r"^([a-z-]+):", makefile, re.MULTILINE))
     lines = [line for document in DOCUMENTS for line in _command_lines(document)]
     named = {line.split()[1] for line in lines if line.startswith("make ")}
     assert {"demo", "test"} <= named
@@ -216,8 +217,12 @@ def test_dependencies_point_one_way(folder: str, allowed: str) -> None:
     assert not [name for name in imported if not re.fullmatch(rf"{allowed}(\..*)?", name)]
 
 
-@pytest.mark.parametrize("rule", OUR_RULES, ids=lambda rule: rule.id)
+@of_each("rule", OUR_RULES, ids=lambda rule: rule.id)
 def test_every_rule_has_a_page(rule: Rule) -> None:
+    assert_page(rule)
+
+
+def assert_page(rule: Rule) -> None:
     first = rule.page.partition("\n\n")[0]
     assert re.fullmatch(r"[A-Z`][^\n|<>]{10,98}[^\s.,:;!?…]\.", first)
     page = parse_page(rule.page)
@@ -227,7 +232,7 @@ def test_every_rule_has_a_page(rule: Rule) -> None:
     assert page.reason.endswith(".")
 
 
-@pytest.mark.parametrize("rule", OUR_RULES, ids=lambda rule: rule.id)
+@of_each("rule", OUR_RULES, ids=lambda rule: rule.id)
 def test_every_rule_is_where_its_id_says(rule: Rule) -> None:
     module = rule.check.__module__.rpartition(".")[2]
     assert module.startswith(f"{rule.id.lower()}_")
@@ -246,7 +251,7 @@ def test_the_rule_in_contributing_works(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setitem(sys.modules, file.stem, module)
     spec.loader.exec_module(module)
     (rule,) = _rules_in(module)
-    test_every_rule_has_a_page(rule)
+    assert_page(rule)
     for kind in ("good", "bad"):
         for example in getattr(rule, kind):
             check_example(rule, kind, example, tmp_path / kind)

@@ -13,6 +13,7 @@ from checker.pipeline import check_package
 from checker.report.report import Cause
 from checker.settings import Settings
 from tests.conftest import SAMPLES
+from tests.effort import examples
 
 SAMPLE_NAMES = ("husky_migration_sensor_config_1", "broken_rover_sensor_config_1")
 TEXTS = {".sdf", ".rb", ".launch", ".md", ".xml", ".config", ".txt", ".xacro"}
@@ -44,9 +45,7 @@ def mutate(text: str, kind: str, where: float, length: int, debris: str) -> str:
 
 
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
-@settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_no_mutation_stops_the_check(name: str, data: st.DataObject, tmp_path: Path) -> None:
     package = tmp_path / name
@@ -57,6 +56,6 @@ def test_no_mutation_stops_the_check(name: str, data: st.DataObject, tmp_path: P
         file = data.draw(st.sampled_from(files))
         text = file.read_bytes().decode("utf-8", "replace")
         file.write_bytes(mutate(text, *data.draw(mutation)).encode("utf-8", "replace"))
-    (report,) = check_package(package, Settings()).packages
+    (report,) = check_package(package, Settings(trial=False)).packages
     assert not [each for each in report.not_checked if each.cause is Cause.CRASHED]
     assert all(finding.places and finding.message for finding in report.findings)

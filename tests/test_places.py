@@ -57,7 +57,9 @@ def reported(folder: Path) -> tuple[Reported, ...]:
     )
 
 
-@pytest.fixture(scope="module", params=["samples", "corpus"])
+@pytest.fixture(
+    scope="module", params=["samples", pytest.param("corpus", marks=pytest.mark.corpus)]
+)
 def findings(request: pytest.FixtureRequest) -> tuple[Reported, ...]:
     folder = SAMPLES if request.param == "samples" else request.getfixturevalue("corpus")
     return reported(folder)

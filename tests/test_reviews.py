@@ -7,10 +7,10 @@ import pytest
 from tests.real_packages import REVIEWS, needs
 from tests.review_cases import OUT_OF_REACH, ReviewCase, review_cases
 
+pytestmark = needs(REVIEWS)
 CASES = [case for case in review_cases() if case.id not in OUT_OF_REACH]
 
 
-@needs(REVIEWS)
 def test_there_are_cases() -> None:
     assert len(CASES) >= 48
 

@@ -22,6 +22,7 @@ from checker.rule_testing import judge_of, write_example
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import Option, told_options, words_of, work_of
 from checker.settings import Settings
+from tests.each import of_each
 
 RULES = [
     rule
@@ -66,7 +67,7 @@ def test_a_function_without_a_docstring_tells_nothing() -> None:
     assert told_options(made(check)) == (Option("least", "0.5", ""),)
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+@of_each("rule", RULES, ids=lambda rule: rule.id)
 def test_every_option_is_explained_and_nothing_else(rule: Rule) -> None:
     words = words_of(rule)
     assert list(words) == list(rule.options)
@@ -77,7 +78,7 @@ def test_every_option_is_explained_and_nothing_else(rule: Rule) -> None:
         assert "|" not in said, name
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+@of_each("rule", RULES, ids=lambda rule: rule.id)
 def test_what_is_printed_can_be_pasted_into_settings(rule: Rule) -> None:
     _, _, after = page_text(rule).partition(f"below [rules.{rule.id}]:\n")
     lines = after.partition("\n\n")[0]

@@ -18,6 +18,7 @@ from markdown_it import MarkdownIt
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import told_options
 from checker.rulebook.pages import anchor, escaped, pages, parse_page
+from tests.each import of_each
 
 FOLDER = Path(__file__).parent.parent / "docs/rules"
 RULES = [rule for rule in all_rules() if rule.check.__module__.startswith("rules.")]
@@ -56,7 +57,7 @@ def test_the_pages_are_fresh(pytestconfig: pytest.Config) -> None:
     assert not stale, "pytest tests/test_rule_pages.py --update-golden"
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.id)
+@of_each("rule", RULES, ids=lambda rule: rule.id)
 def test_a_rule_is_told_in_full(rule: object) -> None:
     (wanted,) = (each for each in RULES if each is rule)
     text = PAGES[f"{wanted.group}.md"]

@@ -17,9 +17,9 @@ import pytest
 TESTS = Path(__file__).parent
 MARKS: Mapping[str, str] = {
     "browser": "needs Chromium and the viewer that is built",
-    "service": "needs a network port or a database server",
-    "install": "needs a second installation of the project, or what makes one: pip, git, an image",
-    "programs": "needs a program or library beside Python: ruby, git, node, OpenGL",
+    "service": "needs a network port, a database server or workers of the service",
+    "install": "needs a second installation of the project: a wheel, an image, a hook",
+    "programs": "needs what `make dev` does not install: ruby, git, OpenGL, published schemas",
     "corpus": "needs real packages",
 }
 BY_FIXTURE: Mapping[str, str] = {
@@ -27,16 +27,30 @@ BY_FIXTURE: Mapping[str, str] = {
     "postgres_url": "service",
     "serve": "service",
     "start_service": "service",
+    "outside": "service",
     "ruby": "programs",
+    "sarif": "programs",
+    "junit": "programs",
     "corpus": "corpus",
 }
 BY_PLACE: Mapping[str, str] = {
-    "deployment": "install",
-    "repository": "install",
+    "deployment/test_image.py": "install",
+    "deployment/test_postgres.py": "service",
+    "deployment/test_running.py": "install",
+    "repository/test_action.py": "install",
+    "repository/test_init.py": "programs",
+    "repository/test_pre_commit.py": "install",
     "test_wheel.py": "install",
+    "command/test_nothing_is_fetched.py": "service",
     "survival": "service",
     "viewer": "browser",
+    "jobs/test_contract.py": "service",
+    "jobs/test_end_to_end.py": "service",
+    "sandbox/test_as_others.py": "service",
+    "serving/test_connection.py": "service",
     "web/test_hostile_requests.py": "service",
+    "web/test_main.py": "service",
+    "web/test_turns.py": "service",
 }
 """Folders and modules, all of whose tests need the same."""
 _PROGRAMS = {"chromium": "browser", "postgres": "service"} | dict.fromkeys(

@@ -17,6 +17,7 @@ from checker.cli import main
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
 from tests.command.conftest import BROKEN, GOOD, Run, clean_environment
+from tests.each import of_each
 from tests.test_samples import SCHEMA
 
 CRASHING = """
@@ -50,8 +51,8 @@ def packages(text: str) -> list[dict[str, Any]]:
     return list(report["packages"])
 
 
-def test_exit_0_when_there_is_nothing_to_mend(run: Run, good: Path) -> None:
-    done = run(good.name)
+def test_exit_0_when_there_is_nothing_to_mend(run_apart: Run, good: Path) -> None:
+    done = run_apart(good.name)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.endswith(f"{GOOD}: Ready: nothing to fix\n")
 
@@ -69,19 +70,19 @@ def test_exit_1_for_a_warning_only_when_asked_for(run: Run, rover: Path) -> None
     assert run(rover, "--select", "PKG003", "--fail-on", "warning").returncode == 1
 
 
-def test_exit_3_when_a_rule_crashes(run: Run, good: Path, with_crash: dict[str, str]) -> None:
-    done = run(good, **with_crash)
+def test_exit_3_when_a_rule_crashes(run_apart: Run, good: Path, with_crash: dict[str, str]) -> None:
+    done = run_apart(good, **with_crash)
     assert done.returncode == 3
     assert "CRA001 could not run (ValueError: on purpose); please report this" in done.stdout
     assert f"{GOOD}: Incomplete: no error, but 1 rule could not look" in done.stdout
 
 
 def test_unreadable_input_counts_more_than_a_crash_and_that_more_than_findings(
-    run: Run, good: Path, broken: Path, with_crash: dict[str, str]
+    run_apart: Run, good: Path, broken: Path, with_crash: dict[str, str]
 ) -> None:
-    assert run(good, broken).returncode == 1
-    assert run(good, broken, **with_crash).returncode == 3
-    assert run(good, broken, "nowhere", **with_crash).returncode == 2
+    assert run_apart(good, broken).returncode == 1
+    assert run_apart(good, broken, **with_crash).returncode == 3
+    assert run_apart(good, broken, "nowhere", **with_crash).returncode == 2
 
 
 def test_one_bad_path_does_not_keep_the_others_from_being_checked(
@@ -137,11 +138,11 @@ def test_two_files_and_two_archives_side_by_side_are_all_reported(
 
 @pytest.mark.parametrize("where", ["folder", "paths"])
 def test_two_processes_report_what_one_does(
-    where: str, run: Run, good: Path, broken: Path, tmp_path: Path
+    where: str, run_apart: Run, good: Path, broken: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "notes").mkdir()
     given = [tmp_path] if where == "folder" else [good, broken, "nowhere"]
-    one, two = (run(*given, "--format", "json", "--jobs", jobs) for jobs in (1, 2))
+    one, two = (run_apart(*given, "--format", "json", "--jobs", jobs) for jobs in (1, 2))
     assert packages(one.stdout) == packages(two.stdout)
     assert json.loads(one.stdout)["not_opened"] == json.loads(two.stdout)["not_opened"]
     assert (one.returncode, one.stderr) == (two.returncode, two.stderr)
@@ -211,8 +212,8 @@ def test_a_reader_that_goes_away_is_no_fault(arguments: str, broken: Path) -> No
     assert done.returncode == (1 if "broken" in words else 0)
 
 
-def test_a_terminal_that_lacks_characters_shows_others(run: Run, broken: Path) -> None:
-    done = run(broken, PYTHONIOENCODING="ascii")
+def test_a_terminal_that_lacks_characters_shows_others(run_apart: Run, broken: Path) -> None:
+    done = run_apart(broken, PYTHONIOENCODING="ascii")
     assert (done.returncode, done.stderr) == (1, "")
 
 
@@ -224,7 +225,7 @@ def test_a_rule_is_explained_by_id_or_name(run: Run) -> None:
         assert words in by_id.stdout
 
 
-@pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)
+@of_each("rule", all_rules(), ids=lambda rule: rule.id)
 def test_every_rule_has_a_page(rule: Rule, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rule", rule.id]) == 0
     page = capsys.readouterr()

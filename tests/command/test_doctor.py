@@ -98,11 +98,11 @@ def test_a_sandbox_that_nothing_keeps_is_a_problem(monkeypatch: pytest.MonkeyPat
     assert [each.state for each in sandbox()] == [State.PROBLEM]
 
 
-def test_a_missing_library_is_a_problem(run: Run, tmp_path: Path) -> None:
+def test_a_missing_library_is_a_problem(run_apart: Run, tmp_path: Path) -> None:
     """A folder that comes first on the path and has a library that cannot be imported."""
     (tmp_path / "lxml").mkdir()
     (tmp_path / "lxml/__init__.py").write_text("raise ImportError('no lxml here')")
-    done = run("doctor", PYTHONPATH=str(tmp_path))
+    done = run_apart("doctor", PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
     assert (
         "problem lxml cannot be imported (ImportError: no lxml here); install subt-check again, "
@@ -112,22 +112,22 @@ def test_a_missing_library_is_a_problem(run: Run, tmp_path: Path) -> None:
     assert "please report" not in done.stdout
 
 
-def test_a_library_that_ends_the_process_is_a_problem(run: Run, tmp_path: Path) -> None:
+def test_a_library_that_ends_the_process_is_a_problem(run_apart: Run, tmp_path: Path) -> None:
     (tmp_path / "yaml").mkdir()
     (tmp_path / "yaml/__init__.py").write_text("import os; os.abort()")
-    done = run("doctor", PYTHONPATH=str(tmp_path))
+    done = run_apart("doctor", PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
     said = "problem libraries cannot be imported (the child that imports them ended in a crash"
     assert said in done.stdout
 
 
 def test_a_part_of_a_library_that_is_missing_is_to_be_installed_again(
-    run: Run, tmp_path: Path
+    run_apart: Run, tmp_path: Path
 ) -> None:
     """It can be imported, but what a rule asks of it cannot."""
     (tmp_path / "jinja2").mkdir()
     (tmp_path / "jinja2/__init__.py").write_text("")
-    done = run("doctor", PYTHONPATH=str(tmp_path))
+    done = run_apart("doctor", PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
     assert re.search(r"(?m)^problem self-test fails: .*; install subt-check again, ", done.stdout)
     assert "please report" not in done.stdout

@@ -22,6 +22,7 @@ from tests.convert.trees import (
     read_back,
     trees,
 )
+from tests.effort import examples
 from tests.model.robots import Matrix, as_matrix
 
 
@@ -110,7 +111,7 @@ def _place(robot: Robot, link: object, shape: object) -> tuple[float, ...]:
     return (*np.round(pose[:3, 3], 9), *pose[:3, :3].flatten())
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(trees())
 def test_there_and_back(tree: list[Body]) -> None:
     source, robot = description_of(as_urdf(tree)).robot, as_sdf_robot(as_urdf(tree))

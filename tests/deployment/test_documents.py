@@ -7,13 +7,12 @@ import re
 from functools import cache
 from pathlib import Path
 
-import pytest
-
 from checker.package.archives.index import ArchiveLimits
 from checker.service.jobs.checking import LIMITS
 from checker.service.jobs.port import Stage
 from checker.service.web.config import Config
 from tests.deployment.image import ROOT
+from tests.each import of_each
 
 SERVICE = (ROOT / "docs/service.md").read_text("utf-8")
 SECURITY = (ROOT / "docs/security.md").read_text("utf-8")
@@ -37,7 +36,7 @@ def rows(document: str) -> list[list[str]]:
     return [row for row in cells if row[0] not in heads]
 
 
-@pytest.mark.parametrize("file", sorted({file for file, _ in NAMED_TESTS}))
+@of_each("file", sorted({file for file, _ in NAMED_TESTS}))
 def test_every_test_that_is_named_exists(file: str) -> None:
     named = {test for at, test in NAMED_TESTS if at == file}
     assert named <= functions_of(ROOT / file)

@@ -15,6 +15,7 @@ from checker.report.scene.primitives import box, cylinder
 from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
 from checker.report.scene.surface import Surface
 from tests.display.glb_reader import read_glb
+from tests.effort import examples
 
 PLACES = st.tuples(*[st.floats(-100, 100)] * 3)
 TURNS = st.tuples(*[st.floats(-3.2, 3.2)] * 3)
@@ -83,7 +84,7 @@ def scenes(draw: st.DrawFn) -> DisplayScene:
     )
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(scenes())
 def test_every_scene_is_a_valid_file(scene: DisplayScene) -> None:
     glb = read_glb(glb_of(scene))
@@ -92,7 +93,7 @@ def test_every_scene_is_a_valid_file(scene: DisplayScene) -> None:
     assert ("animations" in glb.said) == moving
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(scenes())
 def test_everything_stands_where_the_scene_has_it(scene: DisplayScene) -> None:
     glb, poses = read_glb(glb_of(scene)), scene.poses()

@@ -17,6 +17,7 @@ from checker.report.scene.builder import ITEMS, scene_of
 from checker.report.scene.scene import DisplayScene, Item, Layer
 from checker.report.scene.surface import NoSurfaces, Surface
 from checker.source.text import Located
+from tests.effort import examples
 from tests.model.robots import sdf, urdf
 
 TRIANGLE = Surface(
@@ -188,7 +189,7 @@ def inertial(mass: float, moments: Mapping[str, float], pose: str = "0 0 0 0 0 0
 EDGES = st.floats(0.01, 10.0)
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(EDGES, EDGES, EDGES, st.floats(0.01, 100.0), st.tuples(*[st.floats(-3, 3)] * 3))
 def test_the_box_of_an_inertia_is_the_box_that_has_it(
     a: float, b: float, c: float, mass: float, turn: tuple[float, ...]

@@ -77,6 +77,7 @@ def drawn(shown: DisplayScene) -> tuple[Picture, ...]:
     return found
 
 
+@pytest.mark.programs
 def test_pictures_show_the_robot_its_shapes_and_its_trial() -> None:
     found = drawn(scene(surface(), tracks=driving(5.0)))
     assert len(found) == 2 + MOMENTS
@@ -97,6 +98,7 @@ def test_pictures_show_the_robot_its_shapes_and_its_trial() -> None:
         assert np.linalg.norm(middles[one] - middles[other]) > 50.0
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize(
     "more",
     [
@@ -123,12 +125,14 @@ def test_odd_surfaces_do_not_keep_the_others_from_the_picture(more: Surface) -> 
     assert red(found[0]).mean() > 0.05
 
 
+@pytest.mark.programs
 def test_mirrored_shapes_have_their_outer_sides_outside() -> None:
     plain, mirrored = drawn(scene(surface())), drawn(scene(surface(), scale=-1.0))
     for one, other in zip(plain, mirrored, strict=True):
         assert np.abs(pixels(one) - pixels(other)).mean() < 1.0
 
 
+@pytest.mark.programs
 def test_colours_of_corners_are_seen() -> None:
     painted = np.tile(np.array([20, 200, 30, 255], np.uint8), (36, 1))
     white = (1.0, 1.0, 1.0, 1.0)
@@ -156,6 +160,7 @@ def test_without_opengl_there_are_no_pictures(monkeypatch: pytest.MonkeyPatch) -
         assert pictures_of(scene(surface())) == ()
 
 
+@pytest.mark.programs
 def test_a_drawing_may_begin_before_it_is_known_what_to_draw() -> None:
     drawing = Drawing()
     try:
@@ -169,6 +174,7 @@ def test_a_drawing_may_begin_before_it_is_known_what_to_draw() -> None:
     assert [each.jpeg for each in early] == [each.jpeg for each in pictures_of(scene(surface()))]
 
 
+@pytest.mark.programs
 def test_what_was_drawn_once_is_not_drawn_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -32,6 +32,7 @@ from tests.dynamics.bodies import (
     poses,
     sizes,
 )
+from tests.effort import examples
 from tests.model.robots import as_matrix, sdf
 
 TYPES = ("fixed", "revolute", "continuous", "prismatic", "universal", "ball", "screw")
@@ -72,7 +73,7 @@ def summed(robot: Robot) -> tuple[float, Matrix, Matrix]:
     return total, centre, about_origin - shift
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=examples(60))
 @given(trees())
 def test_the_whole_weighs_what_its_parts_weigh(robot: Robot) -> None:
     mass, centre, inertia = summed(robot)
@@ -85,7 +86,7 @@ def test_the_whole_weighs_what_its_parts_weigh(robot: Robot) -> None:
     assert sum(map(properties.share, properties.links)) == pytest.approx(1.0)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=examples(60))
 @given(trees())
 def test_the_model_of_pinocchio_holds_what_the_scales_say(robot: Robot) -> None:
     properties, built = weigh(robot), pin_model(robot)
@@ -101,7 +102,7 @@ def test_the_model_of_pinocchio_holds_what_the_scales_say(robot: Robot) -> None:
             assert torque == pytest.approx(properties.gravity_torques[named], abs=1e-9 * scale)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=examples(60))
 @given(trees())
 def test_the_joint_space_inertia_of_a_free_robot_begins_with_its_mass(robot: Robot) -> None:
     inertia = pin_model(robot).joint_space_inertia()

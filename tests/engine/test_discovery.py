@@ -11,6 +11,7 @@ import pytest
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.pages import parse_page
+from tests.each import of_each
 
 RULE = '''"""A wheel of cheese.
 
@@ -95,7 +96,7 @@ def test_rules_are_sorted_and_their_files_bear_their_ids() -> None:
         )
 
 
-@pytest.mark.parametrize("rule", all_rules(), ids=lambda rule: rule.id)
+@of_each("rule", all_rules(), ids=lambda rule: rule.id)
 def test_a_page_says_what_why_how_to_mend_it_and_where_it_comes_from(rule: Rule) -> None:
     page = parse_page(rule.page)
     assert page.title

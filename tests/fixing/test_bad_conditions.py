@@ -8,7 +8,6 @@ import signal
 import stat
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -26,7 +25,6 @@ from tests.conftest import SAMPLES
 
 BROKEN = "broken_rover_sensor_config_1"
 NOBODY = 65534
-WORLD_READABLE = 0o755
 KILL_AT = """
 import os, signal, sys
 from pathlib import Path
@@ -58,15 +56,6 @@ def wanted(package: Path) -> Fixed:
 def written(package: Path, fixed: Fixed) -> None:
     with open_input(package) as opened:
         write_files(opened.packages[0], fixed.files)
-
-
-@pytest.fixture
-def open_folder() -> Iterator[Path]:
-    """A folder that every user may look into, which pytest's own is not."""
-    folder = Path(tempfile.mkdtemp())
-    folder.chmod(WORLD_READABLE)
-    yield folder
-    shutil.rmtree(folder)
 
 
 def said_as_nobody(package: Path, fixed: Fixed) -> str:

@@ -103,6 +103,7 @@ def test_fixes_of_real_packages_bring_no_finding_and_rest(
         assert fix(package).fixed.files == ()
 
 
+@pytest.mark.programs
 def test_a_patch_changes_nothing_and_git_applies_it(tmp_path: Path, fix: Fix) -> None:
     package = copied(BROKEN, tmp_path)
     as_it_was = contents(package)
@@ -188,6 +189,7 @@ def test_commands_say_what_they_did(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert capsys.readouterr().out == ""
 
 
+@pytest.mark.programs
 def test_a_workspace_is_fixed_package_by_package(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

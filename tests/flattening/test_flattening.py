@@ -10,6 +10,7 @@ from checker.model.components import Frame, Link, Model
 from checker.model.robot import Robot
 from checker.model.sdf.document import sdf_version
 from checker.physics.mass.pinocchio_model import pin_model
+from tests.effort import examples
 from tests.flattening.nested import flattened, nests, read
 from tests.model.robots import Matrix, as_matrix
 
@@ -68,13 +69,13 @@ def assert_close(one: Matrix, other: Matrix) -> None:
     np.testing.assert_allclose(one, other, rtol=0, atol=1e-9)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=examples(40))
 @given(nests(BEFORE))
 def test_a_flat_robot_is_the_nested_one_before_frames(robot: tuple[str, dict[str, str]]) -> None:
     assert_same(*robot)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=examples(40))
 @given(nests(SINCE))
 def test_a_flat_robot_is_the_nested_one_with_frames(robot: tuple[str, dict[str, str]]) -> None:
     assert_same(*robot)

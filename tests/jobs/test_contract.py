@@ -18,13 +18,13 @@ from checker.service.jobs.durable.tables import CHECKS
 from checker.service.jobs.port import Stage, State
 from tests.jobs.quick_worker import DEATH, PACKAGE, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in
-from tests.postgres import fresh_database
+from tests.postgres import DATABASES, fresh_database
 
 WHOLE = [(1, "queued"), (2, "static"), (3, "trial"), (4, "trial"), (5, "done")]
 """Events of a check with no mishap."""
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=DATABASES)
 def site(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Site]:
     if request.param == "sqlite":
         url = f"sqlite:///{tmp_path}/new/jobs.sqlite"

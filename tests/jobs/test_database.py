@@ -17,10 +17,10 @@ from checker.service.jobs.place import database_url
 from checker.service.jobs.port import JobsUnreachable, Order, Stage
 from checker.service.store.store import Store
 from tests.jobs.site import Site, site_in
-from tests.postgres import fresh_database
+from tests.postgres import DATABASES, fresh_database
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=DATABASES)
 def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     if request.param == "sqlite":
         return f"sqlite:///{tmp_path}/jobs.sqlite"
@@ -74,6 +74,7 @@ def test_an_address_that_is_none_is_not_repeated(address: str) -> None:
     assert "expected sqlite:///" in str(caught.value)
 
 
+@pytest.mark.service
 def test_a_server_that_is_not_there_is_unreachable(tmp_path: Path) -> None:
     with socket.socket() as nobody:
         nobody.bind(("127.0.0.1", 0))

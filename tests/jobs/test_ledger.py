@@ -16,6 +16,7 @@ from checker.service.jobs.durable.ledger import GIVEN_UP, Ledger, Step, Turn, fo
 from checker.service.jobs.durable.readings import events_of, state_of
 from checker.service.jobs.durable.tables import METADATA
 from checker.service.jobs.port import Event, Order, Stage, State
+from tests.effort import examples
 
 ORDER = Order("0" * 64, "robot.zip", "subt")
 QUEUED = Step("queued", Stage.QUEUED, "waits")
@@ -138,7 +139,7 @@ class AnyStory(RuleBasedStateMachine):
 
 
 TestAnyStory = AnyStory.TestCase
-TestAnyStory.settings = settings(max_examples=25, stateful_step_count=15, deadline=None)
+TestAnyStory.settings = settings(max_examples=examples(25), stateful_step_count=15, deadline=None)
 
 
 def test_a_check_is_given_up_after_its_third_worker(ledger: Ledger) -> None:

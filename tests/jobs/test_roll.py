@@ -13,13 +13,13 @@ from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.durable.database import open_database, prepare
 from checker.service.jobs.durable.roll import Roll
 from checker.service.store.store import Store
-from tests.postgres import fresh_database
+from tests.postgres import DATABASES, fresh_database
 
 LAYERS = (Layer("landlock", True, "version 7", hides=True), Layer("account", False, "no root"))
 OLD = sa.text("INSERT INTO subt_workers (name, beat) VALUES ('old', 1e9)")
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=DATABASES)
 def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     if request.param == "sqlite":
         return f"sqlite:///{tmp_path}/jobs.sqlite"

@@ -18,7 +18,7 @@ from checker.service.jobs.port import Stage
 from checker.service.store.store import Store
 from tests.jobs.quick_worker import WORDS
 from tests.jobs.site import Site, site_in
-from tests.postgres import dump, fresh_database
+from tests.postgres import DATABASES, dump, fresh_database
 
 CHECK = """INSERT INTO subt_checks (id, upload, name, profile, stage, words, created, expires,
     result, packages, worker, turn, losses) VALUES (:id, :upload, :name, '', :stage, :words,
@@ -37,7 +37,7 @@ STAGES = {
 """Stage, words, worker and queue of checks as version 0.1.0 left them."""
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=DATABASES)
 def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     if request.param == "sqlite":
         return f"sqlite:///{tmp_path}/books/jobs.sqlite"

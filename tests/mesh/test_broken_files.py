@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.physics.mesh.reader import read_mesh
+from tests.effort import examples
 from tests.mesh.files import binary_stl, box, dae, obj, text_stl
 
 CUBE = box(1, 1, 1)
@@ -136,7 +137,7 @@ WHOLE = {"stl": binary_stl(CUBE), "obj": obj(CUBE), "dae": dae(CUBE)}
 
 
 @pytest.mark.parametrize("suffix", WHOLE)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100))
 @given(data=st.data())
 def test_a_file_with_bytes_changed_never_raises(suffix: str, data: st.DataObject) -> None:
     content = bytearray(WHOLE[suffix])
@@ -147,7 +148,7 @@ def test_a_file_with_bytes_changed_never_raises(suffix: str, data: st.DataObject
 
 
 @pytest.mark.parametrize("suffix", WHOLE)
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50))
 @given(content=st.binary(max_size=400))
 @example(b"solid" + struct.pack("<I", 7))
 def test_random_bytes_never_raise(suffix: str, content: bytes) -> None:

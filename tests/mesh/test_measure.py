@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from checker.model.mesh import Mesh
 from checker.physics.mesh.reader import read_mesh
+from tests.effort import examples
 from tests.mesh.files import Triangle, binary_stl, box, cylinder, dae, obj, text_stl
 
 lengths = st.floats(0.01, 10.0)
@@ -30,7 +31,7 @@ def ball(subdivisions: int) -> list[Triangle]:
 
 
 @pytest.mark.parametrize("suffix", WRITERS)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25))
 @given(x=lengths, y=lengths, z=lengths, far=st.floats(-50, 50))
 def test_a_box(suffix: str, x: float, y: float, z: float, far: float) -> None:
     read = mesh(WRITERS[suffix](box(x, y, z, (far, 0.0, -far))), f"a.{suffix}")
@@ -43,7 +44,7 @@ def test_a_box(suffix: str, x: float, y: float, z: float, far: float) -> None:
     assert read.high == pytest.approx((far + x / 2, y / 2, -far + z / 2), abs=1e-4)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25))
 @given(radius=lengths, length=lengths, sides=st.integers(3, 60))
 def test_a_cylinder(radius: float, length: float, sides: int) -> None:
     read = mesh(text_stl(cylinder(radius, length, sides)), "a.stl")

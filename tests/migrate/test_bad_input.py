@@ -8,10 +8,8 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Iterator, Mapping
-from itertools import takewhile
 from pathlib import Path
 
 import pytest
@@ -172,11 +170,8 @@ def command(*arguments: object) -> subprocess.Popen[str]:
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="needs to become another user")
-def test_a_folder_that_cannot_be_written_to(write: Write, tmp_path: Path) -> None:
-    source = write({"urdf/a.urdf": ROBOT})
-    root = Path(tempfile.gettempdir()).resolve()
-    for folder in takewhile(lambda each: each != root, (tmp_path, *tmp_path.parents)):
-        folder.chmod(0o755)
+def test_a_folder_that_cannot_be_written_to(write: Write, open_folder: Path) -> None:
+    source = write({"urdf/a.urdf": ROBOT}).rename(open_folder / "rover_description")
     # The first run loads all modules, which the other user may not be able to read.
     start = (
         "import io, os, sys, tempfile; from contextlib import redirect_stdout\n"
@@ -185,7 +180,7 @@ def test_a_folder_that_cannot_be_written_to(write: Write, tmp_path: Path) -> Non
         "    main(['migrate', sys.argv[1], place, '--no-trial'])\n"
         "os.setuid(65534); sys.exit(main(['migrate', *sys.argv[1:]]))"
     )
-    made = tmp_path / "made"
+    made = open_folder / "made"
     child = [sys.executable, "-c", start, str(source), str(made)]
     done = subprocess.run(child, capture_output=True, text=True, check=False, cwd=SAMPLES.parent)
     expected = f"subt-check: {made} cannot be written: Permission denied; no package was made\n"

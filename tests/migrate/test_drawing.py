@@ -53,6 +53,7 @@ def test_a_mesh_that_cannot_be_drawn_is_not_a_lack_of_opengl(
     assert said in unable or unable == NO_OPENGL
 
 
+@pytest.mark.programs
 def test_a_robot_of_a_mesh_is_drawn_from_a_relative_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -19,6 +19,7 @@ from checker.rule_testing import NAME, write_example
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.profiles import profile
 from checker.settings import Settings
+from tests.effort import examples
 
 RULES = [rule for rule in all_rules() if rule.group in ("SDF", "KIN")]
 BASE = "base_link"
@@ -245,14 +246,14 @@ def reported(robot: Robot) -> list[str]:
     return crashed + [finding.rule for finding in outcome.findings]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=examples(40))
 @given(robots())
 def test_a_sound_robot_is_clean(robot: Robot) -> None:
     assert reported(robot) == []
 
 
 @pytest.mark.parametrize("name", MUTATIONS)
-@settings(deadline=None, max_examples=12)
+@settings(max_examples=examples(12))
 @given(data=st.data())
 def test_a_broken_robot_gets_its_finding(name: str, data: st.DataObject) -> None:
     rule, mutate, also = MUTATIONS[name]

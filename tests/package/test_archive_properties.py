@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from checker.base.errors import UnreadableInput
 from checker.package.archives.archive import unpack_archive
+from tests.effort import examples
 
 PART = st.one_of(
     st.sampled_from(["..", ".", "", "a", "A", "b", "model.sdf", "C:", "\\", "~", "...", " "]),
@@ -46,7 +47,7 @@ def is_plain(name: str) -> bool:
     return ".." not in name.split("/") and not name.startswith("/")
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(ENTRIES)
 def test_zip_stays_inside(entries: list[tuple[str, bytes]]) -> None:
     with tempfile.TemporaryDirectory() as place, warnings.catch_warnings():
@@ -66,7 +67,7 @@ def test_zip_stays_inside(entries: list[tuple[str, bytes]]) -> None:
         )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(ENTRIES, st.sampled_from([tarfile.GNU_FORMAT, tarfile.PAX_FORMAT]))
 def test_tar_stays_inside(entries: list[tuple[str, bytes]], form: int) -> None:
     with tempfile.TemporaryDirectory() as place:
@@ -85,7 +86,7 @@ def test_tar_stays_inside(entries: list[tuple[str, bytes]], form: int) -> None:
         assert len(written) == len(entries)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(st.data(), st.sampled_from(["zip", "tar.gz"]))
 def test_damaged_bytes_never_raise_anything_else(data: st.DataObject, suffix: str) -> None:
     with tempfile.TemporaryDirectory() as place:

@@ -42,9 +42,11 @@ def read(text: str) -> None:
 def test_four_times_the_text_costs_no_square(name: str) -> None:
     text, size = GROWING[name]
     small, large = text(size), text(4 * size)
-    cost = min(seconds(lambda: read(small)) for _ in range(2))
-    # Linear growth gives 4, quadratic 16; the constant is for clocks that tick coarsely.
-    assert min(seconds(lambda: read(large)) for _ in range(2)) < 9 * cost + 0.1
+    # Linear growth gives 4, quadratic 16; the constant is for clocks that tick coarsely. A square
+    # stays one however often it is tried.
+    assert any(
+        seconds(lambda: read(large)) < 9 * seconds(lambda: read(small)) + 0.1 for _ in range(3)
+    )
 
 
 @pytest.mark.parametrize("closed", [True, False])

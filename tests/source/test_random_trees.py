@@ -9,6 +9,7 @@ from checker.source.text import SourceText, Span
 from checker.source.text_file import decode
 from checker.source.xml import Element, XmlDocument
 from checker.source.xml_fragments import parse_fragments, unwrapped
+from tests.effort import examples
 from tests.source.documents import document
 from tests.source.trees import Page, Written, pages
 
@@ -20,7 +21,7 @@ def encoded(text: str, encoding: str) -> bytes:
     return (mark + text).encode(encoding)
 
 
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 @given(pages(), ENCODINGS)
 def test_every_place_of_a_file(page: Page, encoding: str) -> None:
     text = decode(encoded(page.text, encoding))
@@ -28,7 +29,7 @@ def test_every_place_of_a_file(page: Page, encoding: str) -> None:
     compare(document(text).elements, page.elements)
 
 
-@settings(max_examples=100)
+@settings(max_examples=examples(100))
 @given(st.lists(pages(), max_size=3))
 def test_every_place_of_fragments(parts: list[Page]) -> None:
     parts = [part for part in parts if not part.text.startswith("<?xml")]

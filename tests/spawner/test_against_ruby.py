@@ -11,6 +11,7 @@ from checker.expand.spawner.reader import (
     SPAWNER_ARGUMENTS,
     Unread,
 )
+from tests.effort import examples
 
 from .snippets import SNIPPETS
 
@@ -73,7 +74,7 @@ def test_habit(habit, emit, real_snippets):
 
 # Each example is a batch of values for one Ruby process; shrinking it would start hundreds.
 in_batches = settings(
-    max_examples=5,
+    max_examples=examples(5),
     deadline=None,
     suppress_health_check=list(HealthCheck),
     phases=[Phase.generate],

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from checker.expand.spawner.emitted import EmittedText
 from checker.expand.spawner.reader import Unread
-from tests.effort import limited
+from tests.effort import examples, limited
 
 from .snippets import SNIPPETS
 
@@ -244,7 +244,7 @@ _TOKENS = re.compile(r"\w+|\s+|[^\w\s]")
 _ALL_TOKENS = sorted({token for text in SNIPPETS.values() for token in _TOKENS.findall(text)})
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(300), suppress_health_check=list(HealthCheck))
 @given(
     st.sampled_from(sorted(SNIPPETS)),
     st.lists(

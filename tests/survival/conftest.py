@@ -21,7 +21,7 @@ import sqlalchemy as sa
 from checker.base.sandbox.task import end_with_parent
 from checker.service.jobs.durable.database import open_database
 from checker.service.jobs.durable.tables import CHECKS
-from tests.postgres import fresh_database
+from tests.postgres import DATABASES, fresh_database
 from tests.serving.conftest import (
     SECONDS,
     Serve,
@@ -94,7 +94,7 @@ class Home:
         return found
 
 
-@pytest.fixture(params=["sqlite", "postgresql"])
+@pytest.fixture(params=DATABASES)
 def home(request: pytest.FixtureRequest, tmp_path: Path, serve: Serve) -> Iterator[Home]:  # noqa: F811
     if request.param == "sqlite":
         database = f"sqlite:///{tmp_path}/jobs.sqlite"

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
+from tests.effort import examples
 from tests.model.robots import sdf
 from tests.trial.weighing import Scales
 
@@ -109,7 +110,7 @@ def trees(draw: st.DrawFn) -> str:
     return "".join(content)
 
 
-@settings(max_examples=60, deadline=None, phases=(Phase.explicit, Phase.generate))
+@settings(max_examples=examples(60), phases=(Phase.explicit, Phase.generate))
 @given(trees(), st.integers(0, 1000))
 def test_random_trees(content: str, seed: int) -> None:
     assert_agreement(sdf(content), seed)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from checker.physics.trial.mjcf.scene import Scene, build_scene
 from checker.physics.trial.trial import Repair
+from tests.effort import examples
 from tests.model.robots import sdf, urdf
 from tests.trial.scenes import BALL, box, collision, compiled, joint, link, scene_of
 
@@ -75,7 +76,7 @@ def test_a_zero_moment_beside_links_that_have_some_is_no_fault() -> None:
 
 
 @given(st.tuples(*[st.floats(-3.14, 3.14)] * 3), st.floats(1e-6, 1e6))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50))
 def test_rods_are_taken_however_they_are_turned(
     turn: tuple[float, float, float], scale: float
 ) -> None:
@@ -129,7 +130,7 @@ def test_moments_that_no_body_can_have(stated: tuple[float, ...], taken: tuple[f
 
 
 @given(st.tuples(*[st.floats(-3.14, 3.14)] * 3), st.floats(1e-6, 1e3), st.floats(0.01, 1))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50))
 def test_a_plate_is_sound_however_it_is_turned(
     turn: tuple[float, float, float], scale: float, share: float
 ) -> None:

@@ -11,6 +11,7 @@ from checker.expand.xacro.included_texts import Gathered
 from checker.model.components import Link
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument, parse_xml
+from tests.effort import examples
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"
@@ -103,7 +104,7 @@ _xml = st.recursive(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 @given(_xml)
 def test_what_xacro_leaves_alone_keeps_every_place(text: str) -> None:
     source = SourceText("a.xacro", text)

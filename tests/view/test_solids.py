@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from checker.physics.views.rays import Grid, Steps
 from checker.physics.views.solids import SOLIDS, entered
 from checker.physics.views.triangles import met
+from tests.effort import examples
 from tests.mesh.files import box
 
 GRID = Grid(Steps(-1.0, 1.0, 21), Steps(-0.8, 0.8, 17), 0.0, 100.0)
@@ -43,7 +44,7 @@ def outside(kind: str, points: np.ndarray) -> np.ndarray:
     return np.linalg.norm(points / np.array(sizes), axis=1) - 1.0
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(80))
 @given(st.sampled_from(sorted(SOLIDS)), st.floats(0.8, 3), st.floats(-1, 1), st.floats(-1, 1))
 def test_a_ray_enters_where_the_surface_is_and_not_before(
     kind: str, x: float, y: float, z: float

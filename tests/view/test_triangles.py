@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from checker.physics.views.rays import Grid, Steps
 from checker.physics.views.triangles import ball_around, in_view, met
+from tests.effort import examples
 from tests.mesh.files import box
 
 GRIDS = [
@@ -41,7 +42,7 @@ def plainly(corners: np.ndarray, grid: Grid) -> tuple[np.ndarray, np.ndarray]:
     return first, cut
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 @given(st.integers(0, 2**32 - 1), st.sampled_from(GRIDS), st.sampled_from([0.02, 0.3, 3.0]))
 def test_same_as_every_triangle_with_every_ray(seed: int, grid: Grid, size: float) -> None:
     random = np.random.default_rng(seed)
@@ -71,7 +72,7 @@ def test_corners_that_are_nowhere_do_no_harm(value: float) -> None:
     assert met(np.empty((0, 3, 3)), GRIDS[0])[0].shape == (288,)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300))
 @given(
     st.integers(0, 2**32 - 1),
     st.sampled_from(GRIDS),

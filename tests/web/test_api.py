@@ -20,6 +20,7 @@ from checker.service.store.store import SUMMARY, Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.files import file_response
+from tests.effort import examples
 from tests.web.board import DONE, ID, QUEUED, ROVER, BoardJobs, keep_result
 from tests.web.server import eventually, served
 
@@ -164,7 +165,7 @@ TOLD = BoardJobs()
 LISTENER = TestClient(create_app(TOLD, Store(Path("nowhere")), Config()), "http://localhost")
 
 
-@settings(max_examples=30)
+@settings(max_examples=examples(30))
 @given(st.text(max_size=300), st.text(max_size=300))
 def test_words_of_any_kind_are_told(name: str, words: str) -> None:
     TOLD.states[ID] = replace(QUEUED, words=words, packages=({**ROVER, "name": name},))
@@ -277,6 +278,7 @@ def test_who_comes_back_after_the_end_is_told_to_stop(store: Store) -> None:
     assert client.get(f"/api/checks/{ID}/events?after=4").status_code == 204
 
 
+@pytest.mark.service
 def test_streams_are_bounded_and_end_with_their_readers(store: Store) -> None:
     jobs = BoardJobs({ID: QUEUED})
     app = create_app(jobs, store, Config(streams=4))

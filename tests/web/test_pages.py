@@ -25,6 +25,7 @@ from checker.service.web.first_findings import SHOWN, glance
 from checker.service.web.progress import headline, package_lines, steps_of
 from checker.settings import Settings
 from tests.conftest import SAMPLES
+from tests.effort import examples
 from tests.report.any_report import HOSTILE, PACKAGES
 from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, BoardJobs, Client, keep_result
 
@@ -287,7 +288,7 @@ def hostile_board(tmp_path_factory: pytest.TempPathFactory) -> tuple[BoardJobs, 
     return jobs, store, client_of(jobs, store)
 
 
-@settings(max_examples=30)
+@settings(max_examples=examples(30))
 @given(st.lists(PACKAGES, min_size=1, max_size=3), st.sampled_from(HOSTILE))
 def test_what_users_name_things_never_becomes_part_of_the_page(
     hostile_board: tuple[BoardJobs, Store, Client], packages: list[PackageReport], hostile: str

@@ -159,6 +159,7 @@ def answer_to(store: Store, config: Config, talk: Talk) -> tuple[int, dict[str, 
         return int(head.split()[1]), json.loads(body)
 
 
+@pytest.mark.service
 def test_a_slow_upload_is_refused(store: Store) -> None:
     def talk(connection: socket.socket) -> None:
         connection.sendall(request_head(100_000) + form("a.zip", GOOD)[:80])
@@ -168,6 +169,7 @@ def test_a_slow_upload_is_refused(store: Store) -> None:
     assert "too slow" in words["error"]
 
 
+@pytest.mark.service
 def test_an_upload_that_trickles_is_refused(store: Store) -> None:
     def talk(connection: socket.socket) -> None:
         connection.sendall(request_head(100_000))
@@ -185,6 +187,7 @@ def test_an_upload_that_trickles_is_refused(store: Store) -> None:
     assert status == 408
 
 
+@pytest.mark.service
 def test_an_upload_that_is_announced_too_large_is_refused_before_it_comes(store: Store) -> None:
     def talk(connection: socket.socket) -> None:
         connection.sendall(request_head(200_000_000))
@@ -194,6 +197,7 @@ def test_an_upload_that_is_announced_too_large_is_refused_before_it_comes(store:
     assert "100 MB" in words["error"]
 
 
+@pytest.mark.service
 def test_a_client_that_sends_all_the_same_gets_to_know_why_not(store: Store) -> None:
     def talk(connection: socket.socket) -> None:
         connection.sendall(request_head(20_000_000))
@@ -204,6 +208,7 @@ def test_a_client_that_sends_all_the_same_gets_to_know_why_not(store: Store) -> 
     assert status == 413
 
 
+@pytest.mark.service
 def test_an_upload_of_unknown_length_is_cut_at_the_limit(store: Store) -> None:
     config = Config(upload_limit=LIMIT)
     whole = form("a.sdf", b"<sdf>".ljust(LIMIT + 1))
@@ -217,6 +222,7 @@ def test_an_upload_of_unknown_length_is_cut_at_the_limit(store: Store) -> None:
         assert eventually(lambda: not left_behind(store))
 
 
+@pytest.mark.service
 @pytest.mark.parametrize("sent", [0, 60, 200, 40_000, 3 * AT_ONCE])
 def test_an_upload_that_is_cut_off_leaves_nothing(store: Store, sent: int) -> None:
     whole = form("a.sdf", b"<sdf>".ljust(4 * AT_ONCE))

@@ -23,11 +23,15 @@ from checker.service.store.store import SUMMARY, Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from tests.conftest import SAMPLES
+from tests.effort import examples
 from tests.web.board import BoardJobs
 
 HOST = {"Host": "localhost"}
 FEW = settings(
-    max_examples=40, derandomize=True, database=None, suppress_health_check=list(HealthCheck)
+    max_examples=examples(40),
+    derandomize=True,
+    database=None,
+    suppress_health_check=list(HealthCheck),
 )
 DESCRIPTION = schemathesis.openapi.from_asgi(
     "/api/openapi.json", create_app(BoardJobs(), Store(Path("nowhere")), Config()), headers=HOST

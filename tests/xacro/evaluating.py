@@ -16,6 +16,7 @@ from checker.expand.xacro.expression.builtins import FUNCTIONS
 from checker.expand.xacro.expression.evaluation import evaluate
 from checker.expand.xacro.symbols import global_symbols
 from checker.expand.xacro.yaml_values import read
+from tests.effort import slowness
 from tests.xacro import hostile_expressions as hostile
 
 MEMORY = 200_000_000
@@ -64,4 +65,5 @@ if __name__ == "__main__":
     before = measured("VmRSS")
     groups = (hostile.REFUSED, hostile.LIMITED, hostile.ERRORS)
     done = [[outcome(each) for each in group] for group in groups]
-    json.dump({"done": done, "grown": measured("VmHWM") - before}, sys.stdout)
+    grown = measured("VmHWM") - before
+    json.dump({"done": done, "grown": grown, "slowness": slowness()}, sys.stdout)

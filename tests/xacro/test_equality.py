@@ -12,6 +12,7 @@ from checker.expand.xacro.expression.bounds import RefusedExpression
 from checker.expand.xacro.expression.builtins import FUNCTIONS
 from checker.expand.xacro.expression.evaluation import evaluate
 from checker.expand.xacro.symbols import global_symbols
+from tests.effort import examples
 from tests.xacro.grammar import EXPRESSIONS
 from tests.xacro.oracle import native_outcome, shown
 
@@ -166,7 +167,7 @@ def outcome(expression: str) -> str:
         return type(error).__name__
 
 
-@settings(max_examples=800, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(800), suppress_health_check=list(HealthCheck))
 @given(EXPRESSIONS)
 def test_generated_expressions(expression: str) -> None:
     try:

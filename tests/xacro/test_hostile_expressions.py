@@ -56,6 +56,6 @@ def test_what_python_calls_wrong_is_an_error(said: Any) -> None:
 
 def test_each_ends_soon_and_needs_little_memory(said: Any) -> None:
     slowest = max(seconds for group in said["done"] for *_, seconds in group)
-    assert slowest < SECONDS
+    assert slowest < SECONDS * said["slowness"]
     assert said["grown"] < MEMORY
     assert sum(map(len, GROUPS)) > 70

@@ -18,6 +18,7 @@ def differences(folder: Path) -> tuple[int, list[object]]:
     return sum(result["number"] for _, result in found), others
 
 
+@pytest.mark.corpus
 @pytest.mark.parametrize("name", [CORPUS, REVIEWS, MODERN])
 def test_of_real_packages(name: str) -> None:
     number, others = differences(needed_folder(name))

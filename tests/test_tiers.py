@@ -1,0 +1,52 @@
+"""Tests that reach further than their tier fail, and cases in a loop are named."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+
+import pytest
+
+from tests.each import of_each
+from tests.effort import limited, seconds
+from tests.tiers import BY_PLACE, TESTS
+
+
+def test_places_of_tiers_exist() -> None:
+    assert not [place for place in BY_PLACE if not (TESTS / place).exists()]
+
+
+def test_the_first_tier_opens_no_port() -> None:
+    with pytest.raises(pytest.fail.Exception, match="needs the mark `service`"):
+        socket.create_server(("127.0.0.1", 0))
+
+
+def test_the_first_tier_starts_no_foreign_program() -> None:
+    with pytest.raises(pytest.fail.Exception, match="needs the mark `programs`"):
+        subprocess.run(["git", "version"], check=False)
+
+
+@pytest.mark.service
+def test_other_tiers_may() -> None:
+    socket.create_server(("127.0.0.1", 0)).close()
+
+
+def test_each_value_that_fails_is_named() -> None:
+    @of_each("number", range(5))
+    def is_small(number: int, most: int) -> None:
+        assert number < most
+
+    is_small(most=5)
+    with pytest.raises(AssertionError, match=r"\A3: .*\n4: "):
+        is_small(most=3)
+
+
+def test_work_is_limited() -> None:
+    def work() -> None:
+        sum(range(3_000_000))
+
+    most = seconds(work)
+    with limited(20 * most):
+        work()
+    with pytest.raises(AssertionError, match="of work"), limited(most / 1000):
+        work()
