@@ -162,7 +162,7 @@ def names(message: str, text: str) -> bool:
         ("scan resolution is 0.1, expected 1", "0.1", True),
         ("<alwaysOn> in <sensor> is unknown", "<alwaysOn>", True),
         ("model 'arm' is nested in model 'rover'", '<model name="arm">', True),
-        ("lists 2 × camera, the model has 1", "2x camera, `camera` plugin", True),
+        ("lists 2 × camera, but the model has 1", "2x camera, `camera` plugin", True),
         ("mass is 5 kg", "<pose>", False),
         ("joint 'a' has child 'b', which does not exist", "c", False),
         ("scan resolution is 0.1, expected 1", "", False),

@@ -129,7 +129,7 @@ def test_odd_values_stop_no_rule(rule: Rule, tmp_path: Path) -> None:
         ("ROS012", -2, {"published_elsewhere": ""}, "(camera_optical_frame)"),
         ("SEN010", 6, {"rgbd_pixels": 100}, "expected at most 100 pixels"),
         ("BRD002", 0, {"depth": -0.05}, "inside link"),
-        ("SEN024", -4, {"angle": 1.6}, "looks the same way"),
+        ("SEN024", -4, {"angle": 1.6}, "looks in the same direction"),
         ("SEN024", -4, {"angle": 1.5}, ""),
         ("PKG013", 1, {"limit_megabytes": 29.5}, "5.png"),
     ],

@@ -1,7 +1,7 @@
 """A robot without a battery.
 
 In the challenge every robot runs out of power after some time; a robot without a battery never
-stops, and its package is not accepted. A battery within a comment is none.
+stops, and its package is not accepted. A battery inside a comment does not count.
 
 Fix: add the LinearBatteryPlugin to what the spawner emits, as the last of the plugins that make
 the robot move.
@@ -26,10 +26,16 @@ def check(package: Package, robot: Robot, spawned: SpawnedXml) -> Findings:
         return
     hidden = next(commented_out((spawned.document, robot.document), BATTERY_CLASS), None)
     if hidden is not None:
-        yield finding(hidden, f"{BATTERY_CLASS} stands within a comment: the robot has no battery")
+        yield finding(
+            hidden,
+            f"{BATTERY_CLASS} is inside a comment, so the robot has no battery: remove the "
+            "comment marks",
+        )
         return
     place = spawned.spawns[0] if spawned.spawns else robot
-    yield finding(place, f"the robot has no battery: expected a {BATTERY_CLASS}")
+    yield finding(
+        place, f"the robot has no battery: add a {BATTERY_CLASS} to what the spawner emits"
+    )
 
 
 _PLUGIN = """<plugin filename="libignition-gazebo-linearbatteryplugin-system.so"

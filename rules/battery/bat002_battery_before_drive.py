@@ -1,10 +1,10 @@
-"""The battery stands before the plugins that move the robot.
+"""The battery plugin comes before the plugins that move the robot.
 
-Plugins take their turns in the order in which they stand: a battery in front of the drives looks
-for commands to the joints before there are any, and may never begin to drain. Reviewers ask for it
-behind them.
+Gazebo runs plugins in the order in which they are listed. A battery plugin in front of the drive
+plugins looks for joint commands before there are any, and may never start to drain. Reviewers ask
+for the battery last.
 
-Fix: move the LinearBatteryPlugin behind the last drive, track or rotor plugin.
+Fix: move the LinearBatteryPlugin after the last drive, track or rotor plugin.
 Source: SubT maintainers ask for "the battery plugin last" in their reviews.
 """
 
@@ -13,12 +13,12 @@ from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 NOTED = 6
-"""Plugins that a finding names; a robot has up to that many rotors."""
+"""Greatest number of plugins that a finding lists; a robot has up to that many rotors."""
 
 
 @rule("BAT002", "battery-before-drive", Severity.WARNING)
 def check(robot: Robot) -> Findings:
-    """Report batteries with a plugin of a wheel, track or rotor behind them in the same file."""
+    """Report batteries that a plugin of a wheel, track or rotor follows in the same file."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     for index, battery in enumerate(robot.plugins):
@@ -33,8 +33,8 @@ def check(robot: Robot) -> Findings:
         if behind:
             yield finding(
                 battery,
-                f"the battery stands before {behind[0].class_name}: expected it behind all "
-                "plugins that move the robot",
+                f"the battery comes before {behind[0].class_name}: move it after all plugins that "
+                "move the robot",
                 related=[(each, f"{each.class_name} comes later") for each in behind[:NOTED]],
             )
 

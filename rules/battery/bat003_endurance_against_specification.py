@@ -1,12 +1,12 @@
 """The battery lasts longer or shorter than specifications.md says.
 
-Teams plan by the sheet. A `power_load` copied from another robot gives the endurance of that one.
-How long the model lasts is worked out from the plugin's charge, voltages and load; among accepted
-packages the result is within 17 % of the sheet.
+Teams plan with the specification sheet. A `power_load` copied from another robot gives the
+endurance of that robot. The rule computes how long the model lasts from the plugin's charge,
+voltages and load; for accepted packages the result is within 17 % of the sheet.
 
 Fix: choose `power_load` so that the battery lasts as long as the sheet says, or correct the sheet.
-Source: endurances that SubT reviewers accepted, and the figures of the battery plugins with them
-(`subt_standards.json`).
+Source: endurances that SubT reviewers accepted, and the parameters of the battery plugins in the
+same packages (`subt_standards.json`).
 """
 
 from checker.model.battery import RELEASE, batteries
@@ -24,8 +24,8 @@ def check(
     """Compare the endurance of the sheet with how long the model's battery lasts.
 
     Options:
-        tolerance: Share of the sheet's endurance by which the model's may be off, beside the
-            rounding of the sheet's figure; more is reported.
+        tolerance: Share of the sheet's endurance by which the model's may differ, in addition to
+            the rounding of the sheet's figure; more is reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
@@ -33,7 +33,7 @@ def check(
     if stated is None or stated.value <= 0.0:
         return
     if context.release != RELEASE:
-        yield unchecked(f"how fast a battery drains is known of Gazebo {RELEASE.title()} alone")
+        yield unchecked(f"how fast a battery drains is known for Gazebo {RELEASE.title()} only")
         return
     for battery in batteries(robot):
         if battery.minutes is None:
@@ -42,8 +42,8 @@ def check(
         if abs(seconds - stated.value) > tolerance * stated.value + stated.resolution / 2:
             yield finding(
                 stated,
-                f"the sheet says {_minutes(stated.value)}, the battery of the model lasts about "
-                f"{_minutes(seconds)}",
+                f"the specification sheet says {_minutes(stated.value)}, but the model's battery "
+                f"lasts about {_minutes(seconds)}",
                 related=[(battery, "the load of the battery")],
             )
 

@@ -1,12 +1,12 @@
-"""A battery that nothing makes drain.
+"""A battery that never drains.
 
-A full battery lasts for ever unless the plugin is told when to begin: by `start_on_motion`, or by a
-`power_draining_topic` whose first message starts it. Gazebo Dome begins with the first command to a
-joint; tracks command none, so a tracked robot needs the topic.
+A full battery lasts forever unless the plugin is told when to start draining: by `start_on_motion`,
+or by a `power_draining_topic` whose first message starts it. Gazebo Dome starts with the first
+command to a joint. Tracks command no joint, so a tracked robot needs the topic.
 
 Fix: write `<start_on_motion>true</start_on_motion>`; for tracks, `<power_draining_topic>` with the
 command topic of each track.
-Source: SubT reviews of tracked robots; the parameters that Dome's battery plugin asks for
+Source: SubT reviews of tracked robots; the parameters that Dome's battery plugin reads
 (`subt_plugins.json`).
 """
 
@@ -17,7 +17,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("BAT004", "never-drains", Severity.WARNING)
 def check(robot: Robot) -> Findings:
-    """Report batteries that nothing starts, and those of tracks without a topic."""
+    """Report batteries that nothing starts, and batteries of tracked robots without a topic."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     moved = robot.locomotion
@@ -28,14 +28,14 @@ def check(robot: Robot) -> Findings:
         if on_tracks_alone:
             yield finding(
                 battery.plugin,
-                "LinearBatteryPlugin has no <power_draining_topic>: tracks command no joint, "
-                "so driving does not drain it",
+                "LinearBatteryPlugin has no <power_draining_topic>: tracks command no joint, so "
+                "driving does not start the draining; add the tracks' command topics",
             )
         elif not battery.starts_on_motion:
             yield finding(
                 battery.plugin,
-                "LinearBatteryPlugin has neither <start_on_motion> nor <power_draining_topic>: "
-                "nothing tells it to drain",
+                "LinearBatteryPlugin has neither <start_on_motion> nor <power_draining_topic>, so "
+                "it never drains: add <start_on_motion>true</start_on_motion>",
             )
 
 

@@ -1,11 +1,11 @@
-"""A battery that lasts long, and no measurement that proves it.
+"""A battery that lasts long, without a measurement that proves it.
 
-Above an hour on the ground and ten minutes in the air the organisers want to see the real robot do
-it: a video or a log of an endurance test, linked in the sheet. Until then they ask for the standard
-endurance.
+Above one hour on the ground and ten minutes in the air, the organisers ask for proof from the real
+robot: a video or a log of an endurance test, linked in the specification sheet. Without proof they
+ask for the standard endurance.
 
-Fix: link the video or the data in the section "Validation and Specification Links", or raise
-`power_load` until there is one.
+Fix: link the video or the data in the section "Validation and Specification Links". Without a
+measurement, raise `power_load`.
 Source: SubT Model Preparation Guide; reviews limit robots to one hour "until endurance validation
 data can be provided" (`subt_standards.json`).
 """
@@ -26,11 +26,10 @@ def check(
     air: float = 10.0,
     tolerance: float = 0.1,
 ) -> Findings:
-    """Report batteries that last beyond `ground` or `air` without links to measurements.
+    """Report batteries that last longer than `ground` or `air` without links to measurements.
 
     Options:
-        ground: Minutes that the battery of a robot that does not fly may last without links to
-            measurements.
+        ground: Minutes that the battery of a ground robot may last without links to measurements.
         air: Minutes that the battery of a robot with a MulticopterVelocityControl may last without
             links to measurements.
         tolerance: Share by which the minutes of the model may be above `ground` or `air` before
@@ -41,7 +40,7 @@ def check(
     if specification.validation_links:
         return
     if context.release != RELEASE:
-        yield unchecked(f"how fast a battery drains is known of Gazebo {RELEASE.title()} alone")
+        yield unchecked(f"how fast a battery drains is known for Gazebo {RELEASE.title()} only")
         return
     allowed = air if robot.locomotion.copters else ground
     known = [(each.minutes, each) for each in batteries(robot) if each.minutes is not None]
@@ -49,14 +48,14 @@ def check(
         if minutes > allowed * (1 + tolerance):
             yield finding(
                 _place(specification, battery),
-                f"the battery lasts about {minutes:.3g} minutes, more than {allowed:g}: expected "
-                "a link to a video or data that proves it",
+                f"the battery lasts about {minutes:.3g} minutes, more than {allowed:g}: link a "
+                "video or data that proves it in specifications.md",
                 related=[(battery, "the load of the battery")],
             )
 
 
 def _place(sheet: Specification, battery: Battery) -> HasSpan:
-    """Return where the sheet speaks of endurance, else the battery."""
+    """Return where the sheet states endurance, else the battery."""
     return sheet.endurance or sheet.section("endurance") or battery
 
 

@@ -1,8 +1,8 @@
-"""Breadcrumbs with other parameters than the challenge's robots have.
+"""Breadcrumbs whose parameters differ from those of the challenge's robots.
 
-Teams plan their network by the number in the sheet, and robots carry 6 or 12. Without
-`<disable_physics_time>` every dropped relay is simulated until the end, which slows the run down;
-without `<topic>` the plugin listens to a topic that no launch file bridges.
+Teams plan their network with the number in the specification sheet, and robots carry 6 or 12.
+Without `<disable_physics_time>` Gazebo simulates every dropped relay until the end, which slows the
+run down. Without `<topic>` the plugin listens to a topic that no launch file bridges.
 
 Fix: write `<topic>/model/#{_name}/breadcrumb/deploy</topic>`,
 `<disable_physics_time>3.0</disable_physics_time>` and the `<max_deployments>` that the sheet gives.
@@ -32,11 +32,11 @@ def check(
     *,
     counts: tuple[int, ...] = COUNTS,
 ) -> Findings:
-    """Look at what each Breadcrumbs plugin states, and compare their number with the sheet.
+    """Check the parameters of each Breadcrumbs plugin, and compare their number with the sheet.
 
     Options:
-        counts: Numbers of breadcrumbs that a robot may carry, those of all its plugins together;
-            any other number is reported.
+        counts: Numbers of breadcrumbs that a robot may carry, summed over all its plugins; any
+            other number is reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
@@ -54,7 +54,8 @@ def check(
         if item.count != total:
             yield finding(
                 item,
-                f"the sheet lists {item.count} breadcrumbs, the robot carries {total:g}",
+                f"the specification sheet lists {item.count} breadcrumbs, but the robot carries "
+                f"{total:g}",
                 related=[(number, "stated here") for number in numbers],
             )
 
@@ -62,7 +63,7 @@ def check(
 def _missing(plugin: Breadcrumbs, counts: str) -> Iterator[Finding]:
     """Report what a plugin does not state."""
     expected = {
-        "topic": (plugin.topic, "the topic that drops one"),
+        "topic": (plugin.topic, "the topic that drops a breadcrumb"),
         "max_deployments": (plugin.max_deployments, f"{counts}; without it there is no limit"),
         "disable_physics_time": (plugin.disable_physics_time, "3.0 (seconds)"),
     }

@@ -1,12 +1,13 @@
 """Breadcrumbs appear inside the robot or far from it.
 
-A relay that appears inside a body is pushed out by the contact, and the robot with it; one that
-appears far away may stand in a wall. The place is that of the relay's origin. Collisions count; of
-a mesh the convex hull does, which may reach beyond it, so a place in its outer layer passes.
+Contact forces push a relay that appears inside a body out again, and push the robot too. A relay
+that appears far away may be inside a wall. The place is the relay's origin. The rule looks at
+collisions. For a mesh it uses the convex hull, which may reach beyond the mesh, so a place in the
+hull's outer layer passes.
 
 Fix: choose a `<pose>` just behind the robot.
-Source: SubT reviews of breadcrumbs, which ask for a place outside of the robot and 0.3 m behind it
-at most (`subt_standards.json`).
+Source: SubT reviews of breadcrumbs, which ask for a place outside the robot and at most 0.3 m
+behind it (`subt_standards.json`).
 """
 
 import math
@@ -37,11 +38,11 @@ def check(
     """Compare where relays appear with the robot's collisions.
 
     Options:
-        farthest: Metres, level, from the box around the robot's collisions to where a relay
-            appears; more is reported.
-        depth: Metres inside a collision from which on a relay is reported; with 0 one on the
-            surface is as well.
-        mesh_depth: Metres inside the convex hull of a mesh from which on a relay is reported.
+        farthest: Greatest horizontal distance, metres, from the box around the robot's collisions
+            to where a relay appears; more is reported.
+        depth: Metres inside a collision from which a relay is reported; with 0, a relay on the
+            surface is reported too.
+        mesh_depth: Metres inside the convex hull of a mesh from which a relay is reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
@@ -69,8 +70,8 @@ def check(
             yield finding(
                 plugin.drop,
                 f"breadcrumbs appear at {_words(point)}, inside link {hit.link.name.value!r}: "
-                f"expected a place outside of the robot, {farthest:g} m behind it at most",
-                related=[(hit.shape, "the collision that they appear in")],
+                f"expected a place outside the robot, at most {farthest:g} m behind it",
+                related=[(hit.shape, "the collision in which they appear")],
             )
         elif robot.unseen_meshes:
             yield unchecked(robot.unseen_meshes[0])
@@ -96,7 +97,7 @@ def _along(side: Sequence[float], point: Sequence[float]) -> float:
 
 
 def _gap(box: Box | None, point: Vector) -> float | None:
-    """Return the level distance of a point to a box, metres; None without a box."""
+    """Return the horizontal distance of a point to a box, metres; None without a box."""
     if box is None:
         return None
     x, y = (max(box.low[i] - point[i], point[i] - box.high[i], 0.0) for i in range(2))

@@ -1,8 +1,8 @@
-"""Breadcrumbs that nothing on ROS's side can drop or count.
+"""Breadcrumbs that ROS nodes cannot drop or count.
 
-A team drops a relay by `breadcrumb/deploy` and reads from `breadcrumb/remaining` how many are left.
-Launch files bridge both only when the spawner passes `breadcrumbs:=1`; without the bridges the
-relays stay on board. Where only the count is missing, this is a warning.
+A team drops a relay with `breadcrumb/deploy` and reads from `breadcrumb/remaining` how many are
+left. Launch files bridge both only when the spawner passes `breadcrumbs:=1`; without the bridges no
+relay is ever dropped. If only the count is missing, this is a warning.
 
 Fix: bridge the plugin's topic and its `/remaining` in vehicle_topics.launch, or include
 `breadcrumbs.launch` of `subt_ros`, and pass `breadcrumbs:=1` in the spawner.
@@ -26,7 +26,7 @@ _WORD = "breadcrumb"
 
 @rule("BRD003", "breadcrumbs-not-bridged", Severity.ERROR)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
-    """Look for bridges of each plugin's topics, and for a count beside each bridge that drops."""
+    """Look for bridges of each plugin's topics, and for a count next to each bridge that drops."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     bridged = any(_drops(each) for each in launch.bridges) or _is_included(launch)
@@ -47,17 +47,19 @@ def _is_included(launch: LaunchGraph) -> bool:
 
 
 def _unbridged(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
-    """Say why no bridge commands a plugin; one that is switched off counts as none."""
+    """Report why no bridge commands a plugin; a bridge that is switched off does not count."""
     off = next((each for each in launch.dormant_bridges if _drops(each)), None)
     if off is None:
         yield finding(
-            plugin, "Breadcrumbs is not bridged: expected bridges of deploy and deploy/remaining"
+            plugin,
+            "the topics of Breadcrumbs are not bridged: expected bridges for deploy and "
+            "deploy/remaining",
         )
     else:
         yield finding(
             plugin,
-            "the bridges of Breadcrumbs are switched off: expected breadcrumbs:=1 in the command "
-            "that starts them",
+            "the bridges of Breadcrumbs are switched off: pass breadcrumbs:=1 in the command that "
+            "starts them",
             related=[(off, "the bridge that is switched off")],
         )
 
@@ -70,8 +72,8 @@ def _uncounted(bridges: Iterable[Bridge]) -> Iterator[Finding]:
         if _drops(bridge) and bridge.ign_topic.removesuffix(DEPLOY) not in counting:
             yield finding(
                 bridge,
-                "breadcrumb/deploy is bridged and breadcrumb/deploy/remaining is not: expected "
-                "both, or nobody learns how many are left",
+                "breadcrumb/deploy is bridged, but breadcrumb/deploy/remaining is not: bridge "
+                "both, so that teams can read how many are left",
                 severity=Severity.WARNING,
                 key="remaining is not bridged",
             )

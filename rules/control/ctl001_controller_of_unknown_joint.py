@@ -1,9 +1,9 @@
 """A controller of a joint that does not exist.
 
-The controller manager refuses such a controller, and the spawner ends with an error: the joint
-stays loose. Names are compared letter by letter. A fixed joint cannot be controlled either.
+The controller manager refuses such a controller, the spawner ends with an error, and the joint
+stays loose. Names must match exactly. A fixed joint cannot be controlled either.
 
-Fix: write the joint as the URDF file spells it.
+Fix: write the joint's name as in the URDF file.
 Source: ros_control, `hardware_interface::ResourceManager::getHandle`: a joint that no transmission
 has registered is not found.
 """
@@ -36,8 +36,8 @@ def check(control: ControlSystem) -> Findings:
             elif not control.moves(joint.value):
                 yield finding(
                     joint,
-                    f"{_who(controller)} controls joint {joint.value!r}, "
-                    f"which is {known.type.value}, expected one that a motor moves",
+                    f"{_who(controller)} controls joint {joint.value!r}, which is "
+                    f"{known.type.value}: expected a joint that a motor can move",
                     severity=_severity(controller),
                 )
 
@@ -47,7 +47,7 @@ def _who(controller: Controller) -> str:
 
 
 def _severity(controller: Controller) -> Severity | None:
-    """Return what is no error: a file that nobody loads may be of another robot."""
+    """Return the severity; a file that no launch file loads may belong to another robot."""
     return None if controller.loaded_by is not None else Severity.WARNING
 
 

@@ -1,11 +1,11 @@
 """A controller that is spawned but not configured, or configured and never spawned.
 
-The spawner of a controller without configuration ends with an error, and its joint stays loose.
-One that is configured and never spawned does nothing: the joint has no controller while the file
-looks as if it had.
+For a controller without configuration the spawner ends with an error, and the joint stays loose. A
+controller that is configured but never spawned does nothing: the joint has no controller although
+the file suggests one.
 
-Fix: name the controller alike in the YAML file and in the spawner's args, state its `type`, and
-load the file before the spawner starts.
+Fix: use the same name for the controller in the YAML file and in the spawner's args, state its
+`type`, and load the file before the spawner starts.
 Source: ros_control, `controller_manager::ControllerManager::loadController`: the type is read from
 `<namespace>/<controller>/type`.
 """
@@ -17,7 +17,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("CTL002", "controller-not-configured-or-spawned", Severity.ERROR)
 def check(control: ControlSystem) -> Findings:
-    """Report controllers that stand either in the YAML files or in the spawners' args alone."""
+    """Report controllers that are only in the YAML files or only in the spawners' args."""
     for fault in control.faults:
         yield finding(fault, fault.message)
     yield from _unconfigured(control)
@@ -26,7 +26,7 @@ def check(control: ControlSystem) -> Findings:
 
 
 def _unconfigured(control: ControlSystem) -> Findings:
-    """Report spawned controllers; those configured in another namespace are another rule's."""
+    """Report spawned controllers; another rule reports those configured in another namespace."""
     missing = [each for each in control.spawned if each.name not in control.namesakes]
     if not missing or any(fault.hides for fault in control.faults):
         return
@@ -39,16 +39,16 @@ def _unconfigured(control: ControlSystem) -> Findings:
         found, near = lying.get(each.name), meant.get(each.name)
         hint = f"; did you mean {near.name!r}?" if near is not None else ""
         if found is not None:
-            hint = f"; {found.span.source.file} does, and no launch file loads that"
+            hint = f"; {found.span.source.file} configures it, but no launch file loads that file"
         yield finding(
             each,
-            f"controller {each.name!r} is spawned and no file that is loaded configures it{hint}",
-            related=[(near, f"{near.name!r} is configured")] if near is not None else (),
+            f"controller {each.name!r} is spawned, but no loaded file configures it{hint}",
+            related=[(near, f"{near.name!r} is configured here")] if near is not None else (),
         )
 
 
 def _misspelt(control: ControlSystem) -> dict[str, Controller]:
-    """Return the controllers that are meant by names that are spawned and not configured."""
+    """Return the controllers meant by names that are spawned but not configured."""
     names = Suggestions(control.namesakes)
     spawned = {each.name for each in control.spawned}
     near = {name: names.near(name) for name in sorted(spawned - control.namesakes.keys())}
@@ -78,13 +78,13 @@ def _never_spawned(control: ControlSystem) -> Findings:
     for each in idle:
         yield finding(
             each,
-            f"controller {each.name!r} is configured and no launch file spawns it",
+            f"controller {each.name!r} is configured, but no launch file spawns it",
             severity=Severity.WARNING,
         )
 
 
 def _is_one(controller: Controller) -> bool:
-    """Whether the mapping is a controller without doubt: other things have a type, too."""
+    """Whether the mapping is certainly a controller: other things have a type, too."""
     return "controller" in controller.family
 
 

@@ -1,11 +1,11 @@
-"""A controller of another interface than the transmission offers.
+"""A controller that needs another interface than the transmission offers.
 
-Controllers of `effort_controllers` ask for the EffortJointInterface of their joints, and so on.
-Where the transmission offers another one, or no transmission offers any, the controller manager
-does not find the joint and the spawner ends with an error.
+Controllers of `effort_controllers` need the EffortJointInterface of their joints, and so on for the
+other packages. If the transmission offers another interface, or no transmission offers one, the
+controller manager does not find the joint and the spawner ends with an error.
 
 Fix: state the interface that the controller needs in the transmission's `<hardwareInterface>`, or
-take the controller from the package of that interface.
+use the controller from the package for that interface.
 Source: ros_control, `controller_interface::Controller<T>::initRequest`; ros_controllers;
 gazebo_ros_control, `DefaultRobotHWSim::initSim`.
 """
@@ -21,7 +21,7 @@ INTERFACES: Mapping[str, str] = {
     "velocity_controllers": "VelocityJointInterface",
     "diff_drive_controller": "VelocityJointInterface",
 }
-"""What the controllers of a package ask for."""
+"""The interface that the controllers of a package need."""
 
 
 @rule("CTL003", "controller-of-another-interface", Severity.ERROR)
@@ -43,15 +43,15 @@ def _mismatches(control: ControlSystem, controller: Controller) -> Findings:
         if offered is None and control.moves(joint.value):
             yield finding(
                 joint,
-                f"controller {controller.name!r} of type {controller.type.value} needs {needed} of "
-                f"joint {joint.value!r}, which no transmission offers",
+                f"controller {controller.name!r} of type {controller.type.value} needs {needed} "
+                f"for joint {joint.value!r}, but no transmission offers it",
             )
         if offered is None or offered.value == needed:
             continue
         yield finding(
             controller.type,
-            f"controller {controller.name!r} of type {controller.type.value} needs {needed} of "
-            f"joint {joint.value!r}, whose transmission offers {offered.value}",
+            f"controller {controller.name!r} of type {controller.type.value} needs {needed} for "
+            f"joint {joint.value!r}, but its transmission offers {offered.value}",
             key=f"{controller.full_name} {needed}",
             related=[(offered, f"the interface of joint {joint.value!r}")],
         )

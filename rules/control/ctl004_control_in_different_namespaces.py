@@ -1,9 +1,9 @@
-"""Control whose parts stand in different namespaces, or that publishes no joint states.
+"""Parts of the control are in different namespaces, or none publishes joint states.
 
-Gazebo's plugin runs the controller manager in its own namespace, and reads the controllers'
-parameters there. A spawner in another namespace waits for a manager that never comes; parameters
-in another one are not found. Without a joint_state_controller no node learns where the joints are:
-RViz shows no transforms of the moving links.
+Gazebo's plugin runs the controller manager in its own namespace and reads the controllers'
+parameters there. A spawner in another namespace waits forever for its manager, and parameters in
+another namespace are not found. Without a joint_state_controller no node receives the joint
+positions: RViz shows no transforms of the moving links.
 
 Fix: use one namespace in the YAML file, in `<robotNamespace>` and in the spawner's `ns`, and spawn
 a controller of type `joint_state_controller/JointStateController`.
@@ -16,7 +16,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("CTL004", "control-in-different-namespaces", Severity.WARNING)
 def check(control: ControlSystem) -> Findings:
-    """Report spawners, parameters and plugins whose namespaces differ, and untold joint states."""
+    """Report spawners, parameters and plugins whose namespaces differ, and missing joint states."""
     yield from _parameters_elsewhere(control)
     if control.unread_robot:
         yield unchecked(control.unread_robot)
@@ -32,15 +32,15 @@ def _parameters_elsewhere(control: ControlSystem) -> Findings:
             continue
         yield finding(
             each,
-            f"controllers are started in namespace {each.namespace!r}, and their parameters are "
-            f"loaded in {configured.namespace!r}",
+            f"controllers are started in namespace {each.namespace!r}, but their parameters are "
+            f"loaded in {configured.namespace!r}: use one namespace",
             key=f"{each.namespace} {configured.namespace}",
             related=[(configured, f"loaded in namespace {configured.namespace!r}")],
         )
 
 
 def _manager_elsewhere(control: ControlSystem) -> Findings:
-    """Compare with plugins that state their namespace; of others the spawned model decides."""
+    """Compare with plugins that state their namespace; the spawned model decides for others."""
     stated = [plugin.namespace for plugin in control.plugins if plugin.namespace is not None]
     if not stated or len(stated) < len(control.plugins):
         return
@@ -49,8 +49,8 @@ def _manager_elsewhere(control: ControlSystem) -> Findings:
         if each.namespace not in managed:
             yield finding(
                 each,
-                f"controllers are started in namespace {each.namespace!r}, and gazebo_ros_control "
-                f"runs their manager in {', '.join(map(repr, sorted(managed)))}",
+                f"controllers are started in namespace {each.namespace!r}, but gazebo_ros_control "
+                f"runs their manager in {', '.join(map(repr, sorted(managed)))}: use one namespace",
                 key=f"manager {each.namespace}",
                 related=[(stated[0], "the namespace of the controller manager")],
             )
@@ -70,7 +70,7 @@ def _untold_states(control: ControlSystem) -> Findings:
     source = control.namesakes[control.spawned[0].name].span.source
     yield finding(
         source.whole(),
-        f"no controller of {source.file} publishes the joint states, expected one of type "
+        f"no controller of {source.file} publishes the joint states: expected one of type "
         "joint_state_controller/JointStateController",
     )
 

@@ -1,8 +1,8 @@
 """PID gains that are missing or cannot hold a joint.
 
-A position controller without `pid` does not load, and one without a proportional gain does not
-follow its command. A negative gain drives the joint away from where it should be. A derivative or
-integral gain of zero is usual.
+A position controller without `pid` does not load. One without a proportional gain does not follow
+its command. A negative gain drives the joint away from its target. A derivative or integral gain of
+zero is common.
 
 Fix: give `pid: {p: …, i: …, d: …}` with p > 0 and the others 0 or more.
 Source: ros_controllers (effort_controllers, velocity_controllers); control_toolbox, `Pid::init`.
@@ -28,16 +28,16 @@ WHERE: Mapping[str, str] = {
     "JointTrajectoryController": "'gains/{joint}'",
     "JointGroupPositionController": "'{joint}/pid'",
 }
-"""Under which key a controller looks for them; 'pid' where it is not here."""
+"""The key under which a controller looks for its gains; 'pid' for controllers not listed here."""
 
 
 @rule("CTL005", "pid-gains", Severity.WARNING)
 def check(control: ControlSystem, *, least_p: float = 0.0) -> Findings:
-    """Report missing gains, a proportional one of `least_p` or less, and negative ones.
+    """Report missing gains, proportional gains of `least_p` or less, and negative gains.
 
     Options:
-        least_p: Proportional gain `p` of a controller, in its own unit; one from 0 up to this bound
-            is reported.
+        least_p: Proportional gain `p` of a controller, in its own unit; a gain from 0 up to this
+            value is reported.
     """
     for controller in control.configured.values():
         yield from _missing(controller)
@@ -68,7 +68,7 @@ def _proportional(controller: Controller, gains: Mapping[str, Gain], least: floa
     if gain is None:
         yield finding(controller, f"{who} has no gain p, expected more than {least:g}")
     elif gain.value is None:
-        yield finding(gain, f"{who} has gain p = {gain.text}, which is no number in YAML")
+        yield finding(gain, f"{who} has gain p = {gain.text}, which YAML does not read as a number")
     elif 0.0 <= gain.value <= least:
         yield finding(gain, f"{who} has gain p = {gain.value:g}, expected more than {least:g}")
 

@@ -1,7 +1,7 @@
-"""Transmissions, but no plugin that works them.
+"""Transmissions, but no plugin that uses them.
 
-Gazebo ignores transmissions by itself: without `gazebo_ros_control` there is no controller manager,
-the spawner waits for one in vain, and the joints are loose.
+Gazebo itself ignores transmissions. Without `gazebo_ros_control` there is no controller manager,
+the spawner waits for one forever, and the joints are loose.
 
 Fix: add `<gazebo><plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/></gazebo>`
 with the `<robotNamespace>` of the controllers.
@@ -28,8 +28,8 @@ def check(control: ControlSystem, context: Context) -> Findings:
     for transmission in loose:
         yield finding(
             transmission,
-            f"the robot has {len(control.transmissions)} transmissions and no plugin "
-            "gazebo_ros_control: nothing in Gazebo works them",
+            f"the robot has {len(control.transmissions)} transmissions, but no plugin "
+            "gazebo_ros_control: nothing in Gazebo uses them",
             key="no gazebo_ros_control",
         )
 

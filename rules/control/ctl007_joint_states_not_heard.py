@@ -1,6 +1,6 @@
-"""A robot_state_publisher that listens where nobody publishes joint states.
+"""A robot_state_publisher listens to a topic on which no joint states are published.
 
-It turns joint states into transforms. Where it listens to another topic than the
+The node turns joint states into transforms. If it listens to another topic than the
 joint_state_controller publishes, the moving links have no transforms: RViz shows them at the
 origin, and whatever uses tf fails.
 
@@ -32,8 +32,8 @@ def check(control: ControlSystem) -> Findings:
         for listener in deaf if topics else ():
             yield finding(
                 listener,
-                f"{listener.node.type} {listener.node.name!r} listens to {listener.topic}, and the "
-                f"joint states are published on {', '.join(sorted(topics))}",
+                f"{listener.node.type} {listener.node.name!r} listens to {listener.topic}, but "
+                f"the joint states are published on {', '.join(sorted(topics))}",
             )
 
 

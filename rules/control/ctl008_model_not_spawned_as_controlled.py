@@ -1,8 +1,8 @@
-"""A model that cannot be spawned, or not where its controllers expect it.
+"""A model that cannot be spawned, or is spawned where its controllers do not expect it.
 
-`spawn_model` needs a name, a format and a description that is there; without one the robot never
-appears in Gazebo. A plugin that states no `<robotNamespace>` runs its controller manager in the
-namespace that the model is spawned with, so that controllers started elsewhere wait in vain.
+`spawn_model` needs a name, a format and a description that exists; without one of them the robot
+never appears in Gazebo. A plugin without `<robotNamespace>` runs its controller manager in the
+namespace in which the model is spawned; controllers started in another namespace wait forever.
 
 Fix: give `-urdf`, `-model <name>` and `-param robot_description` (loaded before) or `-file`, and
 the `-robot_namespace` of the controllers.
@@ -22,13 +22,13 @@ SOURCES = ("-param", "-file", "-database", "-stdin")
 
 @rule("CTL008", "model-not-spawned-as-controlled", Severity.ERROR)
 def check(control: ControlSystem) -> Findings:
-    """Report calls of spawn_model that fail, or that do not go with the controllers."""
+    """Report calls of spawn_model that fail, or that do not fit the controllers."""
     for launch in control.launches:
         for fault in launch.missing:
             yield finding(fault, fault.message)
     for model in control.models:
         if not model.is_known:
-            yield unchecked(f"what node {model.node.name} spawns is known at launch only")
+            yield unchecked(f"what node {model.node.name} spawns is known only at launch")
             continue
         yield from _incomplete(model)
         yield from _without_parameter(control, model)
@@ -42,7 +42,7 @@ def _incomplete(model: SpawnedModel) -> Findings:
         if not any(option in model.options for option in options):
             yield finding(
                 model,
-                f"node {model.node.name!r} calls spawn_model without {said}, and spawns nothing",
+                f"node {model.node.name!r} calls spawn_model without {said}, so it spawns nothing",
             )
 
 
@@ -55,13 +55,13 @@ def _without_parameter(control: ControlSystem, model: SpawnedModel) -> Findings:
         return
     yield finding(
         model.options["-param"],
-        f"node {model.node.name!r} spawns the model of parameter {model.parameter}, which no "
+        f"node {model.node.name!r} spawns the model from parameter {model.parameter}, which no "
         f"launch file sets{Suggestions(names).hint(model.parameter)}",
     )
 
 
 def _misnamed(control: ControlSystem, model: SpawnedModel) -> Findings:
-    """Report a name that is nearly, but not quite, the robot's or that of its namespace."""
+    """Report a name that is close to, but not, the robot's name or its namespace."""
     known = {robot.value for robot in control.robots}
     known |= {namespace.rpartition("/")[2] for namespace in control.namespaces}
     near = Suggestions(sorted(known - {""})).near(model.model)
@@ -90,8 +90,8 @@ def _elsewhere(control: ControlSystem, model: SpawnedModel) -> Findings:
     if model.namespace not in control.namespaces:
         yield finding(
             model.options.get("-robot_namespace", model),
-            f"node {model.node.name!r} spawns the model in namespace {model.namespace!r}, where "
-            "gazebo_ros_control then runs, and the controllers are started in "
+            f"node {model.node.name!r} spawns the model in namespace {model.namespace!r}, so "
+            "gazebo_ros_control runs there, but the controllers are started in "
             f"{', '.join(map(repr, sorted(control.namespaces)))}",
             related=[(silent[0], "states no <robotNamespace>")],
         )

@@ -1,7 +1,7 @@
 """A section of specifications.md is missing or empty.
 
-Teams choose a robot by these ten sections, and reviewers go through them one by one. A section with
-nothing to say still says so: "no additional restrictions".
+Teams choose a robot by these ten sections, and reviewers check them one by one. A section without
+content still needs a sentence: "no additional restrictions".
 
 Fix: add the section, or write one sentence into it.
 Source: the template of the SubT challenge; 45 of 47 accepted sheets have all ten
@@ -22,8 +22,8 @@ def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Fi
     """Look for headings that contain the words of `sections`, and for text below them.
 
     Options:
-        sections: Words that some heading must contain, in upper or lower case; an empty list stands
-            for the ten sections of the SubT template.
+        sections: Words that some heading must contain, in upper or lower case; an empty list means
+            the ten sections of the SubT template.
     """
     wanted: Sequence[str] = sections or table("subt_standards")["specifications_md"]["required"]
     found = {words: _sections(specification, words) for words in wanted}
@@ -52,7 +52,7 @@ def _are(things: Sequence[object]) -> str:
 
 
 def _sections(specification: Specification, words: str) -> list[Section]:
-    """Return the sections whose headings contain words, run together with others or not."""
+    """Return the sections whose headings contain the words, even joined to other words."""
     words = words.casefold()
     return [each for each in specification.sections if words in each.title.casefold()]
 

@@ -1,11 +1,11 @@
 """A placeholder or struck-through text in specifications.md.
 
-What was to be filled in later is missing, and what was struck through still stands there: readers
+What the author wanted to fill in later is missing, and struck-through text is still shown: readers
 cannot tell which of the two counts.
 
 Fix: fill in the placeholder, or remove it; delete struck-through text.
-Source: SubT reviews ask to remove text that is struck through and links such as
-`https://youtu.be/xxxx` of the template (`subt_standards.json`).
+Source: SubT reviews ask authors to remove struck-through text and the template's links such as
+`https://youtu.be/xxxx` (`subt_standards.json`).
 """
 
 import re
@@ -26,19 +26,17 @@ _ESCAPED = re.compile(r"\\([!-/:-@\[-`{-~])")
 def check(specification: Specification) -> Findings:
     """Report placeholders, links without target and struck-through text."""
     for left in placeholders(specification.markdown):
-        message = (
-            f"{_short(left.words)!r} is a placeholder: expected what it stands for, or nothing"
-        )
+        message = f"{_short(left.words)!r} is a placeholder: fill it in or remove it"
         yield finding(left, message, key=left.words.casefold()[:SHOWN])
     for left in links_without_target(specification.markdown):
-        message = f"link {_short(left.words)!r} has no address"
+        message = f"link {_short(left.words)!r} has no address: add one or remove the link"
         yield finding(left, message, key="no address")
     for left in struck_through(specification.markdown):
-        yield finding(left, f"{_short(left.words)!r} is struck through: expected it to be deleted")
+        yield finding(left, f"{_short(left.words)!r} is struck through: delete it")
 
 
 def _short(words: str) -> str:
-    """Return words as a reader sees them, cut when they are long."""
+    """Return the words as a reader sees them, shortened when they are long."""
     words = _ESCAPED.sub(r"\1", words)
     return words if len(words) <= SHOWN else f"{words[: SHOWN - 3]}..."
 

@@ -1,10 +1,10 @@
 """A sensor that specifications.md lists and the model lacks.
 
-Teams choose a robot by its sheet. A lidar that is listed and not modelled, or modelled under
-another type, is found out in the first run.
+Teams choose a robot by its specification sheet. They notice only in the first run that a listed
+sensor is missing, or is modelled under another type.
 
-Fix: add the sensor to the model, or correct the sheet; say "modeled by a … sensor" where the
-device's name does not tell what it is.
+Fix: add the sensor to the model, or correct the sheet; write "modeled by a … sensor" where the
+device's name does not say what it is.
 Source: SubT maintainers compare sheet and model sensor by sensor in their reviews.
 """
 
@@ -41,22 +41,27 @@ def check(package: Package, robot: Robot, specification: Specification) -> Findi
         accepted = types.union(*(SUBSTITUTES.get(item.kind, frozenset()) for item in items))
         if not accepted.intersection(present):
             for item in items:
-                said = f"the sheet lists {_words(item)!r}, the model has no {_name(item.kind)}"
-                yield finding(item, f"{said} sensor: expected it in both or in none")
+                said = f"the specification sheet lists {_words(item)!r}, but the model has no"
+                how = "list it in both or in neither"
+                yield finding(item, f"{said} {_name(item.kind)} sensor: {how}")
         elif amount and (total := _total(items)) is not None and total != amount:
             if total < amount and specification.other_sensors:
-                yield unchecked(f"the sheet leaves sensors to {specification.other_sensors}")
+                yield unchecked(
+                    f"the specification sheet refers to {specification.other_sensors} for its "
+                    "sensors"
+                )
                 continue
             yield finding(
                 items[0],
-                f"the sheet lists {total} × {_name(items[0].kind)}, the model has {amount}",
+                f"the specification sheet lists {total} × {_name(items[0].kind)}, but the model "
+                f"has {amount}",
                 severity=Severity.WARNING,
-                related=[(item, "listed here too") for item in items[1:]],
+                related=[(item, "also listed here") for item in items[1:]],
             )
 
 
 def _total(items: Sequence[ListedSensor]) -> int | None:
-    """Return how many the sheet lists; None unless every item says so."""
+    """Return how many the sheet lists; None unless every item states a number."""
     counts = [item.count for item in items]
     return sum(count for count in counts if count) if all(counts) else None
 

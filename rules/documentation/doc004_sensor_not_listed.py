@@ -1,11 +1,11 @@
 """A sensor of the model that specifications.md does not list.
 
-Teams choose a robot by its sheet: a sensor that it does not list is one that nobody uses, or one
-that the real robot does not carry. Gas detector and barometer are on every robot and need no entry;
-a magnetometer is part of most IMUs, and is information.
+Teams choose a robot by its specification sheet: nobody uses a sensor that is not listed, and the
+real robot may not carry it. Every robot has a gas detector and a barometer, which need no entry.
+Most IMUs contain a magnetometer; a missing one is information.
 
-Fix: list the sensor in the section "Sensors" with its device and what models it, or remove it from
-the model.
+Fix: list the sensor in the section "Sensors" with its device and the type that models it, or remove
+it from the model.
 Source: SubT maintainers compare model and sheet sensor by sensor; a review asked for the thermal
 camera to be listed.
 """
@@ -42,9 +42,9 @@ def check(
     """Compare the model's types of sensors with what the section names for this configuration.
 
     Options:
-        exempt: Values of the `type` of a `<sensor>` that needs no entry in the sheet.
-        minor: Values of the `type` of a `<sensor>` whose lack in the sheet is information instead
-            of a warning.
+        exempt: Values of the `type` of a `<sensor>` that need no entry in the sheet.
+        minor: Values of the `type` of a `<sensor>` that are reported as information instead of a
+            warning when the sheet does not list them.
     """
     section = specification.section("sensors")
     if section is None or specification.says_nothing(section) or not specification.sensors:
@@ -52,7 +52,9 @@ def check(
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
     if specification.other_sensors:
-        yield unchecked(f"the sheet leaves sensors to {specification.other_sensors}")
+        yield unchecked(
+            f"the specification sheet refers to {specification.other_sensors} for its sensors"
+        )
         return
     texts = list(_texts(section, configuration_number(package.name)))
     listed = _types_in(texts)
@@ -67,14 +69,15 @@ def check(
             name = kind.value.replace("_", " ")
             yield finding(
                 section,
-                f"the model has {len(sensors)} × {name}, and no {name} is listed",
+                f"the model has {len(sensors)} × {name}, but the specification sheet lists no "
+                f"{name}",
                 severity=Severity.INFO if sensors[0].type.value in minor else None,
                 related=[(each, f"sensor {each.name.value!r}") for each in sensors[:NOTED]],
             )
 
 
 def _texts(section: Section, number: int | None) -> Iterator[str]:
-    """Yield what the section says of one configuration, or of all."""
+    """Yield what the section says about one configuration, or about all."""
     lead: frozenset[int] = frozenset()
     for passage in section.passages[:MOST_PASSAGES]:
         named = configurations_in(passage.words)
@@ -94,7 +97,7 @@ def _types_in(texts: list[str]) -> frozenset[str]:
 
 
 def _is_named(devices: KnownDevices, texts: list[str], sensor: Sensor) -> bool:
-    """Whether a device is named that may be a sensor, without a word of what it is."""
+    """Whether a named device may be a sensor, without a word that says what it is."""
     types = {sensor.type.value}
     return any(devices.named_in(text, types) is not None for text in texts)
 

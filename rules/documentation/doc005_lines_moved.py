@@ -1,10 +1,11 @@
-"""Lines that specifications.md names and that no longer hold what it says.
+"""Lines that specifications.md names no longer contain what it says.
 
-Reviewers look up each limit where the sheet says it stands. Line numbers go wrong with the next
-edit of the file, or come from another robot's sheet. One line above and below is allowed.
+Reviewers look up each limit at the line that the specification sheet names. Line numbers become
+wrong with the next edit of the file, or come from another robot's sheet. One line above and below
+is allowed.
 
 Fix: correct the line numbers, or name the parameter instead: `max_velocity` in spawner.rb.
-Source: SubT sheets give file and line of each limit; the numbers are from their authors.
+Source: SubT sheets state the file and line of each limit; authors write these numbers by hand.
 """
 
 import posixpath
@@ -34,7 +35,7 @@ TAGS = (
     (r"\bmass|weight", ("mass",)),
     (r"limit|constraint", _LIMITS),
 )
-"""Words of a sheet, and what the names of parameters hold that they may mean."""
+"""Words of a sheet, and parts of the names of parameters that they may mean."""
 
 _EARLIER = re.compile(r".*\blines?\s+\d[\d\s,to&–-]*(?:and\s+\d+)?", re.IGNORECASE)
 _NUMBER = re.compile(r"(?<![\w.])-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?(?!\w)", re.IGNORECASE)
@@ -47,7 +48,7 @@ MOST_REFERENCES = 200
 def check(
     package: Package, specification: Specification, *, around: int = 1, tolerance: float = 0.02
 ) -> Findings:
-    """Read the lines that the sheet names and some around them, and look for what it says.
+    """Read the lines that the sheet names and their neighbours, and look for what it says.
 
     Options:
         around: Lines that are read above and below those that the sheet names.
@@ -58,24 +59,29 @@ def check(
         path = _path(package, specification, reference.file.value)
         source = package.read(path) if path else None
         if not isinstance(source, SourceText):
-            yield unchecked(f"{reference.file.value}, which the sheet names, is not at hand")
+            yield unchecked(
+                f"{reference.file.value}, which the specification sheet names, is not available"
+            )
             continue
         text = "\n".join(_lines(source, reference, around)).casefold()
         tags = _tags(reference)
         where = f"{path}, {_written(reference)}"
         if not text:
             yield finding(
-                reference, f"the sheet names {where}; the file has {_length(source)} lines"
+                reference,
+                f"the specification sheet names {where}, but the file has {_length(source)} lines",
             )
         elif tags and not any(tag in text for tag in tags):
             yield finding(
                 reference,
-                f"the sheet places {_expected(reference)} in {where}, and none stands there",
+                f"the specification sheet says that {where} states {_expected(reference)}, but "
+                "none is there",
             )
         elif wrong := _other_number(_claimed(specification, reference), text, tolerance):
             yield finding(
                 reference,
-                f"the sheet places a limit of {wrong} in {where}, and other numbers stand there",
+                f"the specification sheet says that {where} states a limit of {wrong}, but other "
+                "numbers are there",
             )
 
 

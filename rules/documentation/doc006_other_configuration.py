@@ -1,11 +1,11 @@
-"""Title or commands of specifications.md are about another robot or configuration.
+"""The title or commands of specifications.md are about another robot or configuration.
 
-A sheet that begins as a copy keeps the other's number or starts the other robot: whoever follows
-it drives something else. Words about other configurations are fine; what counts is what the sheet
-says of itself. Other names in its text are PKG012's.
+A copied specification sheet that keeps the other number or command starts the other robot: whoever
+follows it drives something else. Mentions of other configurations are fine; only what the sheet
+says about itself counts. PKG012 reports other names in its text.
 
 Fix: write this package's name and number.
-Source: SubT reviews of sheets that were copied from another configuration.
+Source: SubT reviews of sheets copied from another configuration.
 """
 
 import re
@@ -33,7 +33,7 @@ _VARIABLE = re.compile(r"\bvariable\s+name\s+`{0,2}(\w{1,200})", re.IGNORECASE)
 
 @rule("DOC006", "other-configuration", Severity.WARNING)
 def check(package: Package, specification: Specification) -> Findings:
-    """Compare title, commands, and what the sheet says of itself, with the package's name."""
+    """Compare the title, the commands and statements about the robot with the package's name."""
     source = specification.source
     # An inherited sheet speaks of the package that it lies in.
     owner = source.file.split("/")[1] if source.file.startswith("../") else package.name
@@ -50,12 +50,12 @@ def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
     title = sheet.sections[0].span if sheet.sections else sheet.source.whole()
     numbers = [int(found) for found in _TITLE.findall(title.text)]
     if len(numbers) == 1 and numbers[0] != number:
-        message = f"title says configuration {numbers[0]}, the package is {owner}"
+        message = f"the title says configuration {numbers[0]}, but the package is {owner}"
         yield finding(title, message, severity=Severity.ERROR)
 
 
 def _commands(sheet: Specification, owner: str) -> Iterator[Finding]:
-    """Report names of other robots in commands, and in what the sheet calls its variable."""
+    """Report names of other robots in commands and in the variable of the sheet."""
     text = sheet.source.text[: len(sheet.markdown.text)]
     stretches = [found.span() for found in _COMMAND.finditer(text)]
     stretches += [found.span(1) for found in _VARIABLE.finditer(sheet.markdown.text)]
@@ -72,7 +72,7 @@ def _commands(sheet: Specification, owner: str) -> Iterator[Finding]:
             reported.add(at)
             yield finding(
                 Span(sheet.source, at, start + name.end()),
-                f"starts {name.group()}, the package is {owner}",
+                f"the command starts {name.group()}, but the package is {owner}",
                 severity=Severity.ERROR if other else Severity.WARNING,
                 key=f"starts {name.group().casefold()}",
             )
@@ -83,20 +83,20 @@ def _is(name: re.Match[str], owner: str) -> bool:
 
 
 def _apart(command: str) -> str:
-    """Return a command with its paths apart, so that names in them are found as well."""
+    """Return a command with its paths split, so that names in them are found as well."""
     return command.replace("/", " ")
 
 
 def _of_itself(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
-    """Report where the sheet says which configuration it describes, and it is another one."""
+    """Report statements that the sheet describes another configuration."""
     for passage in sheet.markdown.passages:
         for found in _ITSELF.finditer(passage.text):
             group = next(i for i, each in enumerate(found.groups(), 1) if each)
             if int(found.group(group)) != number:
                 yield finding(
                     passage.part(*found.span()),
-                    f"the sheet says that it is about configuration {found.group(group)}, the "
-                    f"package is {owner}",
+                    "the specification sheet says that it describes configuration "
+                    f"{found.group(group)}, but the package is {owner}",
                     key="about another configuration",
                 )
 

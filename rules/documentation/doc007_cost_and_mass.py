@@ -1,10 +1,10 @@
 """The prices of specifications.md do not add up, or cost or mass is missing.
 
-Organisers weigh robots against each other by what they cost and weigh. A sum that is not that of
-its parts says that a part was added or left out.
+Organisers compare robots by what they cost and weigh. A total that is not the sum of its parts
+shows that a part was added or left out.
 
-Fix: correct the sum or add the missing part; write the cost in USD and the mass in kg, or why a
-figure cannot be given.
+Fix: correct the total or add the missing part. Write the cost in USD and the mass in kg, or say why
+a figure cannot be given.
 Source: the section "Cost and Scale" of the SubT template; one of fourteen itemised sheets
 that were accepted does not add up.
 """
@@ -32,7 +32,7 @@ def check(specification: Specification, *, tolerance: float = 0.01) -> Findings:
     """Add up the parts, and look for a cost and a mass.
 
     Options:
-        tolerance: Share of the larger figure by which the stated sum and that of the parts may
+        tolerance: Share of the larger figure by which the stated total and the sum of the parts may
             differ; more is reported.
     """
     section = specification.section("cost")
@@ -50,7 +50,7 @@ def check(specification: Specification, *, tolerance: float = 0.01) -> Findings:
 
 
 def _sum(stated: tuple[Price, ...], tolerance: float) -> Iterator[Finding]:
-    """Compare the sum of the parts with the one sum that is stated."""
+    """Compare the sum of the parts with the stated total."""
     sums = [each for each in stated if each.is_sum]
     parts = [each for each in stated if each.is_part]
     clear = all(each.is_clear for each in (*sums, *parts))
@@ -60,7 +60,8 @@ def _sum(stated: tuple[Price, ...], tolerance: float) -> Iterator[Finding]:
     if abs(added - sums[0].amount) > tolerance * max(added, sums[0].amount):
         yield finding(
             sums[0],
-            f"the parts cost {added:,.10g} together, the sheet says {sums[0].amount:,.10g}",
+            f"the parts cost {added:,.10g} together, but the specification sheet states a total "
+            f"of {sums[0].amount:,.10g}",
             related=[(part, "a part") for part in parts[:20]],
         )
 

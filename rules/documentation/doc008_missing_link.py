@@ -1,10 +1,10 @@
 """A link that leads to no file, or a sensor without a link to its datasheet.
 
-Reviewers compare each sensor with its datasheet; a link saves them the search, and shows which of
-several versions of a device is meant. A relative link to a file that is not there helps nobody: a
-licence that is not there gives no rights.
+Reviewers compare each sensor with its datasheet; a link saves them the search and shows which
+version of a device is meant. A relative link to a missing file is useless: a missing licence file
+grants no rights.
 
-Fix: correct the path or add the file; list a link to the datasheet beside the sensor or in the
+Fix: correct the path or add the file; add a link to the datasheet next to the sensor or in the
 section "Validation and Specification Links".
 Source: the SubT template asks for links to the specifications of all instruments.
 """
@@ -31,7 +31,7 @@ def check(package: Package, specification: Specification) -> Findings:
             items[0],
             f"{number} listed without a link to the datasheet",
             severity=Severity.INFO,
-            related=[(item, "nor has this one") for item in items[1:NOTED]],
+            related=[(item, "this one has no link either") for item in items[1:NOTED]],
         )
 
 
@@ -43,9 +43,9 @@ def _relative(package: Package, sheet: Specification) -> Iterator[Finding | Unch
             continue
         other = path.split("/")[1] if path.startswith("../") else ""
         if other and package.workspace.package(other) is None:
-            yield unchecked(f"{link.value} is linked, and {other} is not at hand")
+            yield unchecked(f"{link.value} is linked, but {other} is not available")
         else:
-            yield finding(link, f"{link.value} is linked and does not exist", key=path)
+            yield finding(link, f"{link.value} is linked, but does not exist", key=path)
 
 
 _MARK = " <!-- ^ DOC008 -->"

@@ -1,12 +1,12 @@
-"""What specifications.md says about turning is not what the drive does.
+"""The turning radius in specifications.md is not that of the drive.
 
-Teams plan paths through narrow galleries by the turning radius. Differential drives and tracks turn
-on the spot, whatever the sheet says; Ackermann steering never does: its radius follows from wheel
-base and steering limit.
+Teams plan paths through narrow galleries with the turning radius. Differential drives and tracks
+turn on the spot, whatever the specification sheet says. Ackermann steering never does: its radius
+follows from wheel base and steering limit.
 
 Fix: correct the sheet, or the drive plugin's `<steering_limit>` and `<wheel_base>`.
-Source: kinematics: radius = wheel base / tan(steering limit) at the middle of the rear axle, and up
-to half the track more or less at the wheels.
+Source: kinematics: radius = wheel base / tan(steering limit) at the middle of the rear axle; at the
+wheels it is up to half the track width more or less.
 """
 
 import math
@@ -39,8 +39,8 @@ def check(
     """Compare the turning radius of the sheet with that of a robot with one drive plugin.
 
     Options:
-        on_the_spot: Metres; where the drive turns the robot on the spot, a greater turning radius
-            in the sheet is reported.
+        on_the_spot: Metres; a greater turning radius in the sheet is reported if the drive turns
+            the robot on the spot.
         tolerance: Share by which the sheet may be below the turning radius of a steered robot's
             inner wheels, or above that of its outer ones.
     """
@@ -57,8 +57,8 @@ def check(
             if stated.value > on_the_spot:
                 yield finding(
                     stated,
-                    f"the sheet says a turning radius of {stated.value:g} m, the robot turns on "
-                    f"the spot ({moved.kind})",
+                    f"the specification sheet says a turning radius of {stated.value:g} m, but "
+                    f"the robot turns on the spot ({moved.kind})",
                     related=[(drives[0].plugin, "the drive")],
                 )
     elif moved.kind is DriveKind.ACKERMANN:
@@ -68,7 +68,7 @@ def check(
 def _steered(
     drive: WheelDrive, sheet: Specification, radii: list[Quantity], tolerance: float
 ) -> Iterator[Finding]:
-    """Report statements that a steered robot cannot fulfil."""
+    """Report statements that a steered robot cannot meet."""
     if drive.wheel_base is None or drive.steering_limit is None:
         return
     slope = math.tan(drive.steering_limit.value) if 0 < drive.steering_limit.value < 1.5 else 0.0
@@ -86,13 +86,14 @@ def _steered(
     for place, said in places:
         yield finding(
             place,
-            f"the sheet says {said}, by its wheel base and steering limit it is {radius:.3g} m",
+            f"the specification sheet says {said}, but the wheel base and steering limit give "
+            f"{radius:.3g} m",
             related=[(drive.steering_limit, "the steering limit")],
         )
 
 
 def _turns_on_the_spot(sheet: Specification) -> Iterator[Span]:
-    """Yield where the section on motion says so."""
+    """Yield the places where the section on motion says so."""
     section = sheet.section("motion")
     for passage in section.passages if section is not None else ():
         for found in _ON_THE_SPOT.finditer(passage.text):

@@ -1,11 +1,10 @@
-"""A robot without a drive plugin that is known.
+"""A robot without a known drive plugin.
 
-Nothing that is known moves it: the trial can only let the robot settle, and says nothing about how
-it drives.
+No known plugin moves the robot: the trial can only let it settle, and cannot show how it drives.
 
-Fix: add the drive plugin to the spawner, such as DiffDrive; a robot with a plugin of its own needs
-none.
-Source: the systems that drive the robots of the SubT challenge.
+Fix: add the drive plugin to the spawner, such as DiffDrive; a robot with its own plugin needs no
+other.
+Source: the Gazebo systems that drive the robots of the SubT challenge.
 """
 
 from checker.model.locomotion.locomotion import DriveKind
@@ -17,7 +16,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("DRV001", "no-drive", Severity.INFO)
 def check(package: Package, robot: Robot) -> Findings:
-    """Report robots that no known plugin drives; what others build on may leave it to them."""
+    """Report robots that no known plugin drives; packages for others to build on need none."""
     if package.kind is PackageKind.BASE_MODEL or robot.locomotion.kind is not DriveKind.NONE:
         return
     reason = robot.unread_plugins or robot.missing_parts
@@ -26,7 +25,8 @@ def check(package: Package, robot: Robot) -> Findings:
         return
     yield finding(
         robot,
-        f"no plugin that is known drives {robot.name.value!r}: the trial can only let it settle",
+        f"no known plugin drives {robot.name.value!r}: add a drive plugin to the spawner; the "
+        "trial only lets the robot settle",
     )
 
 

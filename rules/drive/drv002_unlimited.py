@@ -1,10 +1,10 @@
-"""A drive plugin without limits of velocity and acceleration.
+"""A drive plugin without limits for velocity and acceleration.
 
-The simulated robot then starts, stops and races as no real one does; a robot without limits that
-match the real vehicle is not accepted. ±1.79769e308 and ±1e16 mean that there is no limit.
+Without limits the simulated robot starts, stops and drives as no real robot can. Reviewers reject a
+robot without limits that match the real vehicle. ±1.79769e308 and ±1e16 mean "no limit".
 
-Fix: state `<min_velocity>`, `<max_velocity>`, `<min_acceleration>` and `<max_acceleration>`, of a
-TrackedVehicle below `<linear_velocity>`; of a MulticopterVelocityControl
+Fix: state `<min_velocity>`, `<max_velocity>`, `<min_acceleration>` and `<max_acceleration>`; for a
+TrackedVehicle below `<linear_velocity>`; for a MulticopterVelocityControl
 `<maximumLinearVelocity>`, `<maximumLinearAcceleration>` and `<maximumAngularVelocity>`, each for x,
 y and z.
 Source: Model Migration Guide, checklist: velocity limits; parameters of Gazebo's drive systems.
@@ -22,7 +22,7 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _LINEAR_ONLY = ("AckermannSteering", "TrackedVehicle")
-"""Their turn rate follows from the speed, by the steering angle or the tracks."""
+"""Plugins whose turn rate follows from the speed, by the steering angle or the tracks."""
 
 _COPTER_WORDS = {
     ("linear", "velocity"): "maximumLinearVelocity",
@@ -33,9 +33,9 @@ _COPTER_WORDS = {
 
 @rule("DRV002", "no-motion-limits", Severity.ERROR)
 def check(robot: Robot) -> Findings:
-    """Report each motion of a drive that is not bounded at both ends.
+    """Report each motion of a drive that is not limited in both directions.
 
-    The turn rate of a plugin that bounds the linear motion is a warning.
+    An unlimited turn rate is a warning if the plugin limits the linear motion.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
@@ -81,7 +81,7 @@ def _beyond(
 
 
 def _parameter(motion: BoundedMotion, end: str, quantity: str) -> str:
-    """Return the name of a parameter; nothing where the plugin has none for it."""
+    """Return the name of a parameter; nothing if the plugin has no such parameter."""
     if motion.flies:
         return _COPTER_WORDS.get((motion.kind, quantity), "")
     return f"{end}_{'angular_' if motion.kind == 'angular' else ''}{quantity}"

@@ -1,10 +1,10 @@
-"""Limits of a drive whose ends differ in size, or that are zero or of the wrong sign.
+"""Drive limits whose two ends differ in size, are zero or have the wrong sign.
 
-A robot that drives at −2 to 3 m/s is rare; mostly one of the two figures was forgotten. A limit of
-zero, or a minimum above zero, forbids a direction: the robot cannot reverse, or never stops.
-No accepted package at hand shows it.
+A robot that drives at −2 to 3 m/s is rare; usually somebody forgot to change one of the two
+figures. A limit of zero, or a minimum above zero, forbids a direction: the robot cannot reverse, or
+never stops. None of the accepted packages that we checked shows this.
 
-Fix: write the minimum as the negated maximum, unless the vehicle was measured otherwise.
+Fix: write the negated maximum as the minimum, unless measurements of the vehicle differ.
 Source: parameters of Gazebo's drive systems; SubT review practice.
 """
 

@@ -1,11 +1,10 @@
 """The limits of the drive differ from those of specifications.md.
 
-Teams plan by the sheet. The drive must keep the velocities and accelerations that it promises, no
-more and no less.
-No accepted package at hand shows it.
+Teams plan with the specification sheet. The drive must reach the velocities and accelerations that
+the sheet states, no more and no less. None of the accepted packages that we checked shows this.
 
-Fix: correct the sheet, or the limits of the drive plugin. Where the sheet gives other figures each
-way and the plugin has one for both, any between them is right.
+Fix: correct the sheet, or the limits of the drive plugin. If the sheet gives different figures for
+the two directions and the plugin has one parameter for both, any figure between them is right.
 Source: SubT maintainers compare sheet and plugin in their reviews.
 """
 
@@ -23,7 +22,7 @@ from checker.model.specification.sheet import Specification
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 _EXACT = 1e-6
-"""Relative; from where on two figures differ at all."""
+"""Relative difference from which two figures count as different."""
 
 
 @rule("DRV004", "limits-differ-from-sheet", Severity.ERROR)
@@ -33,10 +32,9 @@ def check(
     """Compare each limit of the sheet with the drive's.
 
     Options:
-        tolerance: Share of the sheet's figure by which a limit of the drive may be off; more is an
+        tolerance: Share of the sheet's figure by which a limit of the drive may differ; more is an
             error.
-        about: Share that counts instead of `tolerance` where the sheet says "about", "~" or the
-            like.
+        about: Share used instead of `tolerance` if the sheet says "about", "~" or the like.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
@@ -72,14 +70,14 @@ def _compared(
     says = f"{claim.maximum:g}" if minimum is None else f"{minimum:g} to {claim.maximum:g}"
     yield finding(
         claim,
-        f"the sheet says {motion.axis} {motion.kind} {what}: {says}; {motion.plugin.class_name} "
-        f"has {least:g} to {high.value:g}",
+        f"the specification sheet says {motion.axis} {motion.kind} {what}: {says}; but "
+        f"{motion.plugin.class_name} has {least:g} to {high.value:g}",
         related=[(high, "the limit of the model")],
     )
 
 
 def _fits(least: float, most: float, claim: Limit, tolerance: float) -> bool:
-    """Say whether the model's ends are those of the sheet; even ones may lie between them."""
+    """Whether the model's ends are those of the sheet; symmetric ones may lie between them."""
     forward = claim.maximum
     back = -claim.minimum if claim.minimum is not None and _both_ways(claim) else forward
     if abs(least + most) <= _EXACT * abs(most):

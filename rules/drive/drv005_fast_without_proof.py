@@ -1,12 +1,12 @@
-"""A fast robot whose specifications.md links to no measurement.
+"""A fast robot whose specifications.md links no measurement.
 
-Above 1 m/s on the ground and 4 m/s in the air the organisers want to see the real robot do it: a
-video or a recording, with a link in the sheet. Datasheets of sensors show nothing about speed, and
-placeholders such as `https://youtu.be/xxxx` show nothing at all.
-Of the accepted packages at hand two show it: one links datasheets alone, the other placeholders.
+Above 1 m/s on the ground and 4 m/s in the air, the organisers ask for proof from the real robot: a
+video or a recording, with a link in the specification sheet. Datasheets of sensors prove nothing
+about speed, and neither do placeholders such as `https://youtu.be/xxxx`. Of the accepted packages
+that we checked, two show this: one links only datasheets, the other placeholders.
 
-Fix: link the video or the data in the section "Validation and Specification Links", or lower the
-limits until there is one.
+Fix: link the video or the data in the section "Validation and Specification Links". Without a
+measurement, lower the limits.
 Source: SubT Model Preparation Guide; reviews limit robots to 1 m/s "until validation is completed".
 """
 
@@ -51,14 +51,14 @@ def check(
     allowed = air if motion.flies else ground
     yield finding(
         _place(specification, motion, speed),
-        f"the robot may go {abs(speed.value):g} m/s, above {allowed:g} m/s: expected a link to a "
-        "video or data that proves it",
+        f"the robot may go {abs(speed.value):g} m/s, above {allowed:g} m/s: link a video or data "
+        "that proves it in specifications.md",
         related=[(speed, "the limit of the model")],
     )
 
 
 def _place(sheet: Specification, motion: BoundedMotion, speed: Located[float]) -> HasSpan:
-    """Return where the sheet speaks of the speed, else of motion, else the speed itself."""
+    """Return where the sheet states the speed, else its section on motion, else the limit."""
     claim = sheet.limit(MotionQuantity.LINEAR_VELOCITY, motion.axis)
     return claim or sheet.section("motion") or speed
 

@@ -1,11 +1,11 @@
 """A drive limit that differs from another configuration of the same robot.
 
-Configurations of one robot differ in their sensors; it is the same vehicle and drives alike. A
-limit that was corrected in one package was often forgotten in the others.
-No accepted package at hand shows it.
+Configurations of one robot differ in their sensors, but they are the same vehicle and drive alike.
+Authors often correct a limit in one package and forget the others. None of the accepted packages
+that we checked shows this.
 
-Fix: use the same limits in every configuration; a vehicle that is slower with its sensors says so
-in specifications.md.
+Fix: use the same limits in every configuration; if the sensors make a vehicle slower, say so in
+specifications.md.
 Source: SubT review practice.
 """
 
@@ -22,7 +22,7 @@ _Name = tuple[str, str, str, str, int]
 
 @rule("DRV006", "limits-of-configurations", Severity.WARNING)
 def check(robot: Robot, first: FirstConfiguration, *, tolerance: float = 0.001) -> Findings:
-    """Compare the limits with those of the first configuration at hand.
+    """Compare the limits with those of the first available configuration.
 
     Options:
         tolerance: Share of the larger figure by which a limit may differ from that of the first
@@ -42,7 +42,7 @@ def check(robot: Robot, first: FirstConfiguration, *, tolerance: float = 0.001) 
             continue
         yield finding(
             limit,
-            f"{end} {axis} {quantity} of {plugin} is {limit.value:g}; {first.name} has "
+            f"{end} {axis} {quantity} of {plugin} is {limit.value:g}, but {first.name} has "
             f"{other.value:g}",
         )
 

@@ -1,11 +1,11 @@
 """A skid-steer robot without the WheelSlip plugin.
 
-To turn, its wheels have to slip sideways. Without the plugin they cling to the ground: the robot
-hops, turns in jerks or not at all.
-No accepted package at hand shows it.
+The wheels of such a robot must slip sideways in a turn. Without the plugin they grip the ground:
+the robot hops, turns in jerks or does not turn. None of the accepted packages that we checked shows
+this.
 
-Fix: add WheelSlip to the spawner, with a `<wheel>` for each wheel: `slip_compliance_lateral`
-above zero, `wheel_normal_force` m·g/n in N and `wheel_radius` in m.
+Fix: add WheelSlip to what the spawner emits, with a `<wheel>` for each wheel:
+`slip_compliance_lateral` above zero, `wheel_normal_force` m·g/n in N and `wheel_radius` in m.
 Source: SubT maintainers ask for it in their reviews of skid-steer robots.
 """
 
@@ -16,7 +16,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("DRV007", "no-wheel-slip", Severity.ERROR)
 def check(robot: Robot) -> Findings:
-    """Report DiffDrive plugins with several wheels a side; tracks need no slip."""
+    """Report DiffDrive plugins with several wheels on a side; tracks need no slip."""
     reason = robot.unread_plugins or robot.missing_parts
     if reason:
         yield unchecked(reason)
@@ -30,7 +30,7 @@ def check(robot: Robot) -> Findings:
         if drive.plugin.class_name == "DiffDrive" and most > 1:
             yield finding(
                 drive.plugin,
-                f"DiffDrive turns {most} wheels on a side, and there is no WheelSlip: skid-steer "
+                f"DiffDrive turns {most} wheels on a side, but there is no WheelSlip: skid-steer "
                 "wheels must slip sideways in a turn",
             )
 

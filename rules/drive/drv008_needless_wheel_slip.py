@@ -1,8 +1,8 @@
 """WheelSlip on a robot that steers its wheels or walks.
 
-Wheels that are steered roll where they point and feet must grip: with slip the robot drifts out of
-its path. Mostly the plugin is left over from the skid-steer robot that the package was copied from.
-No accepted package at hand shows it.
+Steered wheels roll where they point, and feet must grip: with slip the robot drifts off its path.
+Usually the plugin is left over from the skid-steer robot that the package was copied from. None of
+the accepted packages that we checked shows this.
 
 Fix: remove the WheelSlip plugin.
 Source: SubT review practice: WheelSlip lets skid-steer wheels slip sideways in a turn.
@@ -15,7 +15,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("DRV008", "needless-wheel-slip", Severity.WARNING)
 def check(robot: Robot) -> Findings:
-    """Report WheelSlip plugins of Ackermann and legged robots."""
+    """Report WheelSlip plugins on Ackermann and legged robots."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     moves = robot.locomotion
@@ -25,7 +25,9 @@ def check(robot: Robot) -> Findings:
     kind = DriveKind.ACKERMANN if steered else DriveKind.LEGGED
     for plugin in robot.all_plugins:
         if plugin.class_name == "WheelSlip":
-            yield finding(plugin, f"WheelSlip on a robot that moves by {kind}: nothing has to slip")
+            yield finding(
+                plugin, f"the robot moves by {kind}, so nothing has to slip: remove WheelSlip"
+            )
 
 
 _SLIP = '<plugin filename="libw.so" name="ignition::gazebo::systems::WheelSlip"/>'

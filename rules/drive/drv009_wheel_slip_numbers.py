@@ -1,12 +1,14 @@
-"""WheelSlip that leaves out a wheel or has numbers of another robot.
+"""WheelSlip leaves out a wheel or has the numbers of another robot.
 
-The plugin turns a wheel's slip into a force by its normal force and radius. A wheel that is left
-out clings to the ground while the others slip; numbers copied from a heavier robot make it glide.
-Of the accepted packages at hand one shows it: its forces add up to 40 % of its weight.
+The plugin converts a wheel's slip to a force with its normal force and radius. A wheel that is left
+out grips the ground while the others slip; numbers copied from a heavier robot make it glide. Of
+the accepted packages that we checked, one shows this: its forces add up to 40 % of its weight.
 
-Fix: list every wheel that is driven; `wheel_normal_force` is the robot's weight over the number of
-wheels, m·g/n in N; `wheel_radius` that of the wheel in m; `slip_compliance_lateral` above zero.
-Source: parameters of Gazebo's WheelSlip; all accepted skid-steer robots at hand state m·g/n.
+Fix: list every driven wheel. `wheel_normal_force` is the robot's weight divided by the number of
+wheels, m·g/n in N; `wheel_radius` is the radius of the wheel in m; `slip_compliance_lateral` is
+above zero.
+Source: parameters of Gazebo's WheelSlip; all accepted skid-steer robots that we checked state
+m·g/n.
 """
 
 import math
@@ -23,13 +25,13 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 def check(robot: Robot, *, force: float = 0.2, radius: float = 0.03) -> Findings:
     """Compare WheelSlip with the robot.
 
-    Wheels that do not exist are left to PLG004.
+    PLG004 reports wheels that do not exist.
 
     Options:
-        force: Share by which `<wheel_normal_force>` may be above the weight over the number of
-            driven or listed wheels, or below that over all wheels.
-        radius: Share of the reach of a wheel's collisions across its axis by which `<wheel_radius>`
-            may be off.
+        force: Share by which `<wheel_normal_force>` may be above the weight divided by the number
+            of driven or listed wheels, or below the weight divided by the number of all wheels.
+        radius: Share of the wheel's radius, measured at its collisions, by which `<wheel_radius>`
+            may differ.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
@@ -95,7 +97,7 @@ def _forces(robot: Robot, listed: Sequence[SlippingWheel], tolerance: float) -> 
 
 
 def _driven(robot: Robot) -> int:
-    """Return how many wheels the drive plugins name, also those that do not exist."""
+    """Return how many wheels the drive plugins name, including those that do not exist."""
     names = [
         name.value
         for drive in robot.locomotion.wheel_drives
@@ -113,7 +115,7 @@ def _radii(robot: Robot, listed: Sequence[SlippingWheel], tolerance: float) -> I
         if abs(each.radius.value - wheel.radius) > tolerance * wheel.radius:
             yield finding(
                 each.radius,
-                f"wheel_radius of {each.link!r} is {each.radius.value:g} m, its collision has "
+                f"wheel_radius of {each.link!r} is {each.radius.value:g} m, but its collision has "
                 f"{wheel.radius:.4g} m",
                 key=f"{each.radius.value:g} {wheel.radius:.4g} m",
             )

@@ -1,10 +1,10 @@
-"""Rotors that cannot carry or steer the multicopter, or that its controller takes for others.
+"""Rotors that cannot carry or steer the multicopter, or that do not match its controller.
 
-The controller commands the rotors by number, and works out each speed from the constants and
-directions that it is told. A number twice, a direction that is wrong or a motor that it does not
-know makes the robot tumble; with less thrust than weight it stays on the ground; a rotor that spins
-across its thrust sweeps through the robot.
-One accepted package at hand shows a fault: rotors that lift thousands of times its weight.
+The controller commands the rotors by number, and computes each speed from the constants and
+directions it is given. A repeated number, a wrong direction or a motor that the controller does not
+know makes the robot tumble. With less thrust than weight it stays on the ground. A rotor that spins
+across its thrust sweeps through the robot. Of the accepted packages that we checked, one shows
+this: rotors that lift thousands of times its weight.
 
 Fix: number the rotors from 0 in the order of `<rotorConfiguration>`; turn half of them `ccw`
 and half `cw`, neighbours opposite; copy `motorConstant`, `momentConstant` and the direction (ccw is
@@ -42,19 +42,19 @@ def check(
     tolerance: float = 0.01,
     least_cosine: float = 0.5,
 ) -> Findings:
-    """Check motors by themselves, against each other and against their controller.
+    """Check each motor, and compare it with the others and with the controller.
 
-    Joints and links that do not exist are left to PLG004.
+    PLG004 reports joints and links that do not exist.
 
     Options:
         least_thrust: Thrust of all rotors at full speed, in multiples of the robot's weight; less
             is an error.
         most_thrust: Thrust of all rotors at full speed, in multiples of the robot's weight; more is
             a warning.
-        imbalance: Share of the rotors' torques together that may not cancel at equal speed; more is
-            a warning.
+        imbalance: Share of the sum of the rotors' torques that may remain at equal speed; more is a
+            warning.
         tolerance: Share of a motor's `<motorConstant>` or `<momentConstant>` by which the
-            controller's may be off; more is a warning.
+            controller's may differ; more is a warning.
         least_cosine: Cosine of the angle between a rotor's joint axis and its thrust, up or down;
             less is an error.
     """
@@ -90,12 +90,13 @@ def _incomplete(rotor: Rotor) -> Iterator[Finding]:
     if missing:
         yield finding(
             rotor.plugin,
-            f"the motor of {rotor.name.value!r} states no {', '.join(missing)}: it does not turn",
+            f"the motor of {rotor.name.value!r} states no {', '.join(missing)}, so it does not "
+            "turn",
         )
 
 
 def _groups(rotors: Iterable[Rotor]) -> Iterable[list[Rotor]]:
-    """Group rotors by whose commands they listen to."""
+    """Group rotors by the commands they listen to."""
     groups: dict[tuple[str, ...], list[Rotor]] = defaultdict(list)
     for rotor in rotors:
         topics = (t.value for tag in _TOPIC_TAGS for t in rotor.plugin.at(tag))
@@ -113,7 +114,8 @@ def _askew(robot: Robot, least_cosine: float) -> Iterator[Finding]:
         if abs(sum(a * b for a, b in zip(thrust, rotor.axis, strict=True))) < least_cosine:
             yield finding(
                 rotor.joint.axes[0].xyz[0],
-                f"rotor {rotor.name.value!r} spins across its thrust, which is along z of its link",
+                f"rotor {rotor.name.value!r} spins across its thrust: its joint axis must be the "
+                "z axis of its link",
                 related=[(rotor.plugin, "the motor")],
             )
 
@@ -131,8 +133,8 @@ def _numbers(rotors: Sequence[Rotor]) -> Iterator[Finding]:
         if other is not rotor:
             yield finding(
                 rotor.number,
-                f"motorNumber of {rotor.name.value!r} is {number:g}, which "
-                f"{other.name.value!r} has too",
+                f"motorNumber of {rotor.name.value!r} is {number:g}, and {other.name.value!r} has "
+                "the same number",
                 related=[(other.plugin, "the other motor")],
             )
         elif number not in range(len(rotors)):
@@ -174,8 +176,8 @@ def _order(entries: Sequence[RotorEntry], rotors: Sequence[Rotor]) -> Iterator[F
         if motor.number is not None and motor.number.value != number:
             yield finding(
                 motor.number,
-                f"motorNumber of {motor.name.value!r} is {motor.number.value:g}; it is rotor "
-                f"{number} of the controller, which counts them from 0",
+                f"motorNumber of {motor.name.value!r} is {motor.number.value:g}, but it is rotor "
+                f"{number} of the controller, which counts from 0",
                 related=[(entry, "in the controller")],
             )
 
@@ -188,7 +190,7 @@ def _disagreements(
         if told is not None and motor.direction and told.value != motor.direction:
             yield finding(
                 told,
-                f"direction of {name!r} is {told.value:g} for the controller and "
+                f"direction of {name!r} is {told.value:g} for the controller, but "
                 f"{motor.direction} for its motor",
                 related=[(motor.plugin, "the motor")],
             )
@@ -212,7 +214,7 @@ def _other_constant(
     if abs(told.value - actual.value) > tolerance * abs(actual.value):
         yield finding(
             told,
-            f"{tag} of {name!r} is {told.value:g}; its motor has {actual.value:g}",
+            f"{tag} of {name!r} is {told.value:g}, but its motor has {actual.value:g}",
             severity=Severity.WARNING,
             related=[(actual, "the motor's")],
         )
@@ -224,8 +226,8 @@ def _control(plugin: Plugin, own: Sequence[Rotor], imbalance: float) -> Iterator
     if share is not None and share > imbalance:
         yield finding(
             own[0].plugin,
-            f"the directions of the {len(own)} rotors do not cancel: at equal speed "
-            f"{share:.0%} of their torque turns the robot about",
+            f"the directions of the {len(own)} rotors do not cancel: at equal speed {share:.0%} "
+            "of their torque turns the robot",
             severity=Severity.WARNING,
         )
     if own and motions is not None and motions < _ALL_MOTIONS:

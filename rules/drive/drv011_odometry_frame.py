@@ -1,11 +1,11 @@
 """Odometry in a frame that is not in the TF tree.
 
-Who listens looks the frame up to place the robot, and gets an error instead of a transform. ROS
-knows the robot as `<name>`, its links as `<name>/<link>`, and what static_transform_publisher adds.
-No accepted package at hand shows it: they leave the frames at their defaults.
+A node that uses the odometry looks up the frame to place the robot, and gets an error instead of a
+transform. The TF tree contains the robot as `<name>`, its links as `<name>/<link>`, and what
+static_transform_publisher adds. No accepted package that we checked shows this: they keep the
+default frames.
 
-Fix: leave `<frame_id>` and `<child_frame_id>` out, or write `#{_name}/odom` and
-`#{_name}/base_link`.
+Fix: remove `<frame_id>` and `<child_frame_id>`, or write `#{_name}/odom` and `#{_name}/base_link`.
 Source: parameters of Gazebo's drive systems and OdometryPublisher; frames of pose_tf_broadcaster.
 """
 
@@ -27,14 +27,14 @@ _PUBLISH_NO_FRAMES = (
     *("ros_ign_bridge", "ros_ign_image", "ros_ign_point_cloud", "ros1_ign_bridge"),
     *("ros_gz_bridge", "ros_gz_image", "ros_gz_point_cloud", "subt_ros", "topic_tools"),
 )
-"""Packages whose programs add no frames of their own names to the tree."""
+"""Packages whose programs add no frames of other names to the tree."""
 
 _TRANSFORMS = ("TFMessage", "tfMessage")
 
 
 @rule("DRV011", "unknown-odometry-frame", Severity.WARNING)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
-    """Report stated frames that nothing publishes; where other programs may, nothing is said."""
+    """Report stated frames that nothing publishes, unless other programs may publish them."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     stated = list(_stated(robot))
@@ -68,7 +68,7 @@ def _unresolved(launch: LaunchGraph) -> str:
 
 
 def _tree_is_known(launch: LaunchGraph) -> bool:
-    """Say whether the broadcaster and static publishers alone make the tree."""
+    """Whether only the broadcaster and static publishers make the tree."""
     if launch.undecided or not any(node.type == _BROADCASTER for node in launch.nodes):
         return False
     bridged = any(bridge.ros_type.endswith(_TRANSFORMS) for bridge in launch.bridges)
@@ -78,7 +78,7 @@ def _tree_is_known(launch: LaunchGraph) -> bool:
 
 
 def _own_frames(robot: Robot) -> Iterator[str]:
-    """Yield the frames of robot, links and sensors, and those that odometry has by default."""
+    """Yield the frames of robot, links and sensors, and the default frames of odometry."""
     yield from (SAMPLE_NAME, f"{SAMPLE_NAME}/odom", SAMPLE_WORLD)
     for link in robot.links:
         frame = f"{SAMPLE_NAME}/{link.scoped_name.replace('::', '/')}"
@@ -88,7 +88,7 @@ def _own_frames(robot: Robot) -> Iterator[str]:
 
 
 def _static_frames(nodes: Iterable[Node]) -> Iterator[str]:
-    """Yield the frames that end the arguments: six or seven numbers, parent, child, period."""
+    """Yield the frames at the end of the arguments: six or seven numbers, parent, child, period."""
     for node in nodes:
         if node.type == _STATIC:
             yield from (word.strip("/") for word in node.args.split()[6:])

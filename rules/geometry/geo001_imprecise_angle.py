@@ -1,8 +1,8 @@
-"""An angle that means a multiple of π/2 and is not written to 16 digits.
+"""An angle close to a multiple of π/2 that is not written with 16 digits.
 
-A wheel's cylinder that is turned by 1.5708 instead of π/2 stands askew by microradians. The
-contact solver feels it: the robot creeps sideways and its wheels never come to rest. Elsewhere in
-a model the same digits are only untidy.
+A wheel's cylinder that is turned by 1.5708 instead of π/2 is tilted by microradians. This affects
+the contact solver: the robot creeps sideways and its wheels never come to rest. Elsewhere in a
+model such an angle is harmless.
 
 Fix: write 1.5707963267948966 or 3.1415926535897932.
 Source: Model Migration Guide, step 3: "ensure that the orientations of the wheel collisions use
@@ -36,16 +36,15 @@ def check(
 ) -> Findings:
     """Report angles near a multiple of π/2: an error in a wheel's collision, else information.
 
-    Angles in degrees are passed over: there a quarter turn is written exactly.
+    Angles in degrees are skipped: in degrees a quarter turn is exact.
 
     Options:
-        tolerance: Radians; an angle that is off a multiple of π/2 other than 0 by less is taken to
-            mean it, and reported.
-        harmless: Radians that an angle of a wheel's collision may be off before it is an error
+        tolerance: Radians; an angle closer than this to a multiple of π/2 other than 0, but not
+            equal to it, is reported.
+        harmless: Radians by which an angle of a wheel's collision may differ before it is an error
             instead of information.
-        typos: Texts, without sign, that are taken to mean the nearest multiple of π/2 however far
-            off they are.
-        digits: Digits behind the decimal point of the angle that the fix writes, 17 at most.
+        typos: Texts, without sign, that mean the nearest multiple of π/2, whatever the difference.
+        digits: Digits after the decimal point of the angle that the fix writes, at most 17.
     """
     decimals = min(digits, _MOST_DIGITS)
     wheels = {link.scoped_name for link in robot.wheels}
@@ -56,8 +55,8 @@ def check(
             where = "angle of a wheel's collision" if grave else "angle"
             yield finding(
                 angle,
-                f"{where} is {angle.span.text}, "
-                f"off {'-' if quarters < 0 else ''}{meant} by {off:.1e} rad",
+                f"{where} is {angle.span.text}, which differs from "
+                f"{'-' if quarters < 0 else ''}{meant} by {off:.1e} rad",
                 severity=Severity.ERROR if grave else Severity.INFO,
                 key="wheel" if grave else "elsewhere",
                 fix=replace_text(angle, f"{quarters * EXACT_HALF_PI:.{decimals}f}"),
@@ -78,7 +77,7 @@ def _poses(robot: Robot) -> Iterator[tuple[Pose, str]]:
 def _near(
     pose: Pose, tolerance: float, typos: tuple[str, ...]
 ) -> Iterator[tuple[Located[float], int, float]]:
-    """Yield angles that mean quarter turns: which number of them, and how far off they are."""
+    """Yield angles that mean quarter turns: how many of them, and the difference."""
     for angle in pose.numbers[3:6] if pose.in_radians else ():
         quarters = round(angle.value / HALF_PI)
         off = abs(angle.value - quarters * HALF_PI)

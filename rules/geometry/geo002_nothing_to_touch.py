@@ -1,11 +1,11 @@
-"""A driven wheel or track without collision, a body without, or a robot without any.
+"""A driven wheel, track or heavy body without collision, or a robot without any.
 
-What has no collision touches nothing: the wheel turns in the air or sinks into the ground, a body
-drives through walls, and a robot without collisions falls through the world.
-No accepted package at hand shows it.
+A link without collision touches nothing: a wheel turns in the air or sinks into the ground, a body
+drives through walls, and a robot without collisions falls through the world. None of the accepted
+packages that we checked shows this.
 
 Fix: give each wheel a `<collision>` with a cylinder, and each track boxes and cylinders.
-Source: contacts come from `<collision>` elements alone, SDFormat specification.
+Source: SDFormat specification: only `<collision>` elements make contacts.
 """
 
 from collections.abc import Iterator
@@ -23,14 +23,16 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
     """Report wheels and tracks without collision; a warning for wheels that nothing drives.
 
     Options:
-        body_share: Share of the robot's mass; links fixed together that weigh more, are seen and
-            have no collision are a warning.
+        body_share: Share of the robot's mass; links that are fixed together, weigh more, have
+            visuals and have no collision are a warning.
     """
     if robot.missing_parts or robot.unread_plugins:
         yield unchecked(robot.missing_parts or robot.unread_plugins)
     if robot.links and not any(link.collisions for link in robot.links):
         if not robot.missing_parts:
-            yield finding(robot, "no link of the robot has a collision")
+            yield finding(
+                robot, "no link of the robot has a collision: the robot falls through the ground"
+            )
         return
     for part in _driven(robot):
         if not any(link.collisions for link in part.links):
@@ -52,7 +54,7 @@ def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:
         if seen and mass > least_mass and not any(link.collisions for link in links):
             yield finding(
                 seen[0],
-                f"{seen[0].name.value!r} of {mass:.3g} kg is seen and has no collision",
+                f"{seen[0].name.value!r} of {mass:.3g} kg has a visual, but no collision",
                 severity=Severity.WARNING,
             )
 

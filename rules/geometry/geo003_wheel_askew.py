@@ -1,12 +1,12 @@
 """The cylinder of a wheel does not turn about the wheel's axis.
 
-It tumbles like a coin instead of rolling: a cylinder stands along its own z axis until its pose
-turns it, and that pose is missing or turns about the wrong axis.
-No accepted package at hand shows it.
+The wheel tumbles like a coin instead of rolling. A cylinder's axis is its own z axis until a pose
+turns it, and that pose is missing or turns it about the wrong axis. None of the accepted packages
+that we checked shows this.
 
-Fix: turn the collision, mostly by a `<pose>` of `0 0 0 1.5707963267948966 0 0`.
-Source: Model Migration Guide, step 3: orientations of the wheel collisions; cylinders of SDF and
-URDF are round about z.
+Fix: turn the collision, usually with a `<pose>` of `0 0 0 1.5707963267948966 0 0`.
+Source: Model Migration Guide, step 3: orientations of the wheel collisions; the axis of a cylinder
+is z in SDF and URDF.
 """
 
 import math
@@ -20,7 +20,7 @@ from checker.rule import Findings, Severity, finding, rule
 def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
     """Report driven wheels whose largest collision is round about another axis than the joint's.
 
-    Angles that are only written with too few digits are the business of GEO001.
+    GEO001 reports angles that only have too few digits.
 
     Options:
         degrees: Degrees between the axis of a wheel's largest collision and that of its joint; more
@@ -34,7 +34,7 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
         yield finding(
             rolls.shape.pose,
             f"{rolls.shape.geometry.shape} {rolls.shape.name.value!r} of wheel "
-            f"{wheel.link.name.value!r} stands {math.degrees(angle):.3g}° off the axis of joint "
+            f"{wheel.link.name.value!r} is {math.degrees(angle):.3g}° off the axis of joint "
             f"{wheel.joint.name.value!r}, expected 0°",
             related=[(wheel.joint, "the joint")],
         )

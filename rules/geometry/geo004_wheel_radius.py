@@ -1,8 +1,8 @@
-"""The drive plugin counts on another wheel radius than the wheels have.
+"""The drive plugin's wheel radius differs from that of the wheels.
 
-The plugin turns speed into wheel rate by its `wheel_radius`: with one that is 10 % too large the
-robot is 10 % slower than commanded, and its odometry 10 % wrong.
-No accepted package at hand shows it.
+The plugin computes the wheel rate from the speed and `wheel_radius`. If the radius is 10 % too
+large, the robot is 10 % slower than commanded and its odometry is 10 % wrong. None of the accepted
+packages that we checked shows this.
 
 Fix: set the plugin's `<wheel_radius>` to the radius of the wheels' collisions, in metres.
 Source: parameters of Gazebo's DiffDrive, AckermannSteering and MecanumDrive; 0.2 m by default.
@@ -18,14 +18,14 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 @rule("GEO004", "wheel-radius-disagrees", Severity.ERROR)
 def check(robot: Robot, *, error_above: float = 0.10, warning_above: float = 0.03) -> Findings:
-    """Compare a drive's radius with how far its wheels reach across their axes.
+    """Compare a drive's radius with the radius of its wheels' collisions.
 
-    Wheels that stand askew have no radius to compare: GEO003 reports them.
+    Tilted wheels have no radius to compare: GEO003 reports them.
 
     Options:
-        error_above: Share of a wheel's true radius by which the drive's may be off before it is an
+        error_above: Share of a wheel's true radius by which the drive's may differ before it is an
             error.
-        warning_above: Share of a wheel's true radius by which the drive's may be off; more is a
+        warning_above: Share of a wheel's true radius by which the drive's may differ; more is a
             warning.
     """
     if robot.unread_plugins:
@@ -48,12 +48,12 @@ def _worst(
     if not share > warning_above:
         return
     count = sum(other[0] > warning_above for other in off)
-    says = "has wheel_radius" if stated.stated else "states no wheel_radius, which means"
+    says = "has wheel_radius" if stated.stated else "states no wheel_radius; its default is"
     yield finding(
         stated,
-        f"{drive.plugin.class_name} {says} {stated.value:g} m; wheel {wheel.link.name.value!r} "
+        f"{drive.plugin.class_name} {says} {stated.value:g} m, but wheel {wheel.link.name.value!r} "
         f"has a radius of {wheel.radius:.4g} m"
-        + (f", and {count - 1} more differ" if count > 1 else ""),
+        + (f", and {count - 1} more wheels differ" if count > 1 else ""),
         severity=Severity.ERROR if share > error_above else Severity.WARNING,
         related=[(wheel.link, "the wheel")],
     )

@@ -1,14 +1,14 @@
-"""The drive plugin counts on other distances than the robot has.
+"""The drive plugin's distances differ from those of the robot.
 
-The plugin turns a turn rate into rates of wheels or tracks by its `wheel_separation` or
-`tracks_separation`, and into steering angles by its `wheel_base` and `kingpin_width`. Skid-steer
-robots raise the separation on purpose, by half or more, because their wheels slip sideways in a
-turn; one below the true distance, or far above it, is a mistake: the robot turns too slow or too
-fast. A wrong wheel base or kingpin width makes the wheels steer about different points.
-No accepted package at hand shows it.
+The plugin computes the rates of wheels or tracks from the turn rate with `wheel_separation` or
+`tracks_separation`, and steering angles with `wheel_base` and `kingpin_width`. Skid-steer robots
+raise the separation on purpose, by half or more, because their wheels slip sideways in a turn. A
+separation below the true distance, or far above it, is a mistake: the robot turns too slowly or too
+fast. With a wrong wheel base or kingpin width the wheels steer about different points. None of the
+accepted packages that we checked shows this.
 
-Fix: set the plugin's `<wheel_separation>` to the distance of left and right wheels, in metres,
-for a skid-steer robot to 1 to 2 times as much; `<wheel_base>` to the distance of the axles;
+Fix: set the plugin's `<wheel_separation>` to the distance of left and right wheels, in metres; for
+a skid-steer robot to 1 to 2 times the distance. Set `<wheel_base>` to the distance of the axles and
 `<kingpin_width>` to the distance of the steering joints.
 Source: parameters of Gazebo's DiffDrive, AckermannSteering, MecanumDrive and TrackedVehicle.
 """
@@ -24,15 +24,14 @@ def check(
 ) -> Findings:
     """Report distances less than `least` or more than `most` times the true ones.
 
-    Steering goes by the geometry alone: it has a bound of its own.
+    Steering depends on the geometry only: it has a limit of its own.
 
     Options:
-        least: Least ratio of any distance that the plugin counts on to the true one; less is
-            reported.
-        most: Greatest ratio of the separation of wheels or tracks that the plugin counts on to the
-            true one; more is reported.
-        most_of_steering: Greatest ratio of the wheel base or kingpin width that the plugin counts
-            on to the true one; more is reported.
+        least: Smallest ratio of a distance in the plugin to the true distance; less is reported.
+        most: Greatest ratio of the plugin's separation of wheels or tracks to the true distance;
+            more is reported.
+        most_of_steering: Greatest ratio of the plugin's wheel base or kingpin width to the true
+            distance; more is reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
@@ -46,9 +45,9 @@ def _message(counted: CountedDistance, least: float, most: float) -> str:
     stated = counted.stated
     says = f"has {counted.tag}" if stated.stated else f"states no {counted.tag}, so it is"
     return (
-        f"{counted.plugin.class_name} {says} {stated.value:g} m; its {counted.what} are "
-        f"{counted.true:.4g} m apart: {stated.value / counted.true:.2g} times, expected "
-        f"{least:g} to {most:g}"
+        f"{counted.plugin.class_name} {says} {stated.value:g} m, but its {counted.what} are "
+        f"{counted.true:.4g} m apart: {stated.value / counted.true:.2g} times, expected {least:g} "
+        f"to {most:g}"
     )
 
 

@@ -1,11 +1,11 @@
-"""A wheel or track hangs above or stands below the plane of the others.
+"""A wheel or track is above or below the level of the others.
 
-A wheel in the air carries no load and pulls nothing; one that stands below lifts its neighbours.
-The robot rocks and pulls to a side, though each wheel looks right by itself.
-No accepted package at hand shows it.
+A wheel in the air carries no load and drives nothing; one that is too low lifts its neighbours. The
+robot rocks and pulls to one side, although each wheel looks right on its own. None of the accepted
+packages that we checked shows this.
 
 Fix: correct the height of the wheel's link, or the radius of its collision.
-Source: geometry of collisions in the pose that the robot starts in.
+Source: geometry of collisions in the robot's initial pose.
 """
 
 from checker.model.locomotion.wheel_heights import Foot, uneven_wheels
@@ -15,16 +15,16 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("GEO006", "wheels-uneven", Severity.ERROR)
 def check(robot: Robot, *, error_above: float = 0.02, warning_above: float = 0.005) -> Findings:
-    """Report wheels and tracks whose lowest points are off the level of the others'.
+    """Report wheels and tracks whose lowest points are above or below those of the others.
 
-    What left and right wheel have in common is meant so. Wheels on suspensions and on further
-    segments of an articulated robot are passed over: they give way.
+    A height that left and right wheel share is intended. Wheels on suspensions and on further
+    segments of an articulated robot are skipped: they can move.
 
     Options:
         error_above: Metres that a wheel or track may be above or below the level of the others
             before it is an error.
         warning_above: Metres above or below the level of the others; more is a warning, unless the
-            wheel across is as high to within that.
+            wheel on the other side has the same height within this distance.
     """
     for foot in uneven_wheels(robot, warning_above):
         yield finding(
@@ -37,7 +37,7 @@ def check(robot: Robot, *, error_above: float = 0.02, warning_above: float = 0.0
 
 def _message(foot: Foot) -> str:
     kind = "track" if foot.part.is_track else "wheel"
-    how = "hangs {:.3g} mm above" if foot.off > 0 else "stands {:.3g} mm below"
+    how = "is {:.3g} mm above" if foot.off > 0 else "is {:.3g} mm below"
     return (
         f"{kind} {foot.part.link.name.value!r} {how.format(abs(foot.off) * 1e3)} the level of the "
         f"other {kind}s, expected 0 mm"

@@ -1,11 +1,11 @@
 """Collision and visual of a link are in different places, or of different size.
 
-What is seen is not what touches: a wheel rolls beside its picture, a robot stops in front of
-nothing or drives into walls. Mostly one of the two has a wrong pose, scale or unit.
-No accepted package at hand shows it.
+The robot does not touch what it seems to touch: a wheel rolls beside its visual, a robot stops in
+front of nothing or drives into walls. Usually one of the two has a wrong pose, scale or unit. None
+of the accepted packages that we checked shows this.
 
-Fix: give collision and visual the same pose and about the same extent.
-Source: geometry; boxes along the robot's axes around all collisions and all visuals of a link.
+Fix: give collision and visual the same pose and about the same size.
+Source: geometry: boxes along the robot's axes around all collisions and all visuals of a link.
 """
 
 import math
@@ -26,18 +26,16 @@ def check(
     other_share: float = 0.5,
     mass_share: float = 0.02,
 ) -> Findings:
-    """Report links whose collisions and visuals fill boxes of other centres or sizes.
+    """Report links whose collisions and visuals fill boxes of different centres or sizes.
 
-    Wheels that stand askew (GEO003) and rotors are passed over, as are links with a mesh that is
-    not known.
+    Tilted wheels (GEO003), rotors and links with an unknown mesh are skipped.
 
     Options:
-        wheel_share: Share of the larger box's diagonal by which centres or sizes may differ of a
+        wheel_share: Share of the larger box's diagonal by which centres or sizes may differ for a
             wheel; more is reported.
-        other_share: Share of the larger box's diagonal by which centres or sizes may differ of any
+        other_share: Share of the larger box's diagonal by which centres or sizes may differ for any
             other link; more is reported.
-        mass_share: Share of the robot's mass; links that weigh no more are passed over, except
-            wheels.
+        mass_share: Share of the robot's mass; links that weigh no more are skipped, except wheels.
     """
     wheels = {link.scoped_name for link in robot.wheels}
     exempt = {rotor.link.scoped_name for rotor in robot.locomotion.rotors if rotor.link}
@@ -61,8 +59,9 @@ def _message(link: Link, touched: Box, seen: Box) -> str:
     name = link.name.value
     beside = math.dist(touched.centre, seen.centre)
     if beside > math.dist(_size(touched), _size(seen)):
-        return f"the middle of collision and visual of {name!r} are {beside:.3g} m apart"
-    return f"{name!r} collides as {_text(touched)} and shows as {_text(seen)}"
+        return f"the centres of collision and visual of {name!r} are {beside:.3g} m apart"
+    sizes = f"{_text(touched)}, but its visual measures {_text(seen)}"
+    return f"the collision of {name!r} measures {sizes}"
 
 
 def _text(box: Box) -> str:

@@ -1,9 +1,8 @@
 """A shape with a length of zero or less.
 
-Physics engines refuse such a shape, drop it, or compute contacts that explode. A mesh whose scale
-is negative is mirrored: as a visual that is as good as a second file, but as a collision its
-surface is inside out.
-No accepted package at hand shows it.
+Physics engines refuse such a shape, drop it, or compute contacts that explode. A negative scale
+mirrors a mesh: this is useful for a visual, but the surface of a collision becomes inside out. None
+of the accepted packages that we checked shows this.
 
 Fix: write the length in metres as a positive number; mirror a mesh in the mesh file.
 Source: SDFormat specification, geometry: lengths are above 0.
@@ -20,7 +19,7 @@ _LENGTHS = ("height", "length", "radii", "radius", "scale", "size")
 
 @rule("GEO008", "shape-without-size", Severity.ERROR)
 def check(robot: Robot) -> Findings:
-    """Report lengths that are not above 0; a warning for collision meshes that are mirrored."""
+    """Report lengths that are not above 0; a mirrored collision mesh is a warning."""
     for link in robot.links:
         for collision in link.collisions:
             whose = f"{collision.name.value!r} of {link.name.value!r}"

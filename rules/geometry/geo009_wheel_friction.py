@@ -1,8 +1,8 @@
-"""A wheel, track or foot without friction, or with more than anything has.
+"""A wheel, track or foot without friction, or with impossibly high friction.
 
-Without friction it spins on the spot. Rubber on rock reaches about 1; a coefficient of 150 lets the
-robot climb walls that no robot climbs, and some engines jitter with it.
-Engines differ in what they assume where nothing is stated.
+Without friction a wheel spins in place. Rubber on rock reaches about 1; with a coefficient of 150
+the robot climbs walls that no real robot climbs, and some engines jitter. Engines use different
+defaults for friction that is not stated.
 
 Fix: state `<surface><friction><ode>` with `<mu>` and `<mu2>` of about 0.5 to 1.5 for each collision
 of each wheel.
@@ -21,14 +21,14 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 
 @rule("GEO009", "wheel-friction", Severity.WARNING)
 def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Findings:
-    """Report coefficients of 0 or less and above `most`, and wheels that alone state none.
+    """Report coefficients of 0 or less and above `most`, and single wheels that state none.
 
-    Where nothing that the robot stands on states a friction, that is information.
+    If nothing that the robot stands on states friction, this is information.
 
     Options:
         most: Greatest coefficient of friction; more is reported, except across a track.
-        foot_height: Metres above a legged robot's lowest point; collisions that reach down to there
-            count as feet where a joint carries their link.
+        foot_height: Metres above a legged robot's lowest point; collisions of moving links that
+            reach below this height count as feet.
     """
     reader = FrictionReader(robot)
     across = _across(robot)
@@ -43,13 +43,13 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
 class _Across(enum.Enum):
     AS_ALONG = enum.auto()
     FREE = enum.auto()
-    """Of a Mecanum wheel, which rolls sideways on its rollers: 0 on purpose."""
+    """Least `mu2` of a Mecanum wheel, which rolls sideways on its rollers: 0 on purpose."""
     HELD = enum.auto()
-    """Of a track, which must not slip sideways: Gazebo's own examples have 150."""
+    """Greatest `mu2` of a track, which must not slip sideways: Gazebo's own examples have 150."""
 
 
 def _across(robot: Robot) -> dict[str, _Across]:
-    """Say what `mu2` is meant to do, by the name of the link, where that is special."""
+    """Return the special meaning of `mu2` for the link, judged by its name."""
     known = {track.link.scoped_name: _Across.HELD for track in robot.locomotion.tracks}
     for drive in robot.locomotion.wheel_drives:
         if drive.plugin.class_name == "MecanumDrive":
@@ -74,7 +74,7 @@ def _absurd(link: Link, friction: Friction, most: float, across: _Across) -> Ite
 
 
 def _missing(link: Link, shape: Collision, some_state: bool) -> Finding:
-    others = "; others of what the robot stands on state one" if some_state else ""
+    others = ", but other parts that the robot stands on do" if some_state else ""
     return finding(
         shape,
         f"collision {shape.name.value!r} of {link.name.value!r} states no friction{others}",

@@ -1,11 +1,11 @@
-"""A wheel collides as a mesh.
+"""A wheel whose collision is a mesh.
 
-A mesh rolls on its corners: the robot shakes and its odometry drifts, contacts take long to find,
-and engines differ in how they treat a mesh that is not convex.
-No accepted package at hand shows it.
+A mesh rolls on its corners: the robot shakes and its odometry drifts. Contacts take long to
+compute, and engines treat meshes that are not convex differently. None of the accepted packages
+that we checked shows this.
 
-Fix: let the wheel collide as a cylinder or a sphere, and keep the mesh as its visual.
-Source: a cylinder or sphere touches the ground in the same way however far it has turned.
+Fix: use a cylinder or a sphere as the wheel's collision, and keep the mesh as its visual.
+Source: a cylinder or sphere touches the ground in the same way at every angle.
 """
 
 from checker.model.robot import Robot
@@ -21,8 +21,8 @@ def check(robot: Robot) -> Findings:
                 if shape.geometry.shape == "mesh":
                     yield finding(
                         shape.geometry,
-                        f"wheel {link.name.value!r} collides as a mesh, expected a cylinder or "
-                        f"sphere",
+                        f"wheel {link.name.value!r} has a mesh as its collision, expected a "
+                        "cylinder or sphere",
                         key="mesh",
                     )
 

@@ -1,11 +1,12 @@
-"""The body of a robot reaches below its wheels or tracks, or nearly down to the ground.
+"""The body of a robot reaches below its wheels or tracks, or is close to the ground.
 
-It lies on its belly: the wheels hang in the air, or push with what little load is left. With little
-room below, the first bump stops it: mostly the wheels are too high in the body.
-No accepted package at hand shows it: the lowest has half a wheel's radius below it.
+The robot lies on its belly: the wheels hang in the air or carry too little load to push. With
+little ground clearance, the first bump stops the robot. Usually the wheels are too high in the
+body. No accepted package that we checked shows this: the lowest has a clearance of half a wheel's
+radius.
 
 Fix: raise or shrink the collision, or lower the wheels.
-Source: geometry of collisions in the pose that the robot starts in.
+Source: geometry of collisions in the robot's initial pose.
 """
 
 from checker.model.geometry.placed_shapes import Placed, placed
@@ -17,16 +18,16 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 
 @rule("GEO011", "body-below-wheels", Severity.ERROR)
 def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.25) -> Findings:
-    """Report collisions of what carries the wheels that reach below them all, or nearly so.
+    """Report collisions of the body that reach below all wheels or have little clearance.
 
-    Arms, legs and other moving parts may reach down. A robot on one axle needs something else to
-    stand on, such as a caster: it is passed over.
+    Arms, legs and other moving parts may reach down. A robot with one axle needs something else to
+    stand on, such as a caster, and is skipped.
 
     Options:
         tolerance: Metres that a collision may reach below the lowest point of wheels and tracks
             before it is an error.
-        least_clearance: Room below a collision as a share of the largest wheel's radius, or of half
-            a track's height; less is a warning.
+        least_clearance: Clearance below a collision as a share of the largest wheel's radius, or of
+            half a track's height; less is a warning.
     """
     parts = rolling_parts(robot)
     if not parts or on_one_axle(parts):
@@ -54,7 +55,7 @@ def _finding(each: Placed, clearance: float, expected: float, tolerance: float) 
         return finding(each.shape.pose, said)
     return finding(
         each.shape.pose,
-        f"{what} leaves {max(clearance, 0.0) * 1e3:.3g} mm to the ground that the wheels stand on, "
+        f"{what} leaves {max(clearance, 0.0) * 1e3:.3g} mm to the ground under the wheels, "
         f"expected {expected * 1e3:.3g} mm or more",
         severity=Severity.WARNING,
     )

@@ -1,10 +1,10 @@
-"""A part floats: nothing is near it.
+"""A part floats: no other part is near it.
 
-A camera or an antenna in the air beside the robot is mostly a wrong pose: a decimal point, a sign,
-a unit, or the pose of another configuration.
+A camera or an antenna in the air next to the robot usually has a wrong pose: a decimal point, a
+sign, a unit, or the pose of another configuration.
 
-Fix: correct the pose of the shape or of its link; where there is a bracket in reality, show it.
-Source: geometry; boxes along the robot's axes around each collision and visual.
+Fix: correct the pose of the shape or of its link; if the real robot has a bracket, model it.
+Source: geometry: boxes along the robot's axes around each collision and visual.
 """
 
 from collections.abc import Sequence
@@ -22,19 +22,19 @@ def check(robot: Robot, *, gap: float = 0.02) -> Findings:
 
     Options:
         gap: Metres between the boxes of two shapes, along each axis of the robot, up to which they
-            hang together.
+            count as connected.
     """
     shapes, unknown = _shapes(robot)
     try:
         groups = clusters([each.box for each in shapes], gap)
     except TooManyPairs:
-        yield unchecked("too many shapes lie side by side to look for a floating one")
+        yield unchecked("too many shapes are close together to look for a floating one")
         return
     if len(groups) < 2:
         return
     if unknown or robot.missing_parts:
-        reason = robot.missing_parts or f"the extent of {unknown[0].name.value!r} is not known"
-        yield unchecked(f"{reason}, and what seems to float may hang on it")
+        reason = robot.missing_parts or f"the size of {unknown[0].name.value!r} is not known"
+        yield unchecked(f"{reason}; parts that seem to float may be attached to it")
         return
     members = [[shapes[number] for number in group] for group in groups]
     body = max(members, key=_diagonal)
@@ -65,7 +65,7 @@ def _floating(group: Sequence[Placed], gap: float) -> Finding:
     return finding(
         first.shape,
         f"{first.shape.name.value!r}{more} of {first.link.name.value!r} at ({x:.3g}, {y:.3g}, "
-        f"{z:.3g}) m: everything else is more than {gap * 1e3:g} mm away",
+        f"{z:.3g}) m: all other parts are more than {gap * 1e3:g} mm away",
     )
 
 

@@ -1,12 +1,13 @@
 """A wheel turns backwards, or left and right are swapped in the drive plugin.
 
-A joint turns about its axis by the right hand: wheels roll forward, to +x, when their axes point to
-the left, to +y. With one axis reversed the wheels work against each other; with all reversed the
-robot backs up when it is told to advance; with swapped sides it turns the wrong way.
-No accepted package at hand shows it.
+A joint turns about its axis by the right-hand rule: wheels roll forward, to +x, if their axes point
+to the left, to +y. With one axis reversed, the wheels work against each other. With all axes
+reversed, the robot drives backwards when commanded forwards. With swapped sides it turns the wrong
+way. None of the accepted packages that we checked shows this.
 
-Fix: reverse the joint's `<xyz>`, or exchange `<left_joint>` and `<right_joint>`.
-Source: REP 103: x forward, y left; Gazebo's DiffDrive advances by positive rates on both sides.
+Fix: reverse the joint's `<xyz>`, or swap `<left_joint>` and `<right_joint>`.
+Source: REP 103: x forward, y left; Gazebo's DiffDrive drives forward with positive rates on both
+sides.
 """
 
 from collections.abc import Iterator
@@ -23,12 +24,12 @@ _UP: Vector = (0.0, 0.0, 1.0)
 
 @rule("GEO013", "wheel-turns-backwards", Severity.ERROR)
 def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25) -> Findings:
-    """Report axes that point the wrong way, and wheels on the other side than the plugin says.
+    """Report axes that point the wrong way, and wheels that are not on the side of their entry.
 
     Options:
-        least_cosine: Cosine of the angle to the wrong direction from which on a wheel's axis is an
-            error, and to straight up below which a steering axis is.
-        least_share: Share of half the distance of the outermost wheels; a wheel no further off the
+        least_cosine: Cosine of the angle to the wrong direction from which a wheel's axis is an
+            error, and of the angle to straight up below which a steering axis is an error.
+        least_share: Share of half the distance of the outermost wheels; a wheel closer to the
             middle is never on the wrong side.
     """
     if robot.unread_plugins:
@@ -49,8 +50,8 @@ def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[
         axis = robot.axis_in_model(joint, joint.axes[0]) if joint.axes else None
         upwards = 1.0 if axis is None else _dot(axis, _UP)
         if upwards < least_cosine:
-            down = "points down: it steers to the other side"
-            lies = "does not point up: it tilts its wheel, expected 0 0 1"
+            down = "points down, so it steers to the other side: expected 0 0 1"
+            lies = "does not point up, so it tilts its wheel: expected 0 0 1"
             yield finding(
                 joint.axes[0].xyz[0],
                 f"axis {_written(joint)} of steering joint {name!r} "
@@ -61,7 +62,7 @@ def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[
         if across.get(joint, middle) != middle and is_on is not side:
             yield finding(
                 drive.plugin,
-                f"{drive.plugin.class_name} has steering joint {name!r} on the {side}; it is on "
+                f"{drive.plugin.class_name} lists steering joint {name!r} as {side}, but it is on "
                 f"the {is_on}",
                 key=f"{drive.plugin.element.path} steering",
                 related=[(joint, "the joint")],
@@ -69,7 +70,7 @@ def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[
 
 
 def _left_of(drive: WheelDrive, least_cosine: float) -> Vector:
-    """Return where left is: +y, or for wheels that do not turn about y, where most axes point."""
+    """Return the direction of left: +y, or the direction of most axes if wheels turn otherwise."""
     axes = [wheel.axis for wheel in drive.wheels if wheel.axis is not None]
     if not axes or any(abs(_dot(axis, _LEFT)) >= least_cosine for axis in axes):
         return _LEFT
@@ -84,7 +85,11 @@ def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[
     every = len(wrong) == len(known) > 1
     joints: dict[Joint, Wheel] = {wheel.joint: wheel for wheel in wrong}
     for joint in joints:
-        what = "like all others: the robot backs up" if every else "the others turn against it"
+        what = (
+            "like all others: the robot drives backwards"
+            if every
+            else "the other wheels turn against it"
+        )
         yield finding(
             joint.axes[0].xyz[0],
             f"axis {_written(joint)} of wheel joint {joint.name.value!r} points to the right, "
@@ -104,7 +109,7 @@ def _swapped(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Fi
         if side is not wheel.side and abs(at - middle) > least_share * half > 0:
             yield finding(
                 wheel.name,
-                f"{drive.plugin.class_name} has {wheel.name.value!r} on the {wheel.side}; its "
+                f"{drive.plugin.class_name} lists {wheel.name.value!r} as {wheel.side}, but its "
                 f"wheel is {abs(at - middle):.3g} m {side} of the middle",
                 key=f"{drive.plugin.element.path} {wheel.side}",
                 related=[(wheel.joint, "the joint")],

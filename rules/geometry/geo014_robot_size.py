@@ -1,8 +1,8 @@
-"""The robot as a whole is tiny, huge, featherweight or too heavy.
+"""The whole robot is far too small, large, light or heavy.
 
-A robot of 400 m was drawn in millimetres, one of 4 mm had its scale applied twice; masses go wrong
-by grams for kilograms. Contacts and controllers are made for the sizes of real robots.
-No accepted package at hand shows it.
+A robot of 400 m was drawn in millimetres, one of 4 mm was scaled twice; masses become wrong when
+grams are taken for kilograms. Contacts and controllers are made for robots of real size. None of
+the accepted packages that we checked shows this.
 
 Fix: write lengths in metres and masses in kilograms, and correct the `<scale>` of meshes.
 Source: SDFormat and URDF use SI units; ground and air robots of 5 cm to 10 m and 50 g to 5 t.
@@ -22,13 +22,13 @@ def check(
     lightest: float = 0.05,
     heaviest: float = 5000.0,
 ) -> Findings:
-    """Compare the longest side of the box around all shapes, and the mass, with real robots'.
+    """Compare the longest side of the box around all shapes, and the mass, with real robots.
 
     Options:
-        smallest: Metres of the longest side of the box around the robot; less is reported.
-        largest: Metres of the longest side of the box around the robot; more is reported.
-        lightest: Kilograms of all links of the robot together; less is reported.
-        heaviest: Kilograms of all links of the robot together; more is reported.
+        smallest: Longest side of the box around the robot, metres; less is reported.
+        largest: Longest side of the box around the robot, metres; more is reported.
+        lightest: Mass of all links of the robot, kilograms; less is reported.
+        heaviest: Mass of all links of the robot, kilograms; more is reported.
     """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
@@ -44,12 +44,12 @@ def check(
         if not smallest <= side <= largest:
             yield finding(
                 robot,
-                f"robot measures {side:.3g} m, expected {smallest:g} to {largest:g} m",
+                f"the robot measures {side:.3g} m, expected {smallest:g} to {largest:g} m",
             )
     if box is not None and not lightest <= robot.mass <= heaviest:
         yield finding(
             robot,
-            f"robot weighs {robot.mass:.3g} kg, expected {lightest:g} to {heaviest:g} kg",
+            f"the robot weighs {robot.mass:.3g} kg, expected {lightest:g} to {heaviest:g} kg",
         )
 
 

@@ -1,11 +1,11 @@
-"""Parts that no joint ties start inside each other.
+"""Parts that no joint connects start inside each other.
 
-Gazebo does not let a robot collide with itself unless it is told to, other simulators do: there the
-parts jam, or burst apart at the start. In reality they cannot be in one place.
-No accepted package at hand shows it.
+By default Gazebo does not let a robot collide with itself, but other simulators do: there the parts
+jam or burst apart at the start. Real parts cannot be in the same place. None of the accepted
+packages that we checked shows this.
 
 Fix: correct the pose of one of the parts, or make its collision smaller.
-Source: geometry of collisions in the pose that the robot starts in; depth by separating directions.
+Source: geometry of collisions in the robot's initial pose; depth along separating directions.
 """
 
 from checker.model.geometry.boxes import TooManyPairs
@@ -18,17 +18,17 @@ from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 def check(robot: Robot, *, depth: float = 0.01) -> Findings:
     """Report pairs of parts whose collisions are inside each other by more than `depth`.
 
-    Parts that a joint ties may overlap around it. Concave meshes are passed over.
+    Parts that a joint connects may overlap. Concave meshes are skipped.
 
     Options:
-        depth: Metres that two collisions may be inside each other, by the shortest way that parts
-            them; more is reported.
+        depth: Metres that two collisions may be inside each other, along the shortest way that
+            separates them; more is reported.
     """
     try:
         for inside in interpenetrations(robot, depth):
             yield _finding(inside)
     except TooManyPairs:
-        yield unchecked("too many collisions lie side by side to compare each with each")
+        yield unchecked("too many collisions are close together to compare all pairs")
 
 
 def _finding(inside: Inside) -> Finding:
@@ -36,7 +36,7 @@ def _finding(inside: Inside) -> Finding:
     return finding(
         other.link,
         f"{other.link.name.value!r} starts {inside.depth * 1e3:.3g} mm inside "
-        f"{one.link.name.value!r}, and no joint ties them",
+        f"{one.link.name.value!r}, but no joint connects them",
         key=one.link.scoped_name,
         related=[
             (one.shape, f"collision of {one.link.name.value!r}"),

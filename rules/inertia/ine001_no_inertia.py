@@ -1,13 +1,12 @@
-"""A link without inertia: the simulator takes 1 kg and 1 kg·m², whatever the link is.
+"""A link without inertia: the simulator uses 1 kg and 1 kg·m² for it.
 
 A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
-a kilogram nobody meant hides in the total. It counts for links that a fixed joint ties as well; a
-link that hangs on the world by fixed joints alone never moves, so its mass does not matter.
-In URDF a link without `<inertial>` weighs nothing (URD007), and one with a `<mass>` alone has no
-inertia.
+adds an unintended kilogram to the total. This includes links on fixed joints. A link that only
+fixed joints connect to the world never moves, so its mass does not matter. In URDF a link without
+`<inertial>` weighs nothing (URD007), and one with only a `<mass>` has no inertia.
 
-Fix: state mass, pose and inertia of the link, as CAD or the formulas for boxes and cylinders give
-them; of a mere frame, lump the link into its parent.
+Fix: state mass, pose and inertia of the link, from CAD or the formulas for boxes and cylinders. If
+the link is only a frame, lump it into its parent.
 Source: SDFormat specification, link/inertial: the defaults.
 """
 
@@ -24,7 +23,7 @@ _MOMENTS = 6
 
 @rule("INE001", "no-inertia", Severity.ERROR)
 def check(masses: MassProperties) -> Findings:
-    """Report moving links without inertial, without mass, and without any moment of inertia."""
+    """Report moving links without inertial, without mass or without any moment of inertia."""
     if masses.robot.is_static:
         return
     held = _held(masses.robot)
@@ -36,12 +35,12 @@ def check(masses: MassProperties) -> Findings:
 def _missing(link: Link, *, sdf: bool) -> Iterator[Finding]:
     name = link.name.value
     inertial = link.inertial
-    taken = "the simulator takes 1 kg·m² about each axis" if sdf else "it counts as zero"
+    taken = "the simulator uses 1 kg·m² about each axis" if sdf else "it counts as zero"
     if inertial is None:
         if sdf:
             yield finding(
                 link,
-                f"link {name!r} has no <inertial>: the simulator takes 1 kg and 1 kg·m²",
+                f"link {name!r} has no <inertial>: the simulator uses 1 kg and 1 kg·m²",
                 key="none",
             )
     elif _left_to_the_simulator(link):
@@ -49,24 +48,24 @@ def _missing(link: Link, *, sdf: bool) -> Iterator[Finding]:
     elif not any(moment.stated for moment in inertial.moments[:_MOMENTS]):
         yield finding(
             inertial.mass,
-            f"link {name!r} states a mass of {inertial.mass.value:g} kg and no <inertia>: {taken}",
+            f"link {name!r} states a mass of {inertial.mass.value:g} kg, but no <inertia>: {taken}",
             key="no moments",
         )
     elif not inertial.mass.stated:
         weight = "1 kg" if sdf else "no mass"
         yield finding(
-            inertial, f"link {name!r} states no <mass>: the simulator takes {weight}", key="no mass"
+            inertial, f"link {name!r} states no <mass>: the simulator uses {weight}", key="no mass"
         )
 
 
 def _left_to_the_simulator(link: Link) -> bool:
-    """SDF 1.11 works inertia out of shapes and density where the model says so."""
+    """Whether SDF 1.11 computes the inertia from shapes and density, as the model asks."""
     element = link.element.child("inertial")
     return element is not None and (element.get("auto") or "").strip().lower() in ("1", "true")
 
 
 def _held(robot: Robot) -> set[str]:
-    """Return the links that fixed joints tie to the world, directly or over others."""
+    """Return the links that fixed joints connect to the world, directly or through others."""
     fixed: dict[str, list[str]] = {}
     for tie in robot.tree.ties:
         if tie.joint.type.value == "fixed":

@@ -1,15 +1,15 @@
-"""A mass or inertia that no body can have.
+"""A mass or inertia that no physical body can have.
 
-Physics engines divide by them: the robot flies apart, drifts off by itself, or is not loaded at
-all. Of the three principal moments, two together must be at least the third: a plate reaches
-equality, nothing goes beyond. One number tells all of it, the smallest eigenvalue of the
-pseudo-inertia, which is the matrix of the second moments of mass: it must not be negative.
+Physics engines divide by these values: the robot flies apart, drifts off, or does not load. The sum
+of any two principal moments must be at least the third; a plate reaches equality. One number covers
+all conditions: the smallest eigenvalue of the pseudo-inertia, the matrix of the second moments of
+mass, must not be negative.
 
-Fix: take mass, centre of mass and inertia from CAD, all of them in kg and m and about the centre of
-mass; a moment that is too large by a factor of 1000 or a sign that is lost shows by itself.
+Fix: take mass, centre of mass and inertia from CAD, all in kg and m and about the centre of mass.
+Look for a moment that is too large by a factor of 1000, or a lost sign.
 Source: Wensing, Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
-parameter identification", 2018; libsdformat 12 refuses negative masses and impossible moments,
-and takes a mass of zero.
+parameter identification", 2018; libsdformat 12 refuses negative masses and impossible moments, and
+accepts a mass of zero.
 """
 
 import math
@@ -25,13 +25,13 @@ from checker.source.text import Span
 
 @rule("INE002", "impossible-inertia", Severity.ERROR)
 def check(masses: MassProperties, context: Context, *, tolerance: float = 1e-13) -> Findings:
-    """Report masses that are not positive and finite, and moments that no body has.
+    """Report masses that are not positive and finite, and moments that no body can have.
 
-    Where no simulator is aimed at, what libsdformat takes is a warning.
+    If the profile names no simulator, values that libsdformat accepts are a warning.
 
     Options:
-        tolerance: Share of the pseudo-inertia's largest eigenvalue that the smallest may be below
-            0, as rounding, in units that make mass and largest moment 1.
+        tolerance: Rounding error, as a share of the pseudo-inertia's largest eigenvalue, by which
+            the smallest may be below 0, in units in which mass and largest moment are 1.
     """
     readable = Severity.ERROR if context.release else Severity.WARNING
     misread = _misread(masses.robot)
@@ -48,7 +48,7 @@ def _spans(inertial: Inertial) -> set[Span]:
 
 
 def _misread(robot: Robot) -> set[Span]:
-    """Return where numbers do not read as such: the rules on syntax report these."""
+    """Return the places of values that are not numbers: the rules on syntax report these."""
     if robot.format != "sdf":
         return set()
     return {fault.span for fault in robot.faults_of(FaultKind.VALUE)}
@@ -86,8 +86,8 @@ def _moments(
     why = f"{first:.4g} is negative" if first < 0.0 else less
     yield finding(
         inertia.moments_span,
-        f"link {name!r} has principal moments of inertia of {said} kg·m², which no body can have: "
-        f"{why}",
+        f"link {name!r} has principal moments of inertia of {said} kg·m², which no physical body "
+        f"can have: {why}",
     )
 
 

@@ -1,10 +1,10 @@
 """A principal moment of inertia is zero: nothing resists a turn about that axis.
 
-MuJoCo refuses such a body, other engines divide by it. Only a line without width has a moment of
-zero, and only a point has three. A part that is fixed to others with inertia is harmless: they
+MuJoCo refuses such a body, and other engines divide by the moment. Only a line without width has
+one moment of zero, and only a point has three. If the part is fixed to others with inertia, they
 move as one body; then this is information.
 
-Fix: state the moments of the part as it is, or of a small box of its size: m/12·(b² + c²).
+Fix: state the moments of the part itself, or of a small box of its size: m/12·(b² + c²).
 Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must be positive.
 """
 
@@ -18,9 +18,9 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
     """Report possible inertias with a principal moment of zero.
 
     Options:
-        least: The smallest principal moment counts as zero up to this many kg·m².
-        relative: The smallest principal moment counts as zero up to this share of the largest one
-            of the link.
+        least: The smallest principal moment, kg·m², up to which it counts as zero.
+        relative: Share of the link's largest principal moment up to which the smallest counts as
+            zero.
     """
     if masses.robot.is_static:
         return
@@ -33,17 +33,17 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
             continue
         said = ", ".join(f"{abs(moment):.4g}" for moment in inertia.principal)
         alone = body[name] not in sound
-        tied = "" if alone else "; it is fixed to links that have inertia"
+        tied = "" if alone else "; the link is fixed to links that have inertia"
         yield finding(
             inertia.moments_span,
             f"link {inertia.link.name.value!r} has principal moments of inertia of {said} kg·m², "
-            f"expected none of zero{tied}",
+            f"expected all above zero{tied}",
             severity=Severity.ERROR if alone else Severity.INFO,
         )
 
 
 def _possible(inertia: LinkInertia, tolerance: float = 1e-12) -> bool:
-    """Leave what no body can have to INE002."""
+    """Skip what INE002 reports: values that no body can have."""
     return inertia.mass > 0.0 and inertia.pseudo_eigenvalue >= -tolerance
 
 

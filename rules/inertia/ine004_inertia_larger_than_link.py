@@ -1,12 +1,13 @@
-"""A moment of inertia that does not fit the size of the link: too large, or hardly any.
+"""A moment of inertia that is far too large or too small for the size of the link.
 
-The radius of gyration, √(I/m), is how far from its centre of mass a ring of the link's mass would
-have that moment. No mass of the link is beyond its farthest point, so the radius cannot be either:
-mostly the moments are in other units, are taken about another point than the centre of mass, or are
-left from a larger part. The link then turns as if it were a flywheel. With hardly any inertia, as
-if all mass were in one point, it answers the least force with a jump.
+The radius of gyration, √(I/m), is the radius of a ring with the mass and moment of the link. No
+mass of the link is beyond its farthest point, so the radius cannot be larger. Usually the moments
+have other units, refer to another point than the centre of mass, or come from a larger part. The
+link then turns like a flywheel. With far too little inertia, as if all mass were in one point, the
+link jumps at the smallest force.
 
-Fix: work out the moments about the centre of mass from CAD, or by the formula of the nearest solid.
+Fix: compute the moments about the centre of mass with CAD, or with the formula of the most similar
+solid.
 Source: definition of the moment of inertia.
 """
 
@@ -31,12 +32,11 @@ def check(
     Options:
         error_above: Ratio of the radius of gyration to the distance of the farthest point from the
             centre of mass; more is an error.
-        warning_above: Ratio of the same two lengths; more is a warning at least, for no body has
-            more than 1.
-        warning_below: Ratio of the same two lengths; less is a warning, for hardly anything is as
-            dense in its middle (a solid ball has 0.63).
-        share: Share of the robot's mass; a link with no more is often a placeholder: it is
-            information if too large and passed over if too small.
+        warning_above: The same ratio; more is at least a warning, because no body has more than 1.
+        warning_below: The same ratio; less is a warning, because few bodies have so much of their
+            mass near the centre (a solid ball has 0.63).
+        share: Share of the robot's mass; a link with no more is often a placeholder: a moment that
+            is too large is information, one that is too small is skipped.
     """
     for name, inertia in masses.links.items():
         if inertia.link.inertial is None or inertia.centre is None or not _possible(inertia):
@@ -62,14 +62,14 @@ def check(
 def _message(inertia: LinkInertia, reach: float, how: str) -> str:
     return (
         f"link {inertia.link.name.value!r} has a radius of gyration of "
-        f"{inertia.gyration_radius:.3g} m, its farthest point is {reach:.3g} m from its centre of "
-        f"mass: its moments of inertia of up to {inertia.principal[2]:.3g} kg·m² are too {how} for "
-        f"{inertia.mass:.4g} kg"
+        f"{inertia.gyration_radius:.3g} m, but its farthest point is {reach:.3g} m from its centre "
+        f"of mass: its moments of inertia of up to {inertia.principal[2]:.3g} kg·m² are too {how} "
+        f"for {inertia.mass:.4g} kg"
     )
 
 
 def _possible(inertia: LinkInertia) -> bool:
-    """Leave what no body can have to INE002, and what nobody stated to INE001."""
+    """Skip what INE002 (impossible values) and INE001 (missing values) report."""
     inertial = inertia.link.inertial
     stated = inertial is not None and any(moment.stated for moment in inertial.moments)
     return stated and inertia.mass > 0.0 and inertia.pseudo_eigenvalue >= -1e-12

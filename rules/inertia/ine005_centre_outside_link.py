@@ -1,8 +1,8 @@
 """A centre of mass outside the link's own shapes.
 
-The link swings about a point beside itself, and the robot leans to a side where nothing is. Mostly
-the pose of `<inertial>` is that of another frame, or in millimetres. For the centre of a body to
-be outside a box around it is impossible.
+The link swings about a point outside itself, and the robot leans to a side where there is nothing.
+Usually the pose of `<inertial>` refers to another frame, or is in millimetres. The centre of mass
+of a body cannot be outside the box around it.
 
 Fix: give the pose of `<inertial>` relative to the link's own frame, in metres; check that shapes
 and inertia belong to the same part.
@@ -30,10 +30,9 @@ def check(
     Options:
         error_above: Distance from the box as a share of its diagonal; a centre of mass that is
             farther outside is an error.
-        warning_above: Distance from the box as a share of its diagonal; up to it a centre of mass
-            outside is passed over, farther is a warning.
-        share: Share of the robot's mass; a link with no more may be a placeholder and is passed
-            over.
+        warning_above: Distance from the box as a share of its diagonal; a centre of mass farther
+            outside is a warning, a closer one is skipped.
+        share: Share of the robot's mass; a link with no more may be a placeholder and is skipped.
     """
     for name, inertia in masses.links.items():
         inertial, centre = inertia.link.inertial, inertia.centre

@@ -1,15 +1,15 @@
 """A mass that does not fit the size of the link: lighter than foam, or heavier than lead.
 
-Mostly a unit is wrong (grams, millimetres, pounds), or a mass is copied from another part. A robot
-that is a hundred times too heavy drives in simulation as the right one does, but pushes everything
-out of its way.
+Usually a unit is wrong (grams, millimetres, pounds), or a mass is copied from another part. A robot
+that is a hundred times too heavy drives in simulation like the right one, but pushes everything out
+of its way.
 
-Shapes may lie in one another, so the least volume that they can fill together counts against a
-light link and the greatest against a heavy one. A collision may cover a part of the link only:
-against a heavy link the visuals count as well. A mesh that is not closed counts by its convex hull.
+Shapes may overlap, so a light link is compared with the smallest volume that they can fill, and a
+heavy one with the greatest. A collision may cover only a part of the link, so for a heavy link the
+visuals count as well. A mesh that is not closed counts as its convex hull.
 
 Fix: correct the mass in kg, or the size of the shapes in m.
-Source: densities of materials: foams from 15 kg/m³ on, aluminium 2 700, steel 7 850, lead 11 340.
+Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 850, lead 11 340.
 """
 
 from collections.abc import Iterator
@@ -32,16 +32,16 @@ def check(
     """Report links that are too light or too heavy for the volume of their shapes.
 
     Options:
-        lightest: Density in kg/m³, by the volume of the link's largest collision alone; less is a
+        lightest: Density in kg/m³, for the volume of the link's largest collision; less is a
             warning.
-        heaviest: Density in kg/m³, by the volume of all collisions of the link, or of all its
-            visuals where that is more; more is a warning.
-        impossible: Density in kg/m³, by the same volume as for `heaviest`; more is an error, for no
-            metal has it.
-        share: Share of the robot's mass; a link with no more may be a placeholder and is passed
-            over, unless `volume_share` makes it count.
-        volume_share: Share of the sum of all links' largest collisions, by volume; a link whose own
-            fills more is judged however light it is.
+        heaviest: Density in kg/m³, for the volume of all collisions of the link, or of all its
+            visuals if that is more; more is a warning.
+        impossible: Density in kg/m³, for the same volume as for `heaviest`; more is an error,
+            because no metal is so dense.
+        share: Share of the robot's mass; a link with no more may be a placeholder and is skipped,
+            unless its volume exceeds `volume_share`.
+        volume_share: Share of the sum of all links' largest collisions, by volume; a link with more
+            is judged whatever its mass.
     """
     large = _large(masses, volume_share)
     for name, inertia in masses.links.items():

@@ -1,9 +1,10 @@
-"""Moments of inertia that stand for a link until somebody works them out.
+"""Moments of inertia that are placeholders.
 
-The unit tensor is the default of exporters: a hand-sized part with 1 kg·m² turns as if it weighed
-a ton. One tensor for links of different mass or size is copied, and right for one of them at most.
+Exporters write the unit tensor by default: a hand-sized part with 1 kg·m² turns as if it weighed a
+ton. If links of different mass or size share one tensor, it is copied and right for at most one of
+them.
 
-Fix: work out the moments of each link, from CAD or by the formula of the nearest solid.
+Fix: compute the moments of each link, with CAD or with the formula of the most similar solid.
 Source: Model Migration Guide; review of exported models.
 """
 
@@ -19,15 +20,15 @@ _UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 def check(
     masses: MassProperties, *, links: int = 3, share: float = 0.02, alike: float = 0.1
 ) -> Findings:
-    """Report unit tensors, and one tensor on several links that are not alike.
+    """Report unit tensors, and one tensor on several different links.
 
     Options:
-        links: Number of links with the same tensor from which on they are reported, unless they are
-            all alike.
+        links: Number of links with the same tensor from which they are reported, unless all of them
+            are similar.
         share: Share of the robot's mass; a link with no more is left out when tensors are compared,
-            for frames of sensors are placeholders.
+            because frames of sensors are placeholders.
         alike: Share of the largest by which masses, and diagonals of the boxes around the links,
-            may differ for the links to be alike.
+            may differ for links that count as similar.
     """
     by_tensor: dict[tuple[float, ...], list[LinkInertia]] = {}
     for name, inertia in masses.links.items():
@@ -42,7 +43,7 @@ def check(
 
 
 def _stated(inertia: LinkInertia) -> tuple[float, ...]:
-    """Return the moments that the file states; nothing for those that it leaves out."""
+    """Return the moments that the file states, without those that it leaves out."""
     inertial = inertia.link.inertial
     if inertial is None or not any(moment.stated for moment in inertial.moments):
         return ()
@@ -77,8 +78,8 @@ def _repeated(group: Sequence[LinkInertia], tensor: Sequence[float]) -> Iterator
         if inertia.link.inertial is not None:
             yield finding(
                 inertia.moments_span,
-                f"link {inertia.link.name.value!r} and {len(group) - 1} more of other mass or "
-                f"size have one inertia tensor (ixx, iyy, izz = {said} kg·m²)",
+                f"link {inertia.link.name.value!r} and {len(group) - 1} more links of other mass "
+                f"or size have the same inertia tensor (ixx, iyy, izz = {said} kg·m²)",
                 key=f"copied {first}",
             )
 

@@ -1,8 +1,8 @@
 """A total mass that differs from the one in specifications.md.
 
-The mass decides how the robot accelerates, slips and drains its battery. When sheet and model
-disagree, one of them describes another robot: a copied link, a missing battery, pounds for
-kilograms.
+The mass determines how the robot accelerates, slips and drains its battery. If specification sheet
+and model disagree, one of them describes another robot. Typical causes are a copied link, a missing
+battery, or pounds instead of kilograms.
 
 Fix: correct the masses of the links, or the sheet.
 Source: Robot Model Checklist: reviewers add up the links and compare with "Cost and Scale".
@@ -22,14 +22,14 @@ def check(
     warning_above: float = 0.02,
     approximate_factor: float = 2.0,
 ) -> Findings:
-    """Compare the sum of the links' masses with the stated mass, relative to the latter.
+    """Compare the sum of the links' masses with the stated mass.
 
     Options:
-        error_above: Difference from the stated mass as a share of it, beside the rounding of the
-            sheet's figure; more is an error.
-        warning_above: Difference from the stated mass as a share of it, beside the rounding of the
-            sheet's figure; more is a warning.
-        approximate_factor: Factor by which both shares grow where the sheet calls the mass
+        error_above: Difference from the stated mass as a share of it, in addition to the rounding
+            of the sheet's figure; more is an error.
+        warning_above: Difference from the stated mass as a share of it, in addition to the rounding
+            of the sheet's figure; more is a warning.
+        approximate_factor: Factor by which both shares grow if the sheet calls the mass
             approximate, as in "about 50 kg".
     """
     if robot.missing_parts:
@@ -47,8 +47,8 @@ def check(
     grave = abs(off) > error_above * slack
     yield finding(
         stated,
-        f"specification says {stated.value:g} kg, the links weigh {robot.mass:.4g} kg together: "
-        f"{abs(off):.0%} {'more' if off > 0 else 'less'}",
+        f"the specification sheet says {stated.value:g} kg, but the links together weigh "
+        f"{robot.mass:.4g} kg: {abs(off):.0%} {'more' if off > 0 else 'less'}",
         severity=Severity.ERROR if grave else Severity.WARNING,
         related=[(robot, "the model's links")],
     )

@@ -1,12 +1,12 @@
-"""The robot stands unsafely: a small tilt of the ground tips it over.
+"""The robot is unstable: a small tilt of the ground tips it over.
 
-The tip angle is the tilt at which the centre of mass stands above the nearest edge of what the
-robot stands on. Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°.
-The ground is taken as flat, below the lowest collision shape; shapes within 10 mm of it stand on
-it, meshes by their convex hull.
+The tip angle is the tilt at which the centre of mass is above the nearest edge of the support.
+Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
+flat ground below the lowest collision. Shapes within 10 mm of the ground support the robot, meshes
+with their convex hull.
 
 Fix: check the centre of mass of the heaviest link (the pose of its `<inertial>`) and the places of
-wheels or feet; a part far out, or a chassis lower than the wheels, shows here as well.
+wheels or feet. Also check for a part far outside, or a chassis lower than the wheels.
 Source: statics: tip angle = atan(distance to the edge / height of the centre of mass).
 """
 
@@ -24,13 +24,13 @@ def check(
     error_below_degrees: float = 10.0,
     warning_below_degrees: float = 25.0,
 ) -> Findings:
-    """Report a small tip angle at the inertial of the heaviest link.
+    """Report a small tip angle; the place is the inertial of the heaviest link.
 
     Options:
-        error_below_degrees: Degrees that the ground must be tilted for the robot to tip over; less
-            is an error.
-        warning_below_degrees: Degrees that the ground must be tilted for the robot to tip over;
-            less is a warning at least.
+        error_below_degrees: Tilt of the ground, degrees, at which the robot tips over; less is an
+            error.
+        warning_below_degrees: Tilt of the ground, degrees, at which the robot tips over; less is at
+            least a warning.
     """
     if masses.robot.is_static:
         return
@@ -46,12 +46,12 @@ def check(
         return
     at = ", ".join(f"{part:.3f}" for part in centre[:2])
     height = f"{centre[2] - ground:.3g} m above the ground"
-    standing = "tips over where it stands" if degrees < 0 else f"tips over at {degrees:.1f}°"
+    standing = "tips over on flat ground" if degrees < 0 else f"tips over at {degrees:.1f}°"
     heaviest = _heaviest(masses)
     yield finding(
         heaviest.inertial.pose if heaviest.inertial is not None else heaviest,
-        f"the robot {standing}, expected {warning_below_degrees:g}° or more: its centre of mass is "
-        f"at x, y = {at} m, {height}; most of it is in link {heaviest.name.value!r}",
+        f"the robot {standing}, expected {warning_below_degrees:g}° or more: its centre of mass "
+        f"is at x, y = {at} m, {height}; the heaviest link is {heaviest.name.value!r}",
         severity=Severity.ERROR if degrees < error_below_degrees else Severity.WARNING,
     )
 

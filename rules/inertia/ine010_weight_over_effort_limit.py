@@ -1,11 +1,11 @@
-"""A joint that cannot hold the weight of what hangs on it.
+"""A joint that cannot hold the weight of the parts it carries.
 
-In the pose that the robot starts in, gravity asks for more torque than the joint's effort limit:
-the gimbal or arm sags as soon as the simulation runs, whatever its controller does. Joints above
-something that stands on the ground are left out, for the ground carries their part of the weight.
+In the robot's initial pose, gravity needs more torque than the joint's effort limit: the gimbal or
+arm sags as soon as the simulation runs, whatever its controller does. Joints above parts that are
+on the ground are left out, because the ground carries part of the weight.
 
-Fix: write the motor's stall torque (behind its gear) as the effort limit, or correct the masses
-and centres of mass of what hangs on the joint.
+Fix: write the motor's stall torque (after its gear) as the effort limit, or correct the masses and
+centres of mass of the parts that the joint carries.
 Source: statics; SDFormat specification, axis/limit/effort.
 """
 
@@ -19,13 +19,13 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("INE010", "weight-over-effort-limit", Severity.WARNING)
 def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
-    """Report driven joints that cannot hold what hangs on them within their effort limit.
+    """Report driven joints whose effort limit is too small for the parts they carry.
 
-    In URDF, where transmissions drive joints, all joints with a limit count.
+    In URDF transmissions drive joints, so all joints with a limit count.
 
     Options:
-        factor: What a joint holds against gravity (N·m, of a sliding joint N) over its effort
-            limit; more is reported.
+        factor: Torque (N·m; for a sliding joint, force in N) that a joint needs against gravity,
+            divided by its effort limit; more is reported.
     """
     robot = masses.robot
     unknown = robot.missing_parts or masses.support_unknown or robot.unread_plugins
@@ -40,8 +40,8 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
             unit = "N" if joint.type.value == "prismatic" else "N·m"
             yield finding(
                 joint.axes[0].effort,
-                f"joint {joint.name.value!r} has to hold {abs(torque):.3g} {unit} against gravity, "
-                f"its effort limit is {limit:.3g} {unit}",
+                f"joint {joint.name.value!r} has to hold {abs(torque):.3g} {unit} against "
+                f"gravity, but its effort limit is {limit:.3g} {unit}",
             )
 
 

@@ -1,15 +1,15 @@
-"""A configuration carries more than the first one, and weighs the same.
+"""A configuration carries more than the first one, but weighs the same.
 
-Sensors and breadcrumbs weigh something: a configuration that adds them without mass accelerates and
+Sensors and breadcrumbs have mass: a configuration that adds them without mass accelerates and
 climbs as if it carried nothing.
 
-Only a configuration with a model of its own is compared, with the first one at hand. One that takes
-its model from a sibling weighs the same by design: the sibling's mass may be that of the full
-robot, and only its sheet could tell. Sensors count that are devices of their own, such as cameras
-and lidars, not the chips on a flight controller.
+Only a configuration with its own model is compared, with the first available one. A configuration
+that uses the model of a sibling weighs the same by design. The sibling's mass may be that of the
+full robot; only its specification sheet can tell. Only separate devices count as sensors, such as
+cameras and lidars, not the chips on a flight controller.
 
-Fix: add the mass of what is new to the link that carries it, or say in specifications.md that the
-mass of the first configuration includes it.
+Fix: add the mass of the new parts to the link that carries them, or say in specifications.md that
+the mass of the first configuration includes it.
 Source: Model Migration Guide, step 4; experience of model reviews.
 """
 
@@ -28,11 +28,11 @@ _DEVICES = ("camera", "lidar", "ray", "rgbd", "depth", "thermal", "sonar")
 def check(
     masses: MassProperties, first: FirstConfiguration, *, breadcrumbs: bool = True
 ) -> Findings:
-    """Report a model of its own that adds devices or breadcrumbs, and no mass.
+    """Report an own model that adds devices or breadcrumbs, but no mass.
 
     Options:
-        breadcrumbs: Whether breadcrumbs that the first configuration does not carry count as
-            something added.
+        breadcrumbs: Whether breadcrumbs that the first configuration does not carry count as added
+            parts.
     """
     robot, base = masses.robot, first.robot
     if robot.span.source.file.startswith("../"):
@@ -47,13 +47,13 @@ def check(
     if added and abs(robot.mass - base.mass) <= 1e-6 * abs(base.mass):
         yield finding(
             robot,
-            f"the model adds {', '.join(added)} to {first.name} and weighs the same, "
+            f"the model adds {', '.join(added)} to {first.name}, but weighs the same, "
             f"{base.mass:.4g} kg",
         )
 
 
 def _added_devices(robot: Robot, base: Robot) -> Iterator[str]:
-    """Yield what the robot has more of than the base, if it has nothing less."""
+    """Yield what the robot has more of than the base, if it lacks nothing of the base."""
     own, others = _devices(robot), _devices(base)
     if not others - own:
         for kind, number in sorted((own - others).items()):

@@ -1,11 +1,10 @@
 """A link of almost no mass between heavy parts of the robot.
 
-Solvers that work joint by joint carry the weight of one side to the other through the light link,
-and lose as many digits as the masses differ: the joint gives way, trembles, or needs very small
-time steps. Links that fixed joints tie count as one body; a light link at the end of a chain is
-harmless.
+Solvers that work joint by joint pass the weight of one side to the other through the light link,
+and lose as many digits as the masses differ. The joint gives way, trembles, or needs very small
+time steps. Links on fixed joints count as one body; a light link at the end of a chain is harmless.
 
-Fix: give the link the mass of the bearing or motor that it stands for, or fix it to a neighbour.
+Fix: give the link the mass of the bearing or motor that it represents, or fix it to a neighbour.
 Source: general experience with iterative contact solvers; the ratio is a starting point.
 """
 
@@ -22,10 +21,10 @@ def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -
     """Report joints across which masses differ too much, with heavy parts on both sides.
 
     Options:
-        ratio: Mass of the heavier over that of the lighter body at a joint, each with all that
-            fixed joints tie to it; more is reported.
-        share: Share of the robot's mass; a joint is judged only if more than that is on either side
-            of it, all that hangs there counted.
+        ratio: Mass of the heavier body at a joint divided by that of the lighter one, each with all
+            links fixed to it; more is reported.
+        share: Share of the robot's mass; a joint is judged only if the parts on each side of it
+            have more than that.
     """
     hanging = hang(masses.robot)
     body = rigid_bodies(masses.robot).of_link
@@ -42,7 +41,7 @@ def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -
 
 
 def _below(masses: MassProperties, hanging: Hanging) -> dict[str, float]:
-    """Return the mass of each link with all that hangs on it, kg."""
+    """Return the mass of each link with all parts that it carries, kg."""
     below = {name: max(masses.links[name].mass, 0.0) for name in hanging.order}
     for name in reversed(hanging.order):
         tie = hanging.by.get(name)
@@ -56,8 +55,8 @@ def _across(tie: Tie, child: float, parent: float, ratio: float) -> Iterator[Fin
     if light > 0.0 and heavy > ratio * light:
         yield finding(
             tie.joint,
-            f"joint {tie.joint.name.value!r} ties {tie.parent!r} of {parent:.3g} kg and "
-            f"{tie.child!r} of {child:.3g} kg, and heavy parts hang on both sides of it",
+            f"joint {tie.joint.name.value!r} connects {tie.parent!r} of {parent:.3g} kg with "
+            f"{tie.child!r} of {child:.3g} kg, and there are heavy parts on both sides",
         )
 
 

@@ -1,12 +1,12 @@
-"""A known sensor is modelled with other mass, size or inertia than its datasheet says.
+"""The mass, size or inertia of a known sensor differs from its datasheet.
 
-A link that is named after a device and carries its sensor stands for that device. An Ouster OS-1
-weighs 380 g and is 84 mm wide and 73 mm high; a model that says 3.8 kg slipped by a digit. The
-inertia is compared with that of a solid of the device's mass and size. Mounts, frames without
-shapes, and sensors that are drawn on a chassis are not judged. Figures of which the source is not a
-datasheet or its like are information.
+A link that is named after a device and carries its sensor models that device. An Ouster OS-1 weighs
+380 g and is 84 mm wide and 73 mm high; a model with 3.8 kg is wrong by one digit. The inertia is
+compared with that of a solid of the device's mass and size. Mounts, frames without shapes, and
+sensors that are part of a chassis are not judged. If a figure does not come from a datasheet or a
+similar source, this is information.
 
-Fix: take mass and size from the datasheet, and work out the inertia with the formula of a solid
+Fix: take mass and size from the datasheet, and compute the inertia with the formula of a solid
 cylinder or box.
 Source: the seed tutorial "Simulating the Ouster OS-1" for that device; `devices.json` names others.
 """
@@ -29,16 +29,16 @@ _BESIDE = re.compile(
     r"|mount|optical|plate|pole|protector|ring|scan|stand|support|tower)(?:s|ed|ing|ment)?\b",
     re.I,
 )
-"""Words for what holds or covers a device."""
+"""Words for parts that hold or cover a device."""
 
 
 @rule("INE013", "device-off-its-datasheet", Severity.WARNING)
 def check(masses: MassProperties, known: KnownDevices, *, tolerance: float = 0.1) -> Findings:
-    """Report devices off their datasheets; by figures from memory, as information.
+    """Report devices that differ from their datasheets; figures from memory are information.
 
     Options:
         tolerance: Share of the expected figure by which the mass, each side of the size and each
-            principal moment may be off.
+            principal moment may differ.
     """
     robot = masses.robot
     for inertia in masses.links.values():
@@ -60,7 +60,7 @@ def check(masses: MassProperties, known: KnownDevices, *, tolerance: float = 0.1
 
 
 def _device(robot: Robot, link: Link, known: KnownDevices) -> Device | None:
-    """Return the device that a link stands for: by its name, its shapes and its sensors."""
+    """Return the device that a link models, found by its name, its shapes and its sensors."""
     names = [link.name.value] + ([robot.name.value] if len(robot.links) == 1 else [])
     text = " ".join(names)[:200]
     if _BESIDE.search(spaced(text)) or not solid((*link.collisions, *link.visuals)):
@@ -74,7 +74,7 @@ def _device(robot: Robot, link: Link, known: KnownDevices) -> Device | None:
 def _differences(
     robot: Robot, inertia: LinkInertia, device: Device, tolerance: float
 ) -> Iterator[tuple[Span, str]]:
-    """Yield what is off, each with the place that states it."""
+    """Yield the differences, each with the place that states it."""
     link = inertia.link
     mass = _mass(device)
     if mass is not None and _off(inertia.mass, mass, tolerance):
@@ -107,13 +107,13 @@ def _any_off(values: tuple[float, ...], expected: list[float], tolerance: float)
 
 
 def _mass(device: Device) -> float | None:
-    """Return the mass in kilograms, where it is known."""
+    """Return the mass in kilograms; None if it is not known."""
     mass = device.body.get("mass_kg")
     return None if mass is None else float(mass)
 
 
 def _size(device: Device) -> tuple[float, float, float] | None:
-    """Return x, y, z in metres, where they are known."""
+    """Return x, y, z in metres; None if they are not known."""
     size = {name: length / 1000 for name, length in device.body.get("size_mm", {}).items()}
     if "diameter" in size:
         return (size["diameter"], size["diameter"], size["height"])
@@ -130,7 +130,7 @@ def _moments(device: Device, mass: float, size: tuple[float, float, float]) -> l
 
 
 def _sizes(robot: Robot, link: Link) -> list[tuple[float, ...]]:
-    """Return the sizes of what touches and of what is seen, each ascending, metres."""
+    """Return the sizes of collisions and of visuals, each ascending, metres."""
     frame = robot.pose_of(link.scoped_name)
     sizes = []
     for shapes in (link.collisions, link.visuals):

@@ -2,9 +2,9 @@
 
 The simulator refuses the whole model, or drops the joint and the part falls off.
 
-No accepted package at hand shows it.
+None of the accepted packages that we checked shows this.
 
-Fix: name a link of the model as its `name` attribute spells it.
+Fix: name a link of the model exactly as in its `name` attribute.
 Source: SDFormat specification, joint/parent and joint/child.
 """
 
@@ -17,9 +17,9 @@ from checker.source.text import Located
 
 @rule("KIN001", "unknown-joint-end", Severity.ERROR)
 def check(robot: Robot) -> Findings:
-    """Report joints that end at nothing."""
+    """Report joints whose parent or child is missing or does not exist."""
     for uri in robot.unresolved_includes:
-        yield unchecked(f"{uri.value or 'an include without <uri>'} is not at hand")
+        yield unchecked(f"{uri.value or 'an include without <uri>'} is not available")
     names = robot.attachable_names
     suggestions = Suggestions(names)
     for joint in robot.joints:

@@ -1,10 +1,10 @@
-"""Joints that do not make a tree: a link tied to itself, with two parents, or in a loop.
+"""Joints that do not form a tree: a link is its own parent, has two parents or is in a loop.
 
-Simulators place each link by the one joint above it. Of a second joint above a link, Gazebo says
-that the link has a parent already and drops it; a loop has no link to begin with.
-No accepted package at hand shows it.
+Simulators place each link by the one joint above it. If a link has a second joint above it, Gazebo
+reports that the link already has a parent and drops the joint. A loop has no first link. None of
+the accepted packages that we checked shows this.
 
-Fix: remove the joint that is too much, or swap its parent and child.
+Fix: remove the extra joint, or swap its parent and child.
 Source: gz-physics, DART's tree of bodies; SDFormat: a joint's parent and child must differ.
 """
 
@@ -17,10 +17,12 @@ from checker.rule import Context, Finding, Findings, Severity, finding, rule
 
 @rule("KIN002", "joints-make-no-tree", Severity.ERROR)
 def check(robot: Robot, context: Context) -> Findings:
-    """Report joints by which links hang on themselves or on two links."""
+    """Report joints that connect a link to itself or give it a second parent."""
     for tie in robot.tree.ties:
         if tie.parent == tie.child:
-            yield finding(tie.joint, f"joint {tie.joint.name.value!r} ties {tie.child!r} to itself")
+            yield finding(
+                tie.joint, f"joint {tie.joint.name.value!r} connects {tie.child!r} to itself"
+            )
     # A file that is made for no simulator may hold loops: SDFormat itself allows them.
     severity = None if context.release else Severity.WARNING
     yield from _second_parents(robot.tree, severity)
@@ -32,8 +34,8 @@ def _second_parents(tree: LinkTree, severity: Severity | None) -> Iterator[Findi
         for other in others:
             yield finding(
                 other.joint,
-                f"joint {other.joint.name.value!r} hangs {child!r} on {other.parent!r}, but it "
-                f"hangs on {first.parent!r} already",
+                f"joint {other.joint.name.value!r} makes {other.parent!r} the parent of "
+                f"{child!r}, which already has the parent {first.parent!r}",
                 severity=severity,
                 related=[(first.joint, "the first joint above it")],
             )
@@ -45,13 +47,13 @@ def _loops(tree: LinkTree, severity: Severity | None) -> Iterator[Finding]:
         circle = " → ".join([*names[:6], "…"] if len(names) > 6 else [*names, names[0]])
         yield finding(
             _last_written(loop).joint,
-            f"the joints hang links on one another in a loop: {circle}",
+            f"the joints connect links in a loop: {circle}",
             severity=severity,
         )
 
 
 def _last_written(loop: list[Tie]) -> Tie:
-    """Return the tie that closed the loop, going by the order of the file."""
+    """Return the joint that closes the loop, in the order of the file."""
     return max(loop, key=lambda tie: tie.joint.span.start)
 
 

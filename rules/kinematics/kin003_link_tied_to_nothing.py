@@ -1,10 +1,10 @@
-"""A link that no joint ties to the robot.
+"""A link that no joint connects to the robot.
 
-It falls off as soon as the simulation starts, or lies inside the robot and pushes it about.
-No accepted package at hand shows it.
+The link falls off when the simulation starts, or lies inside the robot and pushes it around. None
+of the accepted packages that we checked shows this.
 
-Fix: add a joint, mostly `<joint type="fixed">`, between the robot and the link; or remove the link.
-Source: SDFormat specification: links of a model move freely unless joints tie them.
+Fix: add a joint between the robot and the link, usually `<joint type="fixed">`; or remove the link.
+Source: SDFormat specification: links of a model move freely unless joints connect them.
 """
 
 from checker.base.words import Suggestions
@@ -13,12 +13,12 @@ from checker.model.robot import Robot
 from checker.model.tree import LinkTree
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
-_NOTE = "the rest of the robot begins here"
+_NOTE = "the rest of the robot starts here"
 
 
 @rule("KIN003", "link-tied-to-nothing", Severity.ERROR)
 def check(robot: Robot) -> Findings:
-    """Report links, and groups of links, that hang on nothing."""
+    """Report links, and groups of links, that no joint connects to the robot."""
     tree = robot.tree
     # A group without a link at its top is a loop; that, and ties to itself, are for KIN002.
     tops = {top: group for group in tree.groups if (top := _top(tree, group))}
@@ -32,21 +32,21 @@ def check(robot: Robot) -> Findings:
         if top == main or "::" in top or not excused.isdisjoint(group):
             continue
         if unclear is not None:
-            yield unchecked(f"which link joint {unclear.name.value!r} ties is not known")
+            yield unchecked(f"it is not known which link joint {unclear.name.value!r} connects")
             return
-        others = f" and the {len(group) - 1} tied to it hang" if len(group) > 1 else " hangs"
+        others = f" and the {len(group) - 1} below it" if len(group) > 1 else ""
         yield finding(
             tree.links[top],
-            f"link {top!r}{others} on nothing: no joint ties it to the robot",
+            f"no joint connects link {top!r}{others} to the robot",
             key="loose",
             related=[(tree.links[main], _NOTE)],
         )
 
 
 def _tied_by_broken_joints(tree: LinkTree) -> tuple[set[str], Joint | None]:
-    """Return links that joints with an unknown end tie or mean to tie: those are KIN001's.
+    """Return links at joints with an unknown end, which KIN001 reports.
 
-    The second value is a joint of which nobody can tell what it means to tie.
+    The second value is a joint whose intended link is not known.
     """
     suggestions = Suggestions(tree.links)
     meant = {tie.known for tie in tree.broken if tie.known is not None}
@@ -61,7 +61,7 @@ def _tied_by_broken_joints(tree: LinkTree) -> tuple[set[str], Joint | None]:
 
 
 def _top(tree: LinkTree, group: list[str]) -> str | None:
-    """Return the first link of a group that hangs on no other."""
+    """Return the first link of a group that has no parent."""
     return next((name for name in group if name not in tree.above), None)
 
 

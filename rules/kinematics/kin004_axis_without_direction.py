@@ -1,8 +1,8 @@
 """A joint axis without direction, or not of length 1.
 
-About an axis of zeros a joint cannot turn: parsers refuse the model, or take another axis. Other
-lengths are normalised by most simulators and scale the motion in some.
-No accepted package at hand shows it.
+A joint cannot turn about an axis of zeros: parsers refuse the model, or use another axis. Most
+simulators normalise other lengths; in some they scale the motion. None of the accepted packages
+that we checked shows this.
 
 Fix: write a direction of length 1, such as `0 0 1`.
 Source: SDFormat specification, axis/xyz: "The vector should be normalized"; URDF, joint/axis.
@@ -22,8 +22,7 @@ def check(robot: Robot, context: Context, *, tolerance: float = 1e-3) -> Finding
     """Report missing axes, axes of zeros, and axes that are not of length 1.
 
     Options:
-        tolerance: How much the length of an axis, a number without unit, may differ from 1; more is
-            a warning.
+        tolerance: Difference of the axis's length from 1, without unit; more is a warning.
     """
     types = table("joint_types")["types"][robot.format]
     for joint in robot.joints:
@@ -48,7 +47,7 @@ def _judged(joint: Joint, axis: Axis, tolerance: float) -> Iterator[Finding]:
     said = f"the axis of joint {joint.name.value!r}"
     written = " ".join(f"{number.value:g}" for number in axis.xyz)
     if length == 0.0 or not math.isfinite(length):
-        yield finding(axis.xyz[0], f"{said} is {written}, which is no direction")
+        yield finding(axis.xyz[0], f"{said} is {written}, which has no direction")
     elif abs(length - 1.0) > tolerance:
         message = f"{said} is {written}, of length {length:.4g}, expected 1"
         yield finding(axis.xyz[0], message, severity=Severity.WARNING)

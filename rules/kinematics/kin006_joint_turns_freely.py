@@ -1,8 +1,8 @@
 """A joint without limits that nothing drives.
 
-The part swings or slides as gravity pushes it, without end. Wheels, rotors and the like shall; a
-mast, a pole or the mount of a sensor shall not, and is mostly meant to be fixed.
-No accepted package at hand shows it.
+Gravity swings or slides the part without end. This is right for wheels, rotors and similar parts. A
+mast, a pole or a sensor mount must not move; usually it should be fixed. None of the accepted
+packages that we checked shows this.
 
 Fix: make the joint `type="fixed"`, or give it limits; or name it in the plugin that drives it.
 Source: SDFormat specification, axis/limit: without it the range is infinite.
@@ -19,18 +19,19 @@ _TURNING = (
     *("wheel", "caster", "castor", "roller", "track", "sprocket", "idler", "pulley"),
     *("rotor", "propeller", "prop_", "blade", "fan"),
 )
-"""What is meant to turn on and on says so in its name."""
+"""Words in the names of parts that turn freely on purpose."""
 
 
 @rule("KIN006", "joint-turns-freely", Severity.WARNING)
 def check(robot: Robot, *, turning: tuple[str, ...] = _TURNING) -> Findings:
-    """Report revolute and prismatic joints without limits that are neither driven nor turning.
+    """Report revolute and prismatic joints without limits that no plugin drives.
 
-    In URDF such a joint has a type of its own, `continuous`.
+    Joints of parts that turn freely on purpose are skipped; in URDF they have their own type,
+    `continuous`.
 
     Options:
-        turning: Words in lower case; a joint may turn freely if one of them stands in its name or
-            in that of its child link.
+        turning: Words in lower case; a joint may turn freely if its name, or that of its child
+            link, contains one of them.
     """
     if robot.format == "urdf":
         return

@@ -1,10 +1,10 @@
-"""A limit of effort or velocity that no motor has, or none where a motor drives the joint.
+"""An effort or velocity limit that no motor has, or a driven joint without limits.
 
-With 1e9 N·m a wheel never stalls, whatever the slope, and one collision throws the robot away.
-Without a limit nobody can tell whether the motor is strong enough for what the robot does. Thrust
-of rotors has limits of its own in their plugin.
+With 1e9 N·m a wheel never stalls on any slope, and one collision throws the robot away. Without a
+limit nobody can check whether the motor is strong enough. The thrust of rotors has its own limits
+in their plugin.
 
-Fix: write the motor's stall torque (N·m) and no-load speed (rad/s) at the joint, behind the gear.
+Fix: write the motor's stall torque (N·m) and no-load speed (rad/s) at the joint, after the gear.
 Source: SDFormat specification, axis/limit: "-1" and no value mean unlimited.
 """
 
@@ -22,12 +22,11 @@ _ROTORS = ("MulticopterMotorModel", "MulticopterVelocityControl", "Thruster")
 def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float = 1e3) -> Findings:
     """Report finite limits of effort and velocity that no motor has.
 
-    Missing limits of driven joints are information.
+    A missing limit of a driven joint is information.
 
     Options:
-        highest_effort: Effort in N·m, of a sliding joint in N; a finite limit above it is a
-            warning.
-        highest_velocity: Velocity in rad/s, of a sliding joint in m/s; a finite limit above it is a
+        highest_effort: Effort in N·m (sliding joints: N); a finite limit above it is a warning.
+        highest_velocity: Velocity in rad/s (sliding joints: m/s); a finite limit above it is a
             warning.
     """
     if robot.unread_plugins:

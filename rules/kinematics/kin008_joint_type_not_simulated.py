@@ -1,12 +1,13 @@
-"""A joint of a type that the target does not simulate, or that there is not.
+"""A joint of a type that does not exist or that the target does not simulate.
 
-Gazebo with DART makes a fixed joint of a gearbox, a revolute2 and, up to Fortress, a continuous
-joint: a wheel on it does not turn. Gazebo Classic drops planar and floating joints of URDF.
-No accepted package at hand shows it.
+Gazebo with DART turns a gearbox, a revolute2 and, up to Fortress, a continuous joint into a fixed
+joint: a wheel on it does not turn. Gazebo Classic drops planar and floating joints of URDF. None of
+the accepted packages that we checked shows this.
 
 Fix: use `revolute` without limits for `continuous`, two joints with a light link between them for
 `revolute2` and `gearbox`.
-Source: `joint_types.json`: SDFormat's types, and what the physics plugin of each release makes.
+Source: `joint_types.json`: SDFormat's types, and those that the physics plugin of each release
+supports.
 """
 
 from checker.base.resources import table
@@ -16,7 +17,7 @@ from checker.rule import Context, Findings, Severity, finding, rule
 
 _BECOMES = {
     "fixed": "which {} turns into a fixed joint",
-    "dropped": "which {} leaves out",
+    "dropped": "which {} drops",
 }
 
 

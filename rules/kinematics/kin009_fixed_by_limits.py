@@ -1,11 +1,11 @@
 """A joint that cannot move: its two limits are equal, or it is fixed while a plugin drives it.
 
-The physics engine holds it in place by force in every step, which costs time and gives way under
-load; a fixed joint costs nothing. Where a plugin is to move it, it is an error: a wheel that does
-not turn is dragged along.
+The physics engine holds the joint by force in every step, which costs time and yields under load; a
+fixed joint costs nothing. If a plugin drives the joint, this is an error: a wheel that does not
+turn is dragged along.
 
 Fix: write `type="fixed"` and remove the axis; Ignition keeps the link, its sensors and its frame. A
-joint that a plugin moves is `revolute`, with limits apart or none.
+joint that a plugin moves is `revolute`, with different limits or none.
 Source: SDFormat specification, joint/type.
 """
 
@@ -18,7 +18,7 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("KIN009", "fixed-by-limits", Severity.INFO)
 def check(robot: Robot) -> Findings:
-    """Report joints that cannot move: an error where a plugin moves them."""
+    """Report joints that cannot move: an error if a plugin drives them."""
     for joint in robot.joints:
         why = _why_not(joint)
         plugin = robot.driven_joints.get(joint.scoped_name)
@@ -30,14 +30,14 @@ def check(robot: Robot) -> Findings:
             continue
         yield finding(
             joint,
-            f"{said}; {plugin.class_name} is to move it",
+            f"{said}, but {plugin.class_name} drives it",
             severity=Severity.ERROR,
-            related=[(plugin, "moves it")],
+            related=[(plugin, "drives it")],
         )
 
 
 def _why_not(joint: Joint) -> str:
-    """Say why a joint cannot move; nothing for one that can."""
+    """Return why a joint cannot move; nothing for a joint that can."""
     if joint.type.value == "fixed":
         return "it is fixed"
     if joint.type.value not in ("revolute", "prismatic") or len(joint.axes) != 1:

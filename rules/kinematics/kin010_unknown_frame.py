@@ -1,11 +1,11 @@
 """A pose or axis that refers to a frame which does not exist, or to itself.
 
-Nobody can tell where the part is: parsers refuse the model, or put the part at the origin.
+The place of the part is undefined: parsers refuse the model, or put the part at the origin.
 
-No accepted package at hand shows it.
+None of the accepted packages that we checked shows this.
 
-Fix: name a link, joint or frame of the same model as it spells itself, and let no two frames be
-posed relative to each other.
+Fix: name a link, joint or frame of the same model with its exact name, and do not pose two frames
+relative to each other.
 Source: SDFormat specification 1.7, "Pose frame semantics"; SDF 1.5 and 1.6, pose/@frame.
 """
 
@@ -16,7 +16,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("KIN010", "unknown-frame", Severity.ERROR)
 def check(robot: Robot) -> Findings:
-    """Report frames that are unknown, and circles of them."""
+    """Report unknown frames, and frames that refer to each other in a circle."""
     # In URDF the joints are the frames: KIN001 and KIN002 speak of those.
     if robot.format == "urdf":
         return

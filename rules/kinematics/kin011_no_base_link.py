@@ -1,9 +1,9 @@
 """A robot without `base_link`, or whose canonical link does not exist.
 
-Tools for SubT, and most of ROS, take `base_link` for the robot's own frame: transforms, bridges of
-sensors and the wheels' odometry begin there.
+Tools for SubT, and most of ROS, use `base_link` as the robot's own frame: transforms, bridges of
+sensors and the wheels' odometry start there.
 
-Fix: call the link that carries the others `base_link`; let `canonical_link` name a link.
+Fix: name the link that carries the others `base_link`; let `canonical_link` name a link.
 Source: SubT model submission, static transforms from `base_link`; REP 105; SDFormat 1.7,
 model/@canonical_link.
 """
@@ -18,8 +18,8 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
     """Report a robot without base link, and a canonical link that does not exist.
 
     Options:
-        base: Name that a link of the robot must have; none is asked for where no release of Gazebo
-            is aimed at.
+        base: Name that a link of the robot must have; not required if the profile names no Gazebo
+            release.
     """
     yield from _canonical(robot)
     # Of a file for no simulator, nobody knows that it is a robot.
@@ -29,7 +29,7 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
         yield unchecked(robot.missing_parts)
         return
     top = next((link for link in robot.links if link.scoped_name not in robot.tree.above), None)
-    said = f"; the others hang on {top.scoped_name!r}" if top is not None else ""
+    said = f"; the root of the others is {top.scoped_name!r}" if top is not None else ""
     yield finding(robot.name, f"{robot.name.value!r} has no link {base!r}{said}")
 
 

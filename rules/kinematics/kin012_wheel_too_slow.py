@@ -1,8 +1,8 @@
-"""A wheel whose velocity limit is below what the drive plugin may ask of it.
+"""A wheel's velocity limit is below the speed that the drive plugin may command.
 
-The drive plugin counts on its own limit and the joint stops short of it: the robot is slower than
-specified, and odometry and turning go wrong where only some wheels are held back.
-No accepted package at hand shows it.
+The drive plugin uses its own limit, but the joint stays below it: the robot is slower than
+specified. If only some wheels are limited, odometry and turning are wrong too. None of the accepted
+packages that we checked shows this.
 
 Fix: raise the joint's `<velocity>` to at least `max_velocity` / `wheel_radius` of the plugin, or
 lower `max_velocity`.
@@ -26,7 +26,7 @@ _WHEELS = {
     ),
 }
 _SPEEDS = ("max_linear_velocity", "max_velocity")
-"""Parameters that limit a drive's speed; of the first that is stated, the other does not count."""
+"""Parameters that limit a drive's speed; only the first stated one counts."""
 
 
 @rule("KIN012", "wheel-too-slow", Severity.WARNING)
@@ -61,7 +61,8 @@ def _slow_wheels(
             yield finding(
                 limit,
                 f"joint {name!r} turns at {limit.value:g} rad/s at most, which is {reached:.3g} "
-                f"m/s on a wheel of {radius:g} m; {plugin.class_name} allows {speed.value:g} m/s",
+                f"m/s on a wheel of {radius:g} m, but {plugin.class_name} allows {speed.value:g} "
+                "m/s",
                 key=f"{limit.value:g} {speed.value:g}",
                 related=[(speed, "the drive's maximum speed")],
             )

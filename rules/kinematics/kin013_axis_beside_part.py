@@ -1,11 +1,11 @@
-"""A hinge whose axis passes far beside the part that it turns, or a part far from its parent.
+"""A hinge axis far away from the part that it turns, or a part far from its parent.
 
-The part flies around its axis on an invisible arm, or hangs in the air: mostly a pose is wrong by
-a decimal point or a unit, or refers to another frame than was thought.
-No accepted package at hand shows it.
+The part swings around its axis on an invisible arm, or floats in the air. Usually a pose has a
+wrong decimal point or unit, or refers to an unintended frame. None of the accepted packages that we
+checked shows this.
 
 Fix: correct the pose of the joint or of the child link, in metres.
-Source: geometry; SDF poses a joint in its child link, URDF in its parent.
+Source: geometry; SDF gives a joint's pose in its child link, URDF in its parent.
 """
 
 import math
@@ -23,12 +23,12 @@ _HINGES = ("revolute", "continuous")
 def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
     """Report parts far from their axis or parent.
 
-    Meshes count by their convex hull; parts with one that cannot be read are passed over.
+    Meshes count as their convex hull; parts with an unreadable mesh are skipped.
 
     Options:
-        sizes: Distance of a hinge's axis from the ball around the box of the part's collisions, in
-            diagonals of that box; more is reported.
-        gap: Distance between the boxes around a part and its parent over the sum of their
+        sizes: Distance of a hinge's axis from the sphere around the box of the part's collisions,
+            as a multiple of that box's diagonal; more is reported.
+        gap: Distance between the boxes around a part and its parent, divided by the sum of their
             diagonals; more is reported.
     """
     boxes = {name: robot.box_of(link) for name, link in robot.tree.links.items()}
@@ -43,8 +43,8 @@ def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
         ):
             yield finding(
                 tie.joint,
-                f"joint {tie.joint.name.value!r} ties {tie.child!r} to {tie.parent!r} over "
-                f"{child.gap(parent):.3g} m of air",
+                f"joint {tie.joint.name.value!r} connects {tie.child!r} to {tie.parent!r}, which "
+                f"is {child.gap(parent):.3g} m away",
             )
         elif tie.joint.type.value in _HINGES:
             yield from _beside(robot, tie, sizes)
@@ -60,7 +60,7 @@ def _beside(robot: Robot, tie: Tie, sizes: float) -> Iterator[Finding]:
     if beside > sizes * part.diagonal > 0.0:
         yield finding(
             tie.joint,
-            f"the axis of joint {tie.joint.name.value!r} passes {beside:.3g} m beside "
+            f"the axis of joint {tie.joint.name.value!r} is {beside:.3g} m away from "
             f"{tie.child!r}, which measures {part.diagonal:.3g} m",
         )
 

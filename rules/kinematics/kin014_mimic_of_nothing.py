@@ -1,10 +1,9 @@
 """A joint that mimics an unknown joint, itself, or one that mimics it in turn.
 
-Nothing tells the joint where to go: parsers refuse the model, or the finger of a gripper stands
-still.
-No accepted package at hand shows it.
+The joint has no leader to follow: parsers refuse the model, or the finger of a gripper does not
+move. None of the accepted packages that we checked shows this.
 
-Fix: name the joint that leads, as it spells itself.
+Fix: write the exact name of the leading joint.
 Source: URDF, joint/mimic; SDFormat 1.11, axis/mimic.
 """
 
@@ -19,7 +18,7 @@ from checker.source.text import Located
 
 @rule("KIN014", "mimic-of-nothing", Severity.ERROR)
 def check(robot: Robot) -> Findings:
-    """Report mimic joints that follow nothing or themselves."""
+    """Report mimic joints that follow an unknown joint or themselves."""
     suggestions = Suggestions(robot.joints_by_name)
     leaders: dict[str, tuple[Joint, Located[str]]] = {}
     for joint in robot.joints:

@@ -1,7 +1,7 @@
 """Negative damping, friction or stiffness of a joint.
 
-The joint gains energy with every move: it swings ever wider until the simulation explodes.
-No accepted package at hand shows it.
+The joint gains energy with every move: it swings wider and wider until the simulation explodes.
+None of the accepted packages that we checked shows this.
 
 Fix: write a positive number, or 0 for none.
 Source: SDFormat specification, axis/dynamics; URDF, joint/dynamics.

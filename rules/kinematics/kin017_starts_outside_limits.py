@@ -1,11 +1,11 @@
 """A joint that starts outside its limits.
 
-The physics engine throws it back to the limit in the first step, and the robot jumps. Without
-`<initial_position>` a joint starts at 0, which its limits have to allow: zero is the pose in which
-the model file draws the robot.
+The physics engine throws the joint back to the limit in the first step, and the robot jumps.
+Without `<initial_position>` a joint starts at 0, so its limits must include 0: this is the pose
+that the model file shows.
 
-Fix: choose the zero of the joint so that its limits hold it: turn the child link's pose and shift
-both limits by the same angle; or correct the initial position.
+Fix: choose the zero of the joint so that it is within the limits: turn the child link's pose and
+shift both limits by the same angle. Or correct the initial position.
 Source: SDFormat specification, axis/initial_position and axis/limit.
 """
 
@@ -17,10 +17,10 @@ from checker.rule import Findings, Severity, finding, rule
 def check(robot: Robot, *, tolerance: float = 1e-6) -> Findings:
     """Report joints whose first position is outside their limits.
 
-    Where a robot of URDF starts, what spawns it decides.
+    For a URDF robot the start depends on the node that spawns it.
 
     Options:
-        tolerance: Radians, of a sliding joint metres, that the first position may be outside the
+        tolerance: Radians (sliding joints: metres) that the first position may be outside the
             limits; more is reported.
     """
     if robot.format == "urdf":

@@ -1,10 +1,11 @@
 """A mesh file that cannot be read.
 
-Gazebo reports an error and goes on without it: the part is invisible, or things pass through it.
-Mostly the file was cut off while it was copied, or only a pointer of Git LFS was added.
+Gazebo reports an error and continues without the mesh: the part is invisible, or objects pass
+through it. Usually the file was cut off while it was copied, or only a Git LFS pointer was added.
 
 Fix: export or copy the mesh again, and open it in a viewer.
-Source: the formats' specifications; every mesh of the accepted packages at hand reads.
+Source: the formats' specifications; every mesh of the accepted packages that we checked can be
+read.
 """
 
 import struct

@@ -1,10 +1,10 @@
-"""A mesh file that breaks the rules of its format, though Gazebo copes with it.
+"""A mesh file that breaks the rules of its format, although Gazebo can load it.
 
-Blender, MuJoCo and most other loaders refuse it: a COLLADA file with `id="<STL_BINARY>"`, say, is
-no XML at all.
+Blender, MuJoCo and most other loaders refuse it. A COLLADA file with `id="<STL_BINARY>"`, for
+example, is not XML.
 
 Fix: export the mesh again; in a COLLADA file replace `<` in ids by a letter.
-Source: the formats' specifications. Several accepted packages carry three such files of a lidar.
+Source: the formats' specifications. Several accepted packages contain three such files for a lidar.
 """
 
 from checker.model.mesh import Mesh
@@ -14,7 +14,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("MSH002", "mesh-not-valid", Severity.WARNING)
 def check(robot: Robot) -> Findings:
-    """Report what had to be mended or passed over to read a mesh."""
+    """Report what the reader had to repair or skip in a mesh."""
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
     for use in robot.mesh_uses:

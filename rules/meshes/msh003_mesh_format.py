@@ -1,7 +1,7 @@
-"""A mesh of a format that Gazebo does not read.
+"""A mesh in a format that Gazebo does not read.
 
 The part is invisible, or has no collision. Gazebo Dome and Gazebo Classic read COLLADA, STL and
-OBJ; glTF and FBX came with Garden.
+OBJ; Garden and later also read glTF and FBX.
 
 Fix: export the mesh as COLLADA (.dae) or OBJ with its textures, or as STL for a collision.
 Source: gz-common, MeshManager: its list of file extensions in version 3 (Dome) and 5 (Garden).
@@ -23,13 +23,13 @@ def check(
     formats: tuple[str, ...] = (".dae", ".obj", ".stl"),
     older_releases: tuple[str, ...] = ("classic", "dome"),
 ) -> Findings:
-    """Report meshes whose suffix the release does not know.
+    """Report meshes whose file extension the release does not know.
 
     Options:
-        formats: Suffixes, with the dot and in lower case, of the mesh formats that every release
-            reads.
-        older_releases: Names of the releases of Gazebo that read `formats` alone; on all others
-            glTF and FBX join them.
+        formats: File extensions, with the dot and in lower case, of the mesh formats that every
+            release reads.
+        older_releases: Names of the Gazebo releases that read only `formats`; all others also read
+            glTF and FBX.
     """
     older = context.release in older_releases
     known = frozenset(formats) if older else _SINCE_GARDEN.union(formats)
@@ -39,8 +39,9 @@ def check(
         if suffix.lower() not in known:
             yield finding(
                 use.uri,
-                f"{use.uri.value} is {f'a {suffix} file' if suffix else 'a file without suffix'}, "
-                f"expected {', '.join(sorted(known))}{where}",
+                f"{use.uri.value} is "
+                f"{f'a {suffix} file' if suffix else 'a file without extension'}, expected "
+                f"{', '.join(sorted(known))}{where}",
             )
 
 

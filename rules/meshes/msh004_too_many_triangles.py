@@ -1,11 +1,11 @@
-"""A mesh with more triangles than a simulation can afford.
+"""A mesh with too many triangles for simulation.
 
-Collision meshes are tested against each other at every step; visual meshes are drawn once more
+The simulator tests collision meshes against each other at every step, and draws visual meshes again
 for each camera and each lidar of the robot.
 
-Fix: reduce the mesh (Blender: Decimate); let collisions be boxes, cylinders and spheres.
+Fix: reduce the mesh (Blender: Decimate); use boxes, cylinders and spheres as collisions.
 Source: Model Migration Guide and review findings; the figures are ten times what the accepted
-packages at hand need.
+packages that we checked need.
 """
 
 from checker.model.mesh import Mesh
@@ -17,13 +17,13 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 def check(
     robot: Robot, *, collision: int = 20_000, visual: int = 200_000, together: int = 1_000_000
 ) -> Findings:
-    """Report meshes above the number for their use, and a robot whose meshes sum up to more.
+    """Report meshes above the number for their use, and robots whose meshes exceed the total.
 
     Options:
         collision: Triangles that the mesh of a collision may have; more are reported.
         visual: Triangles that the mesh of a visual may have; more are reported.
-        together: Triangles that all meshes of the robot may have together, where a mesh counts as
-            often as it is used; more are reported.
+        together: Triangles that all meshes of the robot may have together; a mesh counts once for
+            each use; more are reported.
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)

@@ -1,11 +1,10 @@
-"""A mesh in millimetres, centimetres or inches that is taken for metres, or the reverse.
+"""A mesh in millimetres, centimetres or inches that is read as metres, or the reverse.
 
-The wheel is 200 m high, or too small to be seen; as a collision it throws the robot out of the
-world.
+The wheel is 200 m high, or too small to see; as a collision it throws the robot out of the world.
 
 Fix: write `<scale>0.001 0.001 0.001</scale>` for a mesh in millimetres, correct `<unit meter>` in
 the COLLADA file, or remove a scale that was applied twice.
-Source: geometry; Gazebo honours the unit of a COLLADA file and takes STL and OBJ for metres.
+Source: geometry; Gazebo uses the unit of a COLLADA file and reads STL and OBJ as metres.
 """
 
 import math
@@ -20,7 +19,7 @@ from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 UNITS = {"inches": 1 / 0.0254, "centimetres": 100.0, "millimetres": 1000.0}
-"""How many of them a metre has."""
+"""How many of each unit make a metre."""
 
 Shapes = Iterable[Collision | Visual]
 
@@ -34,21 +33,21 @@ def check(
     huge: float = 10.0,
     tiny: float = 0.01,
 ) -> Findings:
-    """Compare the diagonal of each mesh, `<scale>` included, with what is known otherwise.
+    """Compare the diagonal of each mesh, including its `<scale>`, with other known lengths.
 
-    Too large: longer by far than the robot without its meshes; or longer, and by a unit's factor
-    larger than the simple shapes of its link. Too small: by such a factor smaller than the link's
-    shapes of the other kind, which are collisions for a visual and visuals for a collision.
+    Too large: much longer than the robot without its meshes; or longer than it, and larger than the
+    simple shapes of its link by the factor of a unit. Too small: smaller by such a factor than the
+    link's shapes of the other kind (collisions for a visual, visuals for a collision).
 
     Options:
-        near: Factor above 1 by which a ratio of lengths may be off a unit's 39.4 (inches), 100 or
-            1000 and still count as that unit's.
-        beyond: Ratio of a mesh to the robot without its meshes; more is too large, as is a third of
-            it where a unit's factor shows beside the link's simple shapes.
-        huge: Metres; a shorter mesh is too large only if it is so by a unit's factor beside the
-            simple shapes of its link.
-        tiny: Metres; a mesh is too small only where all shapes of its kind, collisions or visuals,
-            of the link measure less together.
+        near: Factor above 1 by which a ratio of lengths may differ from 39.4 (inches), 100 or 1000
+            and still count as that unit.
+        beyond: Ratio of a mesh to the robot without its meshes; more is too large. A third of it is
+            too large if the link's simple shapes show the factor of a unit.
+        huge: Metres; a shorter mesh is too large only if the simple shapes of its link show the
+            factor of a unit.
+        tiny: Metres; a mesh is too small only if all collisions, or all visuals, of its link
+            together measure less.
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
@@ -62,8 +61,8 @@ def check(
         elif 0.0 < extent.like(use) < tiny and (unit := _unit(extent.unlike(use), size, near)):
             yield finding(
                 use.uri,
-                f"{use.uri.value} measures {size:.3g} m, the rest of its link "
-                f"{extent.unlike(use):.3g} m: scaled from {unit} once too often?",
+                f"{use.uri.value} measures {size:.3g} m, but the rest of its link measures "
+                f"{extent.unlike(use):.3g} m: is it scaled from {unit} twice?",
             )
 
 
@@ -71,7 +70,7 @@ class _Extent(Record):
     """Diagonals of the boxes around a link's shapes, metres; 0 where one is not known.
 
     Attributes:
-        simple: Around all that are no meshes.
+        simple: Around all shapes that are not meshes.
     """
 
     simple: float
@@ -79,19 +78,19 @@ class _Extent(Record):
     collisions: float
 
     def like(self, use: MeshUse) -> float:
-        """Return that of the shapes of a mesh's kind."""
+        """Return the diagonal for the shapes of a mesh's kind."""
         return self.collisions if use.is_collision else self.visuals
 
     def unlike(self, use: MeshUse) -> float:
-        """Return that of the shapes of the other kind."""
+        """Return the diagonal for the shapes of the other kind."""
         return self.visuals if use.is_collision else self.collisions
 
 
 def _too_large(use: MeshUse, size: float, rest: float, whose: str, unit: str) -> Finding:
     return finding(
         use.uri,
-        f"{use.uri.value} measures {size:.3g} m, the {whose} {rest:.3g} m: "
-        f"{unit} taken for metres?",
+        f"{use.uri.value} measures {size:.3g} m, but the {whose} measures {rest:.3g} m: is the "
+        f"mesh in {unit} without a scale?",
     )
 
 

@@ -1,9 +1,9 @@
-r"""A texture that a mesh file names and that is not there.
+r"""A mesh file names a texture that does not exist.
 
-The part is plain grey. Gazebo looks in the mesh's folder, then in `materials/textures` beside it;
-a path such as `C:\Users\me\paint.png` holds on one machine alone.
+The part is plain grey. Gazebo looks in the mesh's folder, then in the folder `materials/textures`
+next to it. A path such as `C:\Users\me\paint.png` works on one machine only.
 
-Fix: put the picture where the mesh file says, or correct the path inside the mesh file.
+Fix: put the picture where the mesh file expects it, or correct the path in the mesh file.
 Source: Model Migration Guide, step 7; gz-common, `Material::SetTextureImage`, which tries
 `<folder of the mesh>/<name>` and `<folder of the mesh>/../materials/textures/<name>`.
 """
@@ -25,7 +25,7 @@ _ON_A_SERVER = re.compile(r"https?:", re.IGNORECASE)
 
 @rule("MSH006", "mesh-texture-missing", Severity.WARNING)
 def check(package: Package, robot: Robot) -> Findings:
-    """Report files that the meshes of visuals name, where the model gives no texture itself."""
+    """Report files that the meshes of visuals name, unless the model gives a texture itself."""
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
     for use in robot.mesh_uses:

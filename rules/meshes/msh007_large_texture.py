@@ -1,9 +1,9 @@
-"""A texture larger than graphics cards like.
+"""A texture that is too large for graphics cards.
 
-It takes memory on the card for each camera's view; above the card's limit it is not shown at all.
+The texture takes memory on the card for each camera's view; above the card's limit it is not shown.
 4096 × 4096 pixels take 85 MB.
 
-Fix: scale the picture down; 1024 pixels a side are enough for most parts of a robot.
+Fix: scale the picture down; 1024 pixels per side are enough for most parts of a robot.
 Source: the limit that every card since OpenGL 4.1 supports is 16384; 4096 is what is sensible.
 """
 
@@ -21,7 +21,7 @@ from checker.source.text import Located
 
 @rule("MSH007", "large-texture", Severity.INFO)
 def check(package: Package, robot: Robot, *, most: int = 4096) -> Findings:
-    """Report pictures of the model and of its meshes with too many pixels a side.
+    """Report pictures of the model and of its meshes with too many pixels per side.
 
     Options:
         most: Pixels that the longer side of a PNG or JPEG picture may have; more are reported.
@@ -37,7 +37,7 @@ def check(package: Package, robot: Robot, *, most: int = 4096) -> Findings:
         if size is not None and max(size) > most:
             yield finding(
                 uri,
-                f"{path} has {size[0]} × {size[1]} pixels, expected at most {most} a side",
+                f"{path} has {size[0]} × {size[1]} pixels, expected at most {most} per side",
                 key=path,
             )
 

@@ -1,9 +1,9 @@
-"""Two different meshes with one file name in different folders.
+"""Two different meshes have the same file name in different folders.
 
-MuJoCo, and other tools that gather all meshes in one place, take them for one: a part gets the
-shape of another. In Gazebo nothing is wrong.
+MuJoCo, and other tools that collect all meshes in one place, treat them as one: a part gets the
+shape of another. Gazebo handles them correctly.
 
-Fix: give each mesh a name of its own, such as `wheel_collision.stl`.
+Fix: give each mesh its own name, such as `wheel_collision.stl`.
 Source: MuJoCo, XML reference: a mesh is named for its file without the folder unless it has a name.
 """
 
@@ -18,7 +18,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("MSH008", "same-mesh-name", Severity.INFO)
 def check(robot: Robot) -> Findings:
-    """Report meshes whose name was given to another one before."""
+    """Report meshes whose name another mesh already has."""
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
     first: dict[str, tuple[MeshUse, Mesh]] = {}
@@ -30,7 +30,8 @@ def check(robot: Robot) -> Findings:
         if use.file.path != mesh.path and replace(use.file, path=mesh.path) != mesh:
             yield finding(
                 use.uri,
-                f"{use.uri.value} and {other.uri.value} are different meshes of one name",
+                f"{use.uri.value} and {other.uri.value} are different meshes with the same file "
+                "name",
                 related=[(other.uri, "the first mesh of this name")],
             )
 

@@ -1,10 +1,10 @@
 """A hollow or concave collision mesh.
 
-Engines that collide convex hulls (MuJoCo, Bullet's convex shapes) fill the hollow: wheels inside
-a wheel arch touch the chassis, a gripper cannot close around anything.
+Engines that use convex hulls (MuJoCo, Bullet's convex shapes) fill the hollow: wheels inside a
+wheel arch touch the chassis, and a gripper cannot close around anything.
 
-Fix: build the collision of several convex parts, best of boxes and cylinders.
-Source: geometry: the volume of the convex hull against that of the mesh.
+Fix: build the collision from several convex parts, preferably boxes and cylinders.
+Source: geometry: the volume of the convex hull compared with that of the mesh.
 """
 
 from checker.model.robot import Robot
@@ -16,8 +16,8 @@ def check(robot: Robot, *, factor: float = 2.0) -> Findings:
     """Report closed collision meshes that fill little of their convex hull.
 
     Options:
-        factor: Volume of the convex hull over that of the mesh, which is 1 for a convex one; more
-            is reported.
+        factor: Volume of the convex hull divided by that of the mesh, which is 1 for a convex one;
+            more is reported.
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
@@ -29,7 +29,7 @@ def check(robot: Robot, *, factor: float = 2.0) -> Findings:
         if ratio > factor:
             yield finding(
                 use.uri,
-                f"the convex hull of {use.uri.value} holds {ratio:.3g} times the volume of the "
+                f"the convex hull of {use.uri.value} has {ratio:.3g} times the volume of the "
                 f"mesh, expected at most {factor:g} times",
             )
 

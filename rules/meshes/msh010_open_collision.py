@@ -1,7 +1,7 @@
-"""A collision mesh that is no closed surface.
+"""A collision mesh that is not a closed surface.
 
-What is inside and what outside is undefined: contact normals flip, things get stuck in it or fall
-through a hole. Mostly a visual mesh was reused as it is.
+Inside and outside are undefined: contact normals flip, and objects get stuck in the mesh or fall
+through a hole. Usually a visual mesh was reused without changes.
 
 Fix: use boxes, cylinders and spheres; or close the holes, recalculate the normals outwards and
 remove degenerate faces (Blender: Merge by Distance, Fill Holes, Recalculate Outside).
@@ -18,7 +18,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("MSH010", "open-collision-mesh", Severity.WARNING)
 def check(robot: Robot) -> Findings:
-    """Report collision meshes with holes, inside out, or with triangles without area."""
+    """Report collision meshes with holes, inverted surfaces, or triangles without area."""
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
     for use in robot.mesh_uses:

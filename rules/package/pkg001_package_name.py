@@ -1,7 +1,7 @@
-"""A package name that does not follow the challenge's pattern.
+"""The package name does not follow the challenge's pattern.
 
-The launcher builds the name of the robot's configuration from the folder's name; one of another
-form cannot be started.
+The SubT launcher builds the name of the robot's configuration from the folder's name. It cannot
+start a folder with another name.
 
 Fix: rename the folder to `<organization>_<robot>_sensor_config_<#>`: lower case letters, digits
 and `_`, the number from 1 without leading zeros.
@@ -20,7 +20,7 @@ _PATTERN = re.compile(r"([a-z0-9]+(?:_[a-z0-9]+)*)_sensor_config_([0-9]+)")
 
 @rule("PKG001", "package-name", Severity.ERROR)
 def check(package: Package) -> Findings:
-    """Report folder names of another form."""
+    """Report folder names that do not match the pattern."""
     if package.kind in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
         yield from _faults(package)
 
@@ -30,16 +30,16 @@ def _faults(package: Package) -> Iterator[Finding]:
     match = _PATTERN.fullmatch(name)
     if match is None:
         yield finding(
-            place, f"package is called {name!r}, expected {_expected(name)}", key="pattern"
+            place, f"the package is called {name!r}, expected {_expected(name)}", key="pattern"
         )
         return
     robot, number = match.groups()
     if number.startswith("0"):
-        yield finding(place, f"configuration number of {name!r} is {number}, expected 1, 2, …")
+        yield finding(place, f"the configuration number of {name!r} is {number}, expected 1, 2, …")
     if "_" not in robot:
         yield finding(
             place,
-            f"package {name!r} has no organization in front of {robot!r}",
+            f"the package {name!r} has no organization in front of {robot!r}",
             severity=Severity.WARNING,
         )
 

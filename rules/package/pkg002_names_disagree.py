@@ -1,10 +1,10 @@
-"""The names of a package that do not agree.
+"""The names of a package do not agree.
 
-catkin finds a package by the name in package.xml, CMake installs it under that of `project()`, and
-the launcher asks for the folder's name: when they differ, `roslaunch` does not find the package.
-The names in model.config and `<model name>` are only shown.
+catkin finds a package by the name in package.xml, CMake installs it under the name of `project()`,
+and the SubT launcher uses the folder's name. If they differ, `roslaunch` does not find the package.
+The names in model.config and `<model name>` are only displayed.
 
-Fix: give package.xml, `project()` and the folder one name.
+Fix: use the same name in package.xml, `project()` and for the folder.
 Source: REP 140 and catkin: the project name must equal the package name.
 """
 
@@ -38,23 +38,23 @@ def _compare(name: Located[str], folder: str, saying: str) -> Iterator[Finding]:
     if name.stated and name.value != folder:
         yield finding(
             name,
-            f"{saying} {name.value!r}, its folder is {folder!r}",
+            f"{saying} {name.value!r}, but its folder is {folder!r}",
             fix=replace_text(name, folder),
         )
 
 
 def _shown_name(name: Located[str], folder: str) -> Iterator[Finding]:
-    """A name in plain words is fine; one that looks like a package name should be this one."""
+    """Report another package's name in model.config; a name in plain words is fine."""
     if name.stated and " " not in name.value and name.value != folder and "_" in name.value:
         yield finding(
             name,
-            f"model.config names the model {name.value!r}, the folder is {folder!r}",
+            f"model.config names the model {name.value!r}, but the folder is {folder!r}",
             severity=Severity.INFO,
         )
 
 
 def _model_name(package: Package, shown: str) -> Iterator[Finding]:
-    """The package's own model may bear the folder's name or that of model.config."""
+    """The package's own model may have the folder's name or that of model.config."""
     path = package.model_path
     document = package.xml(path.path) if isinstance(path, Found) else None
     if not isinstance(document, XmlDocument) or document.source.file.startswith("../"):
@@ -64,7 +64,7 @@ def _model_name(package: Package, shown: str) -> Iterator[Finding]:
     if name is not None and name.value not in (package.name, shown):
         yield finding(
             name,
-            f"the model is called {name.value!r}, the package {package.name!r}",
+            f"the model is called {name.value!r}, but the package is {package.name!r}",
             severity=Severity.INFO,
         )
 

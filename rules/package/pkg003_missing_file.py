@@ -1,10 +1,10 @@
-"""A file or folder that a submission needs is not there.
+"""A file or folder that a submission needs is missing.
 
-Without model, spawner or manifest the robot cannot be started; without specifications.md no review
-begins; the others are what a reviewer opens first. Parts that the package inherits from a sibling
-count as there.
+Without model, spawner or package.xml the robot cannot start. Without specifications.md no review
+begins. The other files are what a reviewer opens first. Parts that the package inherits from a
+sibling count as present.
 
-Fix: add the file; the guide's example package shows what each one holds.
+Fix: add the file; the guide's example package shows the content of each.
 Source: Model Migration Guide, final directory structure; Robot Model Checklist.
 """
 
@@ -17,31 +17,36 @@ from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
 from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 
-MANIFESTS = {"package.xml": "the ROS manifest", "CMakeLists.txt": "the build file"}
+MANIFESTS = {
+    "package.xml": "which ROS needs to find the package",
+    "CMakeLists.txt": "which builds and installs the package",
+}
 REQUIRED = {
-    "launch/spawner.rb": "which puts the robot into a world",
+    "launch/spawner.rb": "which spawns the robot in a world",
     "specifications.md": "without which no review begins",
 }
 EXPECTED = {
     "launch/description.launch": "which loads the robot description",
     "launch/example.ign": "which shows how to start the robot",
     "worlds/example.sdf": "which shows the robot in a world",
-    "urdf": "the description for RViz",
-    "thumbnails": "pictures of the robot",
+    "urdf": "which describes the robot for RViz",
+    "thumbnails": "which holds pictures of the robot",
 }
 TOPICS = "launch/vehicle_topics.launch"
 
 
 @rule("PKG003", "missing-file", Severity.ERROR)
 def check(package: Package) -> Findings:
-    """Report what is missing, after inheritance."""
+    """Report what is missing, including inherited parts in the search."""
     if package.kind is PackageKind.SINGLE_FILE:
         return
     yield from _missing(package, MANIFESTS, Severity.ERROR)
     submission = package.kind in (PackageKind.ROBOT, PackageKind.CONFIGURATION)
     if submission or package.kind is PackageKind.BASE_MODEL:
         yield from _missing(package, {"model.config": "which names the model"}, Severity.ERROR)
-        yield from _said(package, package.model_path, "model.sdf", "the model", Severity.ERROR)
+        yield from _said(
+            package, package.model_path, "model.sdf", "which holds the model", Severity.ERROR
+        )
     if submission:
         yield from _missing(package, REQUIRED, Severity.ERROR)
         yield from _missing(package, EXPECTED, Severity.WARNING)
@@ -69,14 +74,14 @@ def _said(
 
 
 def _topics(package: Package) -> Iterator[Finding | Unchecked]:
-    """A robot whose spawner starts bridges from other files needs no vehicle_topics.launch."""
+    """Return no vehicle_topics.launch if the spawner starts bridges from other files."""
     started = [each for each in package.references if each.kind is ReferenceKind.ROSLAUNCH]
     if not any(_may_bridge(package, each) for each in started):
         yield from _missing(package, {TOPICS: "which bridges topics to ROS"}, Severity.ERROR)
 
 
 def _may_bridge(package: Package, started: Reference) -> bool:
-    """Say whether a launch file that is started is there and may bridge; unknown counts."""
+    """Whether a started launch file may start bridges; an unknown one counts."""
     if started.file == "description.launch":
         return False
     own = started.package_name == package.name

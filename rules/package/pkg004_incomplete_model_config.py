@@ -1,7 +1,7 @@
-"""A model.config that does not say what the model is, or where.
+"""A model.config that does not describe the model or name its file.
 
-Gazebo opens the file that `<sdf>` names: when it names none that is there, the robot cannot be
-loaded by its name. The other entries are what Fuel shows of the model, and whom to ask about it.
+Gazebo opens the file that `<sdf>` names. If that file does not exist, Gazebo cannot load the robot
+by its name. Fuel shows the other entries, including the contact of the author.
 
 Fix: name the model file in `<sdf version="1.6">model.sdf</sdf>`, and add name, version, author with
 name and email, and description.
@@ -33,7 +33,7 @@ from checker.source.xml_insertion import append_to
 
 @rule("PKG004", "incomplete-model-config", Severity.ERROR)
 def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
-    """Look up the model file, and list what is not stated."""
+    """Look up the model file, and list what is missing."""
     if reason := paperwork.unread("model.config"):
         yield unchecked(reason)
     config = paperwork.config
@@ -65,14 +65,14 @@ def _lost(package: Package, config: ModelConfig) -> Iterator[Finding]:
         model = next(iter(alike), own_model(package))
         yield finding(
             entry.file,
-            f"model.config names {written or 'no file'}, which does not exist"
-            + (f"; there is {alike[0]}" if alike else ""),
+            f"model.config names {written or 'no file'}, but this file does not exist"
+            + (f"; did you mean {alike[0]}?" if alike else ""),
             fix=replace_text(entry.file, model, Safety.UNSAFE) if model and written else None,
         )
 
 
 def _named(package: Package, version: str) -> Fix | None:
-    """Return the fix that names the package's model."""
+    """Return the fix that writes the package's model file."""
     document, model = package.xml("model.config"), own_model(package)
     if model is None or not version or not isinstance(document, XmlDocument):
         return None

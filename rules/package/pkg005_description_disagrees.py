@@ -1,8 +1,8 @@
-"""The description in model.config tells of other sensors than the model has.
+"""The description in model.config names other sensors than the model has.
 
-Fuel and the catalogue show this sentence. Where it says two depth cameras and the model has four,
-one of them is wrong. Numbers are compared where the words spell all of them out; a kind of sensor
-that the model lacks altogether is reported as well.
+Fuel and the catalogue show this text. If it says two depth cameras and the model has four, one of
+them is wrong. Numbers are compared only if the text states all of them; a kind of sensor that the
+model does not have is also reported.
 
 Fix: correct the description, or the model.
 Source: model reviews: the list of sensors in model.config against model.sdf.
@@ -28,7 +28,7 @@ _LIST_MARK = re.compile(r"[\s,;:.-]*(?:(?:and|with|has|having|plus)\s+)?", re.IG
 
 
 class _Told(Record):
-    """A kind of sensor that a clause names, and how many of it; None when it does not say."""
+    """A kind of sensor that a clause names, and how many; None when it states no number."""
 
     kind: SensorKind
     count: int | None
@@ -56,18 +56,20 @@ def check(robot: Robot, paperwork: Paperwork) -> Findings:
         name = items[0].kind.value.replace("_", " ")
         if max(amounts) == 0:
             yield finding(
-                items[0], f"description tells of {name}, the model has no such sensor", key=name
+                items[0],
+                f"the description names {name}, but the model has no such sensor",
+                key=name,
             )
         elif total is not None and total not in amounts:
             yield finding(
                 items[0],
-                f"description tells of {total} × {name}, the model has {amounts[0]}",
+                f"the description names {total} × {name}, but the model has {amounts[0]}",
                 key=name,
             )
 
 
 def _told(description: Located[str]) -> Iterator[_Told]:
-    """Yield what the clauses of a description name; the first kind of a clause counts."""
+    """Yield the sensors that the clauses of a description name, the first of each clause."""
     text = description.span.text
     for clause in _CLAUSE.finditer(text):
         mark = _LIST_MARK.match(clause.group())
@@ -88,7 +90,7 @@ def _told(description: Located[str]) -> Iterator[_Told]:
 def _amounts(
     present: Counter[str], types: frozenset[str], others: frozenset[str]
 ) -> tuple[int, int, int]:
-    """Return how many there are: of the types, of what the words may mean as well, of both."""
+    """Return the numbers of sensors: of the types, of what the words may also mean, of both."""
     own = sum(present[kind] for kind in types)
     substitutes = sum(present[kind] for kind in others)
     return own, substitutes, own + substitutes

@@ -1,13 +1,14 @@
-"""A package.xml without what its format requires.
+"""A package.xml without an entry that its format requires.
 
-catkin refuses to build a workspace that holds such a package, and with it every other robot. The
-license and the maintainer's address are what lets others use the model, and ask about it. Accepted
-packages show at most a maintainer without a name.
+catkin refuses to build a workspace with such a package, and so no robot in it can be built. Others
+need the license to use the model, and the maintainer's address to ask about it. At most a
+maintainer without a name occurs in accepted packages.
 
 Fix: add name, version (`1.0.0`), description, maintainer with email, license, and
 `<buildtool_depend>catkin</buildtool_depend>`.
-Source: REP 127, 140 and 149, "Required tags"; what catkin_pkg 1.1 refuses, tried tag by tag. The
-warnings are ours: it accepts a maintainer without a name, and a package without catkin.
+Source: REP 127, 140 and 149, "Required tags"; what catkin_pkg 1.1 refuses, tested tag by tag. The
+warnings are this rule's own: catkin_pkg accepts a maintainer without a name, and a package without
+catkin.
 """
 
 import re
@@ -25,7 +26,7 @@ _EMAIL = re.compile(r"[^@\s]+@[^@\s]+")
 
 @rule("PKG006", "incomplete-package-xml", Severity.ERROR)
 def check(package: Package, paperwork: Paperwork) -> Findings:
-    """Look at what package.xml must state."""
+    """Check the entries that package.xml must have."""
     if reason := paperwork.unread("package.xml"):
         yield unchecked(reason)
     manifest = paperwork.manifest
@@ -37,7 +38,7 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
     if named and not is_same_robot(named.group(1), package.name):
         yield finding(
             manifest.description,
-            f"description is about {named.group(1)}, the package is {package.name}",
+            f"the description is about {named.group(1)}, but the package is {package.name}",
             severity=Severity.WARNING,
         )
     if not manifest.build_type.value and not manifest.depends_on("catkin"):
@@ -59,9 +60,11 @@ def _required(manifest: PackageManifest) -> Iterator[Finding]:
             yield _missing(tag, text)
     version = manifest.version
     if version.value and _VERSION.fullmatch(version.value) is None:
-        yield finding(version, f"version is {version.value!r}, expected three numbers: '1.0.0'")
+        yield finding(
+            version, f"the version is {version.value!r}, expected three numbers such as '1.0.0'"
+        )
     if manifest.format.value is None:
-        yield finding(manifest.format, "format of package.xml is none of 1, 2 and 3")
+        yield finding(manifest.format, "the format of package.xml is not 1, 2 or 3")
     if not manifest.licenses:
         yield _missing("license", Located("", manifest.span, stated=False))
     yield from (_missing("license", text) for text in manifest.licenses if not text.value)
@@ -75,9 +78,9 @@ def _people(manifest: PackageManifest) -> Iterator[Finding]:
             yield finding(person, "<maintainer> has no name", severity=Severity.WARNING)
         if not person.email.value:
             name = person.name.value or "maintainer"
-            yield finding(person, f"{name} has no email: <maintainer email=…>")
+            yield finding(person, f"{name} has no email: write <maintainer email=…>")
         elif _EMAIL.fullmatch(person.email.value) is None:
-            yield finding(person.email, f"{person.email.value!r} is no email address")
+            yield finding(person.email, f"{person.email.value!r} is not an email address")
 
 
 def _missing(tag: str, text: Located[str]) -> Finding:

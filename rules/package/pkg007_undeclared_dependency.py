@@ -1,10 +1,10 @@
-"""A package that is used and not declared as a dependency.
+"""A package that is used, but not declared as a dependency.
 
-What package.xml does not name is not installed with the robot: the launch files of another
+A package that package.xml does not name is not installed with the robot: launch files of another
 submission, or the bridge to ROS, are then missing where the robot runs. Comments do not count.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used.
-Source: REP 149, exec_depend; model reviews: the dependency on configuration 1 was added.
+Source: REP 149, exec_depend; in model reviews, authors added the dependency on configuration 1.
 """
 
 from collections.abc import Iterator
@@ -33,7 +33,7 @@ from checker.source.xml_insertion import append_to, insert_behind
 
 @rule("PKG007", "undeclared-dependency", Severity.WARNING)
 def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
-    """Compare what is used with package.xml; packages of the distribution as information."""
+    """Compare used packages with package.xml; packages of the ROS distribution are information."""
     if reason := paperwork.unread("package.xml"):
         yield unchecked(reason)
     manifest = paperwork.manifest
@@ -46,7 +46,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
             continue
         if SUBMISSION_NAME.search(name) or package.workspace.package(name) is not None:
             if not _needed_at_run_time(manifest, name):
-                message = f"{use.how}: {name} is not among the dependencies in package.xml"
+                message = f"{use.how}: {name} is missing from the dependencies in package.xml"
                 yield finding(use.place, message, key=name, fix=_declared(package, manifest, name))
         elif not manifest.depends_on(name):
             others.setdefault(name, use)
@@ -67,24 +67,24 @@ def _distribution(package: Package, uses: dict[str, Use], fix: Fix | None) -> It
         names = ", ".join(sorted(uses))
         yield finding(
             package.folder_place(),
-            f"{names}: used, and not among the dependencies in package.xml",
+            f"{names}: used, but missing from the dependencies in package.xml",
             severity=Severity.INFO,
-            related=[(use.place, f"{name} is used") for name, use in sorted(uses.items())],
+            related=[(use.place, f"{name} is used here") for name, use in sorted(uses.items())],
             fix=fix,
         )
 
 
 def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
-    """Report a configuration without model and spawner that does not say whose model it takes."""
+    """Report a configuration without model and spawner that does not say whose model it uses."""
     is_submission = SUBMISSION_NAME.search(package.name) and package.kind is PackageKind.ROBOT
     if not is_submission or own_model(package) is not None or package.exists(SPAWNER):
         return
     if not any(SUBMISSION_NAME.search(each.package.value) for each in manifest.dependencies):
-        yield finding(manifest, "package has no model, and depends on no package that has one")
+        yield finding(manifest, "the package has no model and depends on no package that has one")
 
 
 def _declared(package: Package, manifest: PackageManifest, *names: str) -> Fix | None:
-    """Return the fix that adds dependencies behind those that package.xml has."""
+    """Return the fix that adds dependencies after those that package.xml has."""
     document = package.xml("package.xml")
     if not isinstance(document, XmlDocument):
         return None

@@ -1,7 +1,7 @@
 """A resource that CMakeLists.txt does not install.
 
-The robot is started from the installed packages: a folder or model file that is not installed is
-there on the author's machine only.
+The robot starts from the installed packages: a folder or model file that is not installed exists
+only on the author's machine.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`.
 Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo look for them there.
@@ -33,18 +33,18 @@ FOLDERS = {
 _CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 _PATTERN = re.compile(r"[*?\[]")
 _PATTERN_LIMIT, _PATTERNS_LIMIT = 100, 100
-"""Characters of a pattern that is tried, and how many: each is compiled."""
+"""Greatest length of a pattern, and greatest number of patterns: each is compiled."""
 MODEL_FILES = ("model.sdf", "model.config")
 
 
 @rule("PKG008", "resource-not-installed", Severity.ERROR)
 def check(package: Package, paperwork: Paperwork) -> Findings:
-    """Compare what is there with what the build file installs."""
+    """Compare the package's files with what the build file installs."""
     build = paperwork.build
     if build is None or package.kind in (PackageKind.PLUGIN, PackageKind.UNKNOWN):
         return
     if build.faults:
-        yield unchecked(f"CMakeLists.txt cannot be read to its end: {build.faults[0].message}")
+        yield unchecked(f"CMakeLists.txt cannot be read completely: {build.faults[0].message}")
         return
     installed = _installed(build)
     whole = "" in installed
@@ -66,7 +66,7 @@ def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix
 
 
 def _added(build: CMakeFile, kind: str, paths: Sequence[str]) -> Fix | None:
-    """Return the fix that installs more; None where nothing goes to the package's share folder."""
+    """Return the fix that installs more; None if nothing goes to the package's share folder."""
     fitting = [each for each in build.installs if _goes_to_share(each, build)]
     for install in fitting:
         last = install.items[-1]
@@ -110,7 +110,7 @@ def _paths(build: CMakeFile) -> Iterator[str]:
 
 
 def _covers(installed: set[str], path: str) -> bool:
-    """Say whether a path, or anything in it, is installed; what a variable hides counts."""
+    """Whether a path, or anything in it, is installed; a path in a variable counts as installed."""
     if path in installed or any(i.startswith(f"{path}/") or "$" in i for i in installed):
         return True
     patterns = (item for item in installed if len(item) < _PATTERN_LIMIT and _PATTERN.search(item))

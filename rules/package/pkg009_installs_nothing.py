@@ -1,10 +1,10 @@
-"""CMakeLists.txt installs a file or folder that is not there.
+"""CMakeLists.txt installs a file or folder that does not exist.
 
-The installation stops there with an error, and what comes behind it is not installed.
-No accepted package at hand shows it.
+The installation stops there with an error, and what follows is not installed. None of the accepted
+packages that we checked shows this.
 
-Fix: take the entry out of `install()`, or add what it names.
-Source: CMake, tried: `cmake --install` ends with "cannot find" for a file or folder.
+Fix: remove the entry from `install()`, or add the file or folder.
+Source: CMake, tested: `cmake --install` ends with "cannot find" for a file or folder.
 """
 
 import posixpath
@@ -37,8 +37,8 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
         what = "folder" if install.kind == "DIRECTORY" else "file"
         yield finding(
             item,
-            f"{what} {item.value} is installed and does not exist"
-            + (f"; there is {alike[0]}" if alike else ""),
+            f"{what} {item.value} is installed, but does not exist"
+            + (f"; did you mean {alike[0]}?" if alike else ""),
             fix=_fix(package, install, item, alike),
         )
 
@@ -46,7 +46,7 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
 def _fix(
     package: Package, install: Install, item: Located[str], alike: Sequence[str]
 ) -> Fix | None:
-    """Return the fix that writes the name right, or takes it out, with `install()` if need be."""
+    """Return the fix that corrects the name or removes it, with `install()` if nothing is left."""
     if not install.writes(item):
         return None
     same = [each for each in alike if each.lower() == posixpath.normpath(item.value).lower()]
@@ -59,7 +59,7 @@ def _fix(
 
 
 def _items(build: CMakeFile) -> Iterator[tuple[Install, Located[str]]]:
-    """Yield what surely comes from the source folder and must be there."""
+    """Yield what certainly comes from the source folder and must exist."""
     for install in build.installs:
         if install.kind == "TARGETS" or install.conditional:
             continue

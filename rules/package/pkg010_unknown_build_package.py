@@ -1,11 +1,12 @@
-"""CMake asks for a package that the target does not have.
+"""CMake requires a package that the target does not have.
 
-`find_package(… REQUIRED)` of a library that is not installed, or only in another version, ends the
-build of the whole workspace. What package.xml declares as a dependency, and what the package or its
-workspace brings along, is taken to be there. No accepted package at hand shows it.
+`find_package(… REQUIRED)` for a library that is not installed, or only in another version, stops
+the build of the whole workspace. The rule assumes that declared dependencies in package.xml, and
+packages in the package or its workspace, are available. None of the accepted packages that we
+checked shows this.
 
-Fix: take it out when nothing uses it; ask for the version that the release has; or declare the
-dependency in package.xml, so that it is installed.
+Fix: remove the call if nothing uses the package; require the version that the release has; or
+declare the dependency in package.xml, so that it is installed.
 Source: general knowledge of Ignition Dome, Gazebo Harmonic and ROS Melodic, not compared with their
 package lists; REP 149 for declared dependencies.
 """
@@ -26,7 +27,7 @@ _REQUIRED = {"REQUIRED", "COMPONENTS"}
 
 @rule("PKG010", "unknown-build-package", Severity.WARNING)
 def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
-    """Look up required packages in what the release has."""
+    """Look up required packages in the list of the release."""
     known = table("build_packages")["releases"].get(context.release)
     if paperwork.build is None or known is None:
         return

@@ -1,9 +1,9 @@
-"""A file that does not belong into a package.
+"""A file that does not belong in a package.
 
-Backups, caches, settings of an editor and sources of CAD programs are uploaded and installed with
-the robot. A second model file makes a reader wonder which of the two is the robot.
+Backups, caches, editor settings and CAD sources are uploaded and installed with the robot. With a
+second model file, a reader does not know which of the two is the robot.
 
-Fix: delete it; `.gitignore` keeps it from coming back.
+Fix: delete it; `.gitignore` keeps it out.
 Source: common practice; the Model Migration Guide, step 7, shows the files of a package.
 """
 
@@ -24,7 +24,7 @@ FILES = {
     **dict.fromkeys(("*.step", "*.stp", "*.iges", "*.igs"), "the source of a mesh, for CAD"),
     **dict.fromkeys(("*.sldprt", "*.sldasm", "*.f3d", "*.fcstd"), "the source of a mesh, for CAD"),
 }
-"""What names in lower case say; `rover.orig.urdf`, the guide's own, is none of these."""
+"""Kinds of files by their names in lower case; the guide's own `rover.orig.urdf` is not junk."""
 
 FOLDERS = {
     **dict.fromkeys((".vscode", ".idea", ".vs"), "settings of an editor"),
@@ -35,7 +35,7 @@ FOLDERS = {
 
 @rule("PKG011", "junk-file", Severity.WARNING)
 def check(package: Package) -> Findings:
-    """Report files by their names, folders as a whole, and model files that nobody names."""
+    """Report files by their names, whole folders, and model files that nothing names."""
     reported: tuple[str, ...] = ()
     for path, entry in package.index.entries.items():
         if path.startswith(reported):
@@ -44,7 +44,7 @@ def check(package: Package) -> Findings:
         known = FOLDERS.get(name) if entry.is_folder else _file(name)
         if known is not None:
             reported += (f"{path}/",) if entry.is_folder else ()
-            yield finding(package.place(path), f"{path} is {known}", key=known)
+            yield finding(package.place(path), f"{path} is {known}: delete it", key=known)
     if package.kind is not PackageKind.SINGLE_FILE:
         yield from _second_models(package)
 
@@ -54,7 +54,7 @@ def _file(name: str) -> str | None:
 
 
 def _second_models(package: Package) -> Iterator[Finding]:
-    """Report SDF models at the top of the package beside the one that is loaded."""
+    """Report SDF models at the top of the package next to the one that is loaded."""
     model = package.model_path
     if not isinstance(model, Found) or model.is_inherited:
         return
@@ -64,7 +64,8 @@ def _second_models(package: Package) -> Iterator[Finding]:
         if file.path.casefold() not in package.mentioned_names:
             yield finding(
                 package.place(file.path),
-                f"{file.path} is a second model beside {model.path}, and nothing names it",
+                f"{file.path} is a second model next to {model.path}, but nothing names it: "
+                "delete it",
             )
 
 

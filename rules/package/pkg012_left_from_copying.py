@@ -1,13 +1,13 @@
 """The name of another submission, left from copying.
 
-A robot that begins as a copy keeps the other's name in titles, descriptions and commands; then
-people read about another robot, or start it. Names in `find`, `require`, Fuel URIs and dependencies
-are meant, and so are those that a word such as "derived from" explains. No accepted package at hand
-shows it.
+A copied package keeps the name of the other robot in titles, descriptions and commands; people then
+read about another robot, or start it. Names in `find`, `require`, Fuel URIs and dependencies are
+intended, and so are names that words such as "derived from" explain. None of the accepted packages
+that we checked shows this.
 
 Fix: write this package's name.
-Source: model reviews: the name of another team in model.config; that titles and commands count as
-graver is ours.
+Source: model reviews: the name of another team in model.config. The higher severity of titles and
+commands is this rule's own choice.
 """
 
 import re
@@ -39,11 +39,11 @@ _TEAM = re.compile(r"\b(?:of|by)\s+(?:the\s+)?(?:team\s+)?([A-Z]\w+)(?:'s)?\s+te
 def check(
     package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS + MORE_TEAMS
 ) -> Findings:
-    """Look for names of others in package.xml, model.config, the sheet and the spawner.
+    """Look for other names in package.xml, model.config, the specification sheet and the spawner.
 
     Options:
         teams: Names of teams in lower case; a description in model.config that says "of the … team"
-            with one is reported unless the package's name holds it.
+            with one of them is reported unless the package's name contains it.
     """
     if SUBMISSION_NAME.search(package.name) is None:
         return
@@ -69,7 +69,7 @@ def _named(package: Package, text: Located[str], severity: Severity) -> Iterator
         where = Span(
             text.span.source, text.span.start + match.start(), text.span.start + match.end()
         )
-        message = f"{match.group()} is named, the package is {package.name}"
+        message = f"{match.group()} is named, but the package is {package.name}"
         yield finding(where, message, severity=severity, key=match.group())
 
 
@@ -78,11 +78,13 @@ def _other_team(package: Package, text: Located[str], teams: tuple[str, ...]) ->
         team = match.group(1)
         words = package.name.casefold().split("_")
         if team.casefold() in teams and team.casefold() not in words:
-            yield finding(text, f"description names the team {team}, the package is {package.name}")
+            yield finding(
+                text, f"the description names the team {team}, but the package is {package.name}"
+            )
 
 
 def _commands(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
-    """Report commands that start another robot, unless that is declared or lends the model."""
+    """Report commands that start another robot, unless it is declared or provides the model."""
     manifest = paperwork.manifest
     for reference in package.references:
         name = reference.package_name
@@ -91,7 +93,9 @@ def _commands(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
         if SUBMISSION_NAME.search(name) is None or is_same_robot(name, package.name):
             continue
         if manifest is None or not manifest.depends_on(name):
-            message = f"starts {reference.file} of {name}, the package is {package.name}"
+            message = (
+                f"the command starts {reference.file} of {name}, but the package is {package.name}"
+            )
             yield finding(reference.place, message, severity=Severity.ERROR, key=f"starts {name}")
 
 
@@ -103,7 +107,7 @@ def _title(package: Package, sheet: SourceText) -> Iterator[Finding]:
     words = set(re.split(r"[\W_]+", title.group(1).casefold()))
     if words.isdisjoint(robot_of(package.name).casefold().split("_")):
         where = Span(sheet, *title.span(1))
-        message = f"title is {title.group(1)!r}, the package is {package.name}"
+        message = f"the title is {title.group(1)!r}, but the package is {package.name}"
         yield finding(where, message, severity=Severity.ERROR)
 
 

@@ -4,8 +4,8 @@ The five pictures show the robot in the catalogue from which teams choose: `1.pn
 from the top, the side, the front and the rear.
 
 Fix: add the pictures as PNG files, called `1.png` to `5.png`, in `thumbnails/`.
-Source: Model Migration Guide, step 7, final directory structure: `thumbnails/1.png` to `5.png`;
-which view is which is ours.
+Source: Model Migration Guide, step 7, final directory structure: `thumbnails/1.png` to `5.png`. The
+order of the views is this rule's own.
 """
 
 import posixpath
@@ -19,15 +19,15 @@ FOLDER = "thumbnails"
 VIEWS = {"1.png": "iso", "2.png": "top", "3.png": "side", "4.png": "front", "5.png": "rear"}
 
 _ALL = 1e9
-"""Megabytes that no file has."""
+"""More megabytes than any file has."""
 
 
 @rule("PKG013", "thumbnail-missing", Severity.WARNING)
 def check(package: Package, *, limit_megabytes: float = 30.0) -> Findings:
-    """Look for the five pictures, and into every PNG file beside them.
+    """Look for the five pictures, and read every PNG file in their folder.
 
     Options:
-        limit_megabytes: Size in MB (10⁶ bytes) above which a PNG file in `thumbnails` is not read
+        limit_megabytes: Size in MB (10⁶ bytes) above which a PNG file in `thumbnails` is not read,
             but reported as too large.
     """
     folder = package.index.find(FOLDER)

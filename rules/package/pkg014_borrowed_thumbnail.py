@@ -1,8 +1,8 @@
 """A thumbnail that is the picture of another package.
 
-The catalogue then shows a robot that this package is not. It happens when a new robot begins as a
-copy of an old one. Only packages at hand are compared; configurations of one robot may share
-pictures. No accepted package at hand shows it.
+The catalogue then shows another robot. This happens when a new robot starts as a copy of an old
+one. Only available packages are compared; configurations of one robot may share pictures. None of
+the accepted packages that we checked shows this.
 
 Fix: make pictures of this robot.
 Source: common practice.
@@ -18,11 +18,11 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("PKG014", "borrowed-thumbnail", Severity.WARNING)
 def check(package: Package, *, most_compared: int = 50) -> Findings:
-    """Report thumbnails with the same bytes as one of another robot at hand.
+    """Report thumbnails with the same bytes as one of another available robot.
 
     Options:
-        most_compared: Number of other robots' pictures, of the same size in bytes, that a thumbnail
-            is compared with at most.
+        most_compared: Greatest number of other robots' pictures, of the same size in bytes, with
+            which a thumbnail is compared.
     """
     if package.only:
         return
@@ -43,7 +43,7 @@ def check(package: Package, *, most_compared: int = 50) -> Findings:
             if other.read_bytes(path) == picture:
                 yield finding(
                     package.place(file.path),
-                    f"{file.path} is the picture {path} of {other.name}",
+                    f"{file.path} is the same picture as {path} of {other.name}: show this robot",
                     key=other.name,
                 )
                 break

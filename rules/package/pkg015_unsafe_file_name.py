@@ -1,11 +1,11 @@
 """A file name that other machines may not find.
 
-URIs, CMake lists and shell commands break at spaces; letters outside ASCII are encoded differently
-from system to system; of two names that differ only in case, Windows and macOS keep one. No
-accepted package at hand shows it. A reference that differs from its file only in case is reported
-where it stands, by REF002, PKG004 or PKG009.
+URIs, CMake lists and shell commands break at spaces. Systems encode letters outside ASCII
+differently. Of two names that differ only in case, Windows and macOS keep one. None of the accepted
+packages that we checked shows this. REF002, PKG004 or PKG009 report a reference that differs from
+its file only in case.
 
-Fix: rename the file with ASCII letters, digits, `_`, `-` and `.`, and the references to it.
+Fix: use only ASCII letters, digits, `_`, `-` and `.` in the name, and correct the references to it.
 Source: common practice with CMake lists, URIs and archives made on Windows and macOS.
 """
 
@@ -20,7 +20,7 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 
 @rule("PKG015", "unsafe-file-name", Severity.WARNING)
 def check(package: Package) -> Findings:
-    """Report names of files and folders with spaces, non-ASCII letters, or a twin."""
+    """Report names with spaces, with non-ASCII letters, or that differ only in case."""
     twins: dict[str, list[FileEntry]] = defaultdict(list)
     for path, entry in package.index.entries.items():
         twins[path.casefold()].append(entry)

@@ -1,9 +1,10 @@
-"""A symbolic link that leads nowhere, or out of the package.
+"""A symbolic link that is broken or leads out of the package.
 
-What it leads to does not travel with the package: once uploaded or installed, the file is not
-there, although it is on the author's machine. No accepted package at hand shows it.
+The target of the link is not part of the package: after an upload or installation the file is
+missing, although it exists on the author's machine. None of the accepted packages that we checked
+shows this.
 
-Fix: put the file itself in the place of the link, or correct the link.
+Fix: replace the link with the file itself, or correct the link.
 Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package.
 """
 
@@ -21,7 +22,7 @@ FAULTS = {
 
 @rule("PKG016", "broken-link", Severity.ERROR)
 def check(package: Package) -> Findings:
-    """Report links that end outside of the package."""
+    """Report links that end outside the package."""
     for link in package.index.links:
         if link.target_state in FAULTS:
             words = FAULTS[link.target_state].format(link.target)

@@ -1,12 +1,12 @@
-"""A configuration number that was left out.
+"""A configuration number is missing.
 
-The configurations of a robot are counted from 1. A gap makes teams look for the missing one. Only
-packages at hand are counted; a robot of which there is one configuration alone is not judged.
-No accepted package at hand shows it.
+The configurations of a robot are numbered from 1. A gap makes teams look for the missing one. Only
+available packages are counted; a robot with only one configuration is not judged. None of the
+accepted packages that we checked shows this.
 
-Fix: give the configuration the next number that is free.
-Source: Model Migration Guide, step 4: names end in `_sensor_config_<#>`; that numbers follow each
-other is common practice.
+Fix: give the configuration the next free number.
+Source: Model Migration Guide, step 4: names end in `_sensor_config_<#>`; numbering without gaps is
+common practice.
 """
 
 from checker.package.configuration import configurations
@@ -16,7 +16,7 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("PKG017", "number-left-out", Severity.INFO)
 def check(package: Package) -> Findings:
-    """Report the configuration that stands behind a gap."""
+    """Report the configuration after a gap."""
     known = configurations(package)
     if known is None:
         return
@@ -26,7 +26,7 @@ def check(package: Package) -> Findings:
         last = number - 1
         gap = f"{before + 1}" if before + 1 == last else f"{before + 1} to {last}"
         yield finding(
-            package.folder_place(), f"this is configuration {number}, and there is no {gap}"
+            package.folder_place(), f"this is configuration {number}, but there is no {gap}"
         )
 
 

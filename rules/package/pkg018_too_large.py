@@ -1,10 +1,11 @@
 """A package, or a file in it, that is very large.
 
-Everyone who starts the robot downloads and loads it whole; meshes of tens of megabytes make that
-slow. No accepted package at hand shows it.
+Everyone who starts the robot downloads and loads the whole package; meshes of tens of megabytes
+make that slow. None of the accepted packages that we checked shows this.
 
-Fix: reduce meshes and textures to what can be seen, and leave out sources of CAD programs.
-Source: ours; the largest of 18 accepted packages has 10 MB, and its largest file 2 MB.
+Fix: reduce meshes and textures to visible detail, and remove CAD sources.
+Source: this rule's own limits; the largest of 18 accepted packages has 10 MB, and its largest file
+2 MB.
 """
 
 from checker.package.package import Package
@@ -18,7 +19,7 @@ _SHOWN = 3
 def check(
     package: Package, *, package_megabytes: float = 100.0, file_megabytes: float = 30.0
 ) -> Findings:
-    """Report what is larger than accepted packages are.
+    """Report packages and files that are larger than those of accepted packages.
 
     Options:
         package_megabytes: Size in MB (10⁶ bytes) that all files of the package may have together;
@@ -31,8 +32,8 @@ def check(
         largest = ", ".join(file.path for file in files[:_SHOWN])
         yield finding(
             package.folder_place(),
-            f"package has {total:.1f} MB, expected at most {package_megabytes:g} MB; "
-            f"its largest files are {largest}",
+            f"the package has {total:.1f} MB, expected at most {package_megabytes:g} MB; its "
+            f"largest files are {largest}",
             key="package",
         )
     for file in files:

@@ -1,7 +1,7 @@
 """An example that does not show this robot.
 
-`launch/example.ign` and `worlds/example.sdf` are how a reader first starts the robot. An example
-that was copied starts another one, or an empty world.
+`launch/example.ign` and `worlds/example.sdf` show a reader how to start the robot. A copied example
+starts another robot, or an empty world.
 
 Fix: include `model://<this package>` in the world, or call `spawner` in example.ign.
 Source: Model Migration Guide, step 7, final directory structure: `launch/example.ign` and
@@ -41,7 +41,7 @@ def check(package: Package) -> Findings:
     # The world alone tells nothing: it is example.ign that puts most robots into it.
     if not shown and package.exists(FILES[0]):
         files = " and ".join(source.file for source in sources)
-        yield finding(sources[0].whole(), f"no {package.name} in {files}")
+        yield finding(sources[0].whole(), f"{package.name} is missing from {files}")
 
 
 def _others(package: Package, source: SourceText, text: str, others: set[str]) -> Iterator[Finding]:
@@ -49,7 +49,7 @@ def _others(package: Package, source: SourceText, text: str, others: set[str]) -
         if match.group().casefold() in others:
             yield finding(
                 Span(source, *match.span()),
-                f"example shows {match.group()}, the package is {package.name}",
+                f"the example shows {match.group()}, but the package is {package.name}",
                 key=match.group(),
             )
 

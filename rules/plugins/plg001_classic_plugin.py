@@ -1,9 +1,9 @@
 """A plugin of Gazebo 9 in a model for Ignition Gazebo.
 
-Ignition Gazebo cannot load plugins that were built for Gazebo Classic: it prints one line and goes
-on without the drive, the sensor or the light that they made.
+Ignition Gazebo cannot load plugins built for Gazebo Classic: it prints one line and continues
+without the drive, the sensor or the light that the plugin provides.
 
-No accepted package at hand shows it.
+None of the accepted packages that we checked shows this.
 
 Fix: remove the plugin and use what the message names: a system plugin in `launch/spawner.rb`, or a
 sensor in the model.
@@ -22,7 +22,7 @@ from checker.source.xml_insertion import removal
 
 @rule("PLG001", "classic-plugin", Severity.ERROR)
 def check(robot: Robot) -> Findings:
-    """Report plugins whose library is Gazebo Classic's."""
+    """Report plugins whose library belongs to Gazebo Classic."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     for plugin in robot.all_plugins:
@@ -38,7 +38,7 @@ def check(robot: Robot) -> Findings:
 
 
 def _in_vain(plugin: Plugin, entry: dict[str, Any]) -> bool:
-    """Whether nothing but the plugin has to go: the sensor that it stands in works by itself."""
+    """Whether it is enough to remove the plugin, because the sensor around it works alone."""
     instead = (entry.get("replacement") or {}).get("sensor_type")
     return entry.get("action") == "remove" or bool(plugin.owner and instead)
 

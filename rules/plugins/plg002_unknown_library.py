@@ -1,13 +1,13 @@
 """A plugin whose library does not exist.
 
-Gazebo cannot load it: it prints one line and goes on without the drive, the sensor or whatever
-the plugin makes. A library is known when the target release or SubT has it, or when this package
-or one that it depends on ships it or builds it.
+Gazebo cannot load it: it prints one line and continues without the drive, the sensor or other
+function of the plugin. A library counts as known if the target release or SubT has it, or if this
+package or a dependency ships or builds it.
 
-Fix: write the library's name as the message proposes, or ship the library and declare the package
-that holds it in package.xml.
-Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins met in SubT packages
-(`subt_plugins.json`). No accepted package at hand shows the fault.
+Fix: write the library's name as the message suggests, or ship the library and declare the package
+that contains it in package.xml.
+Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins found in SubT
+packages (`subt_plugins.json`). None of the accepted packages that we checked shows this.
 """
 
 import re
@@ -32,7 +32,7 @@ _CARRIES_NO_PLUGIN = re.compile(
 
 @rule("PLG002", "unknown-plugin-library", Severity.ERROR)
 def check(robot: Robot, package: Package, context: Context) -> Findings:
-    """Report plugins whose library neither Gazebo nor any package at hand has."""
+    """Report plugins whose library neither Gazebo nor any available package has."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     of_release = plugin_libraries(context.release)
@@ -49,14 +49,14 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
             continue
         if absent:
             yield unchecked(
-                f"{plugin.filename.value} may come from {', '.join(absent)}, not at hand"
+                f"{plugin.filename.value} may come from {', '.join(absent)}, which is not available"
             )
             continue
         yield finding(
             plugin.filename,
-            f"library {plugin.filename.value} is not in {release_label(context.release)}, and "
-            f"neither shipped nor built by {' or '.join(each.name for each in lenders.at_hand)}"
-            f"{suggestions.hint(stem)}",
+            f"library {plugin.filename.value} is not in {release_label(context.release)}, and is "
+            "neither shipped nor built by "
+            f"{' or '.join(each.name for each in lenders.at_hand)}{suggestions.hint(stem)}",
             key=stem,
         )
 

@@ -1,11 +1,11 @@
 """A plugin class that its library does not have.
 
-Gazebo opens the library, finds no class of that name, prints one line and goes on without the
+Gazebo opens the library, finds no class with that name, prints one line and continues without the
 plugin.
 
-Fix: write the class that the library has, or the library that has the class.
-Source: classes that the systems of a Gazebo release register (`gazebo_plugins.json`). No accepted
-package at hand shows the fault.
+Fix: write a class that the library has, or the library that has the class.
+Source: classes that the systems of a Gazebo release register (`gazebo_plugins.json`). None of the
+accepted packages that we checked shows this.
 """
 
 from checker.model.components import Plugin
@@ -31,7 +31,7 @@ from checker.rule import (
 
 @rule("PLG003", "class-of-another-library", Severity.ERROR)
 def check(robot: Robot, context: Context) -> Findings:
-    """Report plugins whose `name` is no class of their `filename`."""
+    """Report plugins whose `name` is not a class in their `filename`."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     libraries = plugin_libraries(context.release)
@@ -43,7 +43,7 @@ def check(robot: Robot, context: Context) -> Findings:
 
 
 def _mismatch(plugin: Plugin, library: PluginLibrary, other: PluginLibrary | None) -> Finding:
-    """Blame the library when another one has the class, else the class."""
+    """Report the library if another one has the class, else the class."""
     named = f"{plugin.filename.value} has no class {plugin.name.value!r}"
     if other is not None:
         return finding(

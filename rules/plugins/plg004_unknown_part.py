@@ -1,11 +1,11 @@
-"""A plugin that names a joint, link or sensor which does not exist.
+"""A plugin names a joint, link or sensor that does not exist.
 
 The plugin starts, finds nothing to act on, and does nothing: the wheel does not turn, the rotor
-does not lift, the slip is never applied.
+does not lift, or the wheel slip is not applied.
 
-No accepted package at hand shows it.
+None of the accepted packages that we checked shows this.
 
-Fix: name the part as its `name` attribute in the model spells it.
+Fix: name the part exactly as in its `name` attribute in the model.
 Source: parameter descriptions of Gazebo's systems (`plugin_references.json`).
 """
 

@@ -1,12 +1,12 @@
 """A plugin parameter that its plugin never reads.
 
-What stands there has no effect, and nothing says so: `<odometry_topic>` leaves a differential drive
-at its default topic, because the drive reads `<odom_topic>`.
+The parameter has no effect, and Gazebo prints no message. For example, `<odometry_topic>` leaves a
+differential drive at its default topic, because the drive reads `<odom_topic>`.
 
 Fix: write the parameter as the plugin reads it, or remove it.
-Source: parameters that the source of each system asks for (`gazebo_plugins.json`);
-`static_pose_publisher` for `static_publisher` in SubT packages. Parameters that templates carry
-along without harm are information.
+Source: parameters that the source code of each system reads (`gazebo_plugins.json`);
+`static_pose_publisher` for `static_publisher` in SubT packages. Harmless parameters that come from
+templates are information.
 """
 
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ from checker.rule import Context, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
 
 _FREE = ("include", "sdf")
-"""Below these stands SDF, not a parameter."""
+"""Elements that contain SDF, not parameters."""
 
 _HARMLESS = ("start_on_motion", "tracks_height", "motorSpeedPubTopic", "motorControlPubTopic")
 
@@ -27,16 +27,16 @@ _MEANT = {
     "static_pose_publisher": "static_publisher",
     "static_pose_update_frequency": "static_update_frequency",
 }
-"""Names met in real packages that are too far from what they mean to be found by spelling."""
+"""Names in real packages that differ too much from the right one to be found by spelling."""
 
 
 @rule("PLG005", "unread-plugin-parameter", Severity.WARNING)
 def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLESS) -> Findings:
-    """Report elements in plugins of the release that the plugin's source never asks for.
+    """Report elements in plugins of the release that the plugin's source never reads.
 
     Options:
-        harmless: Names of elements that are information instead of a warning where a plugin does
-            not read them.
+        harmless: Names of elements that are information instead of a warning if a plugin does not
+            read them.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
@@ -57,7 +57,7 @@ def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLE
 
 
 def _unread(plugin: Element, parameters: frozenset[str]) -> Iterator[Element]:
-    """Yield the elements of a plugin that are no parameters; what they hold is left out."""
+    """Yield the elements of a plugin that are not parameters, without their content."""
     waiting = list(reversed(plugin.children))
     while waiting:
         element = waiting.pop()

@@ -1,7 +1,7 @@
 """A JointStatePublisher that publishes every wheel.
 
-Without joint names it publishes all joints of the robot at the rate of the simulation. The wheels
-turn all the time, nobody needs their angles, and the bridge carries them to ROS.
+Without joint names the plugin publishes all joints of the robot at the rate of the simulation. The
+wheels turn all the time, nobody needs their angles, and the bridge sends them to ROS.
 
 Fix: list the joints that move sensors or arms in `<joint_name>`, or remove the plugin.
 Source: SubT review findings; joint-state-publisher system of Gazebo.
@@ -28,8 +28,8 @@ def check(robot: Robot) -> Findings:
         if plugin.element.child("joint_name") is None:
             yield finding(
                 plugin,
-                f"JointStatePublisher names no joints and publishes all "
-                f"{len(robot.joints)}, {wheels} of them wheels",
+                f"JointStatePublisher names no joints, so it publishes all {len(robot.joints)}, "
+                f"{wheels} of them wheels",
             )
 
 

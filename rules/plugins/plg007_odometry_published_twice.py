@@ -1,10 +1,10 @@
-"""Two plugins that publish odometry on one topic.
+"""Two plugins publish odometry on the same topic.
 
-The messages of both arrive mixed: the robot seems to jump between two places.
+The messages of both plugins are mixed: the robot seems to jump between two places.
 
-Fix: remove one of the plugins, or give it a topic of its own by `<odom_topic>`.
-Source: default topics of the drive systems and of the odometry publisher of Gazebo. No accepted
-package at hand shows the fault.
+Fix: remove one of the plugins, or give it its own topic with `<odom_topic>`.
+Source: default topics of the drive systems and of the odometry publisher of Gazebo. None of the
+accepted packages that we checked shows this.
 """
 
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ PUBLISHERS = (
 
 @rule("PLG007", "odometry-published-twice", Severity.WARNING)
 def check(robot: Robot) -> Findings:
-    """Report plugins whose odometry topic another plugin has taken."""
+    """Report plugins whose odometry topic another plugin already uses."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     taken: dict[str, Plugin] = {}
@@ -35,8 +35,8 @@ def check(robot: Robot) -> Findings:
         if first is not plugin:
             yield finding(
                 topic,
-                f"{plugin.class_name} publishes odometry on the topic of "
-                f"{first.class_name}, {topic.value}",
+                f"{plugin.class_name} publishes odometry on {topic.value}, as {first.class_name} "
+                "already does",
                 related=[(first, "publishes the same topic")],
             )
 

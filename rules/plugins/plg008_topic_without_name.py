@@ -1,10 +1,11 @@
-"""A topic that does not carry the robot's name.
+"""A topic that does not contain the robot's name.
 
-Topics are global. Two robots of a team would share it: one command drives both, and one robot's
+Topics are global. Two robots of a team share such a topic: one command drives both, and one robot's
 motion drains the other's battery.
 
-Fix: begin the topic with `/model/#{_name}/`.
-Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+Fix: start the topic with `/model/#{_name}/`.
+Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
+this.
 """
 
 from collections.abc import Iterator

@@ -1,10 +1,11 @@
-"""A shipped library that Gazebo on the target machine cannot load.
+"""A library in the package that Gazebo on the target machine cannot load.
 
-A plugin built for another processor, or against another major version of Gazebo, is refused when it
-is loaded or crashes the server.
+Gazebo refuses to load a plugin built for another processor, or for another major version of Gazebo,
+or the plugin crashes the server.
 
 Fix: build the library on the target system, against the libraries of the target release.
-Source: header and dynamic section of the ELF file. No accepted package at hand ships a library.
+Source: header and dynamic section of the ELF file. None of the accepted packages that we checked
+ships a library.
 """
 
 import re
@@ -28,9 +29,9 @@ def check(
     """Report libraries for another machine or another major version of Gazebo.
 
     Options:
-        machine: Machine that libraries must be built for, as pyelftools names it, such as `x64`,
+        machine: Machine for which libraries must be built, as pyelftools names it, such as `x64`,
             `x86` or `AArch64`.
-        largest: Size in bytes above which a library is not read but listed as not checked.
+        largest: Size in bytes above which a library is listed as not checked.
     """
     for file in package.index.with_suffix(".so"):
         data = package.read_bytes(file.path, largest)
@@ -40,7 +41,7 @@ def check(
         library = read_shared_library(data)
         place = Place(file.path)
         if library is None:
-            yield finding(place, f"{file.path} is no shared library, or damaged")
+            yield finding(place, f"{file.path} is not a shared library, or is damaged")
             continue
         if library.machine != machine:
             yield finding(place, f"{file.path} is built for {library.machine}, expected {machine}")
@@ -52,7 +53,9 @@ def _judge_version(place: Place, library: SharedLibrary, release: str) -> Iterat
     majors = {int(match["major"]) for match in map(_SIMULATOR.match, library.needed) if match}
     if expected is not None and majors - {expected}:
         found = " and ".join(map(str, sorted(majors - {expected})))
-        yield finding(place, f"{place.file} is built for Gazebo {found}, the target is {expected}")
+        yield finding(
+            place, f"{place.file} is built for Gazebo {found}, but the target is {expected}"
+        )
 
 
 def _library(machine: int, needed: bytes) -> str:

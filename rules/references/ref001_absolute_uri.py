@@ -1,8 +1,8 @@
 """The URI of a mesh or texture that is not relative.
 
-Once a package is uploaded, its files lie elsewhere under another name: `model://`, `package://`,
-`file://` and absolute paths lead nowhere, and the part is invisible or has no collision. URIs of
-models on Fuel are fine; URIs of `<script>` belong to SDF015.
+After an upload the files of a package are in another place and under another name. `model://`,
+`package://`, `file://` and absolute paths then lead nowhere: the part is invisible or has no
+collision. URIs of models on Fuel are fine; SDF015 reports URIs of `<script>`.
 
 Fix: write the path from model.sdf to the file, such as `meshes/wheel.dae`.
 Source: Model Migration Guide, step 8: "Use relative URIs".
@@ -26,10 +26,10 @@ def check(
     *,
     allowed: tuple[str, ...] = ("https://fuel.ignitionrobotics.org", "https://fuel.gazebosim.org"),
 ) -> Findings:
-    """Report URIs with a scheme or a root.
+    """Report URIs with a scheme, and absolute paths.
 
     Options:
-        allowed: Beginnings of URIs, scheme and all, that are passed over, such as those of models
+        allowed: Prefixes of URIs, including the scheme, that are allowed, such as those of models
             on Fuel.
     """
     for uri in robot.file_uris:
@@ -47,7 +47,7 @@ def check(
 
 
 def _in_package(package: Package, folder: str, uri: Located[str]) -> str | None:
-    """Return the relative path of the file that is meant, when the package has it."""
+    """Return the relative path of the intended file, if the package has it."""
     path = _SCHEME.sub("", uri.value, count=1).lstrip("/")
     while path:
         if package.exists(posixpath.join(folder, path)):

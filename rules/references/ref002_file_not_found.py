@@ -1,7 +1,7 @@
-"""A mesh or texture that is not there.
+"""A mesh or texture that does not exist.
 
-The part is invisible, or has no collision and falls through the ground. Names are compared letter
-by letter, as on the machines that run the simulation: `Wheel.DAE` is not `wheel.dae`.
+The part is invisible, or has no collision and falls through the ground. Names must match exactly,
+as on the machines that run the simulation: `Wheel.DAE` is not `wheel.dae`.
 
 Fix: add the file, or correct the path.
 Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package.
@@ -23,20 +23,20 @@ def check(package: Package, robot: Robot) -> Findings:
     """Report URIs that lead to no file."""
     for uri in robot.file_uris:
         if (named := _SCHEME.match(uri.value)) and not _at_hand(package, named.group(1)):
-            yield unchecked(f"{uri.value} lies in {named.group(1)}, which is not at hand")
+            yield unchecked(f"{uri.value} is in {named.group(1)}, which is not available")
             continue
         path = _path(package, robot.folder_of(uri), uri.value)
         if path is None or package.exists(path):
             continue
         if (other := _sibling(path)) and not _at_hand(package, other):
-            yield unchecked(f"{uri.value} lies in {other}, which is not at hand")
+            yield unchecked(f"{uri.value} is in {other}, which is not available")
             continue
-        where = f": looked for {path}" if path != uri.value else ""
+        where = f" (looked for {path})" if path != uri.value else ""
         yield finding(uri, f"{uri.value} does not exist{where}{_hint(package, path)}", key=path)
 
 
 def _path(package: Package, folder: str, uri: str) -> str | None:
-    """Return where a URI leads, from the package's folder; None when that cannot be looked at."""
+    """Return where a URI leads, from the package's folder; None if that cannot be checked."""
     if named := _SCHEME.match(uri):
         other, path = named.groups()
         if _is_own_name(package, other):
@@ -49,7 +49,7 @@ def _path(package: Package, folder: str, uri: str) -> str | None:
 
 
 def _sibling(path: str) -> str:
-    """Return the package beside this one that a path leads into."""
+    """Return the package next to this one that a path leads into."""
     return path.split("/")[1] if path.startswith("../") else ""
 
 
@@ -58,13 +58,13 @@ def _at_hand(package: Package, name: str) -> bool:
 
 
 def _is_own_name(package: Package, name: str) -> bool:
-    """Models on Fuel bear the package's name in upper case."""
+    """Models on Fuel have the package's name in upper case."""
     return name.casefold() == package.name.casefold()
 
 
 def _hint(package: Package, path: str) -> str:
     alike = [other for other in package.index.similar(path) if other != path]
-    return f"; there is {alike[0]}" if alike else ""
+    return f"; did you mean {alike[0]}?" if alike else ""
 
 
 GOOD = [

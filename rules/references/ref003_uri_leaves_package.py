@@ -1,8 +1,8 @@
 """A relative URI that leaves the package.
 
-Once a package is uploaded, it stands alone: its neighbours' folders are not beside it, and a path
-such as `../other_robot/meshes/wheel.dae` leads nowhere. That holds for a path through the package's
-own name as well. No accepted package at hand shows it.
+After an upload a package is alone: other packages are not next to it, and a path such as
+`../other_robot/meshes/wheel.dae` leads nowhere. This is also true for a path through the package's
+own name. None of the accepted packages that we checked shows this.
 
 Fix: copy the file into the package, and write the path from model.sdf to it.
 Source: Model Migration Guide, steps 6 to 8: gather all meshes and materials in the package, and use
@@ -26,7 +26,11 @@ def check(robot: Robot) -> Findings:
             continue
         path = _from_package(robot.folder_of(uri), uri.value)
         if path.startswith("../"):
-            yield finding(uri, f"{uri.value} leaves the package", key=path.split("/")[1])
+            yield finding(
+                uri,
+                f"{uri.value} leaves the package: copy the file into the package",
+                key=path.split("/")[1],
+            )
 
 
 def _from_package(folder: str, uri: str) -> str:

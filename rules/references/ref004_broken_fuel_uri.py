@@ -1,11 +1,11 @@
 """A Fuel URI that leads nowhere.
 
-Gazebo downloads what such a URI names. One with a space in it, or of another form, may not be
-understood; one that names a file which its package lacks cannot be downloaded. No accepted
-package at hand shows it.
+Gazebo downloads the file that such a URI names. It may not understand a URI with a space or of
+another form, and it cannot download a file that its package does not have. None of the accepted
+packages that we checked shows this.
 
 Fix: write `https://fuel.ignitionrobotics.org/1.0/<owner>/models/<name>/tip/files/<path>`, with
-`%20` for each space, or better the relative path of a file in the package.
+`%20` for each space; or better, write the relative path of a file in the package.
 Source: general knowledge of the URIs that ign-fuel-tools reads.
 """
 
@@ -25,7 +25,7 @@ _MEANT = {True: "<owner>/models/<name>/tip/files/<path>", False: "<owner>/models
 
 @rule("REF004", "broken-fuel-uri", Severity.ERROR)
 def check(package: Package, robot: Robot) -> Findings:
-    """Report Fuel URIs of another form, and files that a package at hand has not."""
+    """Report Fuel URIs of another form, and files that an available package does not have."""
     files = robot.file_uris
     for uri in (*files, *robot.unresolved_includes):
         if _FUEL.match(uri.value) is None:
@@ -34,7 +34,10 @@ def check(package: Package, robot: Robot) -> Findings:
         if is_file and any(letter.isspace() for letter in uri.value):
             fixed = re.sub(r"\s", "%20", uri.value)
             yield finding(
-                uri, f"Fuel URI {uri.value} has a space", key="space", fix=replace_text(uri, fixed)
+                uri,
+                f"Fuel URI {uri.value} has a space: write %20",
+                key="space",
+                fix=replace_text(uri, fixed),
             )
             continue
         match = (_FILE if is_file else _MODEL).fullmatch(uri.value)
@@ -43,11 +46,11 @@ def check(package: Package, robot: Robot) -> Findings:
         elif is_file and (holder := _holder(package, unquote(match["name"]))):
             path = unquote(match["path"])
             if not holder.exists(path):
-                yield finding(uri, f"{uri.value}: {holder.name} has no {path}")
+                yield finding(uri, f"{uri.value}: {holder.name} does not have {path}")
 
 
 def _holder(package: Package, name: str) -> Package | None:
-    """Return the package at hand that a model on Fuel is made of; Fuel's names ignore case."""
+    """Return the available package of a model on Fuel; Fuel's names ignore case."""
     if name.casefold() == package.name.casefold():
         return package
     return package.workspace.package(name.lower())

@@ -1,6 +1,6 @@
 """A mesh or texture that nothing uses.
 
-It is downloaded with the robot each time. Often it is what a wrong path should have led to.
+Each user of the robot downloads it. Often a wrong path should lead to it.
 
 Fix: delete it, or correct the reference that should lead to it.
 Source: common practice; the Model Migration Guide, steps 6 and 7, gathers what the model uses.
@@ -18,14 +18,14 @@ TEXTURES = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".dds", ".
 def check(
     package: Package, *, folders: tuple[str, ...] = ("meshes", "materials", "textures", "media")
 ) -> Findings:
-    """Report meshes, and textures in folders for such, whose names stand in no file.
+    """Report meshes, and textures in their folders, whose names are in no file.
 
     Options:
-        folders: Names in lower case of folders at the top of the package; pictures are reported
-            only in and below these, meshes anywhere.
+        folders: Names in lower case of folders at the top of the package; unused pictures are
+            reported only there, meshes anywhere.
     """
     if too_large := unsearched(package):
-        yield unchecked(f"{too_large[0]} is too large to be searched for names")
+        yield unchecked(f"{too_large[0]} is too large to search for names")
         return
     for file in package.index.with_suffix(*MESHES, *TEXTURES):
         folder, _, rest = file.path.partition("/")
@@ -34,7 +34,9 @@ def check(
         name = file.path.rpartition("/")[2].casefold()
         if name not in package.mentioned_names:
             yield finding(
-                package.place(file.path), f"nothing uses {file.path}", key=f"unused in {folder}"
+                package.place(file.path),
+                f"nothing uses {file.path}: delete it, or correct the path that should lead to it",
+                key=f"unused in {folder}",
             )
 
 

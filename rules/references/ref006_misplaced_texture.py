@@ -1,11 +1,11 @@
-"""A texture that lies where nobody looks for it.
+"""A texture in an unusual folder.
 
-Gazebo loads it all the same. Reviewers, and tools that move a model to Fuel, expect textures in
-`materials/textures`, or beside the mesh that wears them.
+Gazebo loads the texture. But reviewers, and tools that move a model to Fuel, expect textures in
+`materials/textures`, or next to the mesh that uses them.
 
 Fix: move the file to `materials/textures`, and correct the path in model.sdf.
-Source: Model Migration Guide, step 7: materials in `materials`, or textures beside their mesh;
-`materials/textures` is the custom of accepted packages.
+Source: Model Migration Guide, step 7: materials in `materials`, or textures next to their mesh;
+accepted packages use `materials/textures`.
 """
 
 import posixpath
@@ -26,10 +26,10 @@ def check(
     folder: str = "materials/textures",
     holding_textures: tuple[str, ...] = ("materials", "media", "textures"),
 ) -> Findings:
-    """Report what the model, or the name of its folder, calls a texture, in other places.
+    """Report textures, by their use or their folder, in other places.
 
     Options:
-        folder: Path in the package; in and below it textures may lie, as they may beside meshes.
+        folder: Path in the package; textures may be in and below this folder, or next to meshes.
         holding_textures: Names in lower case of folders at the top of the package; pictures in and
             below them count as textures even if nothing uses them.
     """
@@ -45,7 +45,7 @@ def check(
         if file.path in used or place.partition("/")[0].lower() in holding_textures:
             yield finding(
                 package.place(file.path),
-                f"texture {file.path} lies neither in {folder} nor beside a mesh",
+                f"texture {file.path} is neither in {folder} nor next to a mesh",
                 key=place,
             )
 

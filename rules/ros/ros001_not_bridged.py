@@ -1,15 +1,16 @@
-"""A sensor or drive that no bridge connects to ROS.
+"""No bridge connects a sensor or drive to ROS.
 
-Gazebo's topics are not ROS's: without a bridge a camera films for nobody, and a robot never hears
-`cmd_vel`. Topics that a condition of the launch file leaves out for this configuration are not
-bridged either. The launch files of the package subt_ros are not part of a submission: what those
-of `models_common` bridge is assumed from how accepted packages use them (`models_common.json`).
+Gazebo's topics are separate from those of ROS: without a bridge nobody receives a camera's images,
+and a robot never receives `cmd_vel`. Topics that a condition of the launch file switches off for
+this configuration count as not bridged. The launch files of the package subt_ros are not part of a
+submission. The rule assumes which topics those of `models_common` bridge, from how accepted
+packages use them (`models_common.json`).
 
 Contact sensors, logical cameras, altimeters and plugins that are not Gazebo's own need no bridge
-here; of scan and points of a lidar one is enough.
+here. A lidar needs a bridge for its scan or for its points.
 
-Fix: add a bridge to `vehicle_topics.launch`: a `parameter_bridge` of ros_ign_bridge, or for
-pictures an `image_bridge` of ros_ign_image, with a remap to the name in ROS.
+Fix: add a bridge to `vehicle_topics.launch`: a `parameter_bridge` of ros_ign_bridge, or for images
+an `image_bridge` of ros_ign_image, with a remap to the name in ROS.
 Source: SubT review findings of missing bridges; topics of gz-sensors and Gazebo's systems.
 """
 
@@ -35,12 +36,12 @@ _CHALLENGE = "subt"
 _GROUPS = {"depth": "depth image and points", "ranges": "scan and points"}
 _USUAL = "vehicle_topics.launch"
 _LISTENS = ("LinearBatteryPlugin",)
-"""Plugins that only listen to the commands of others."""
+"""Plugins that only listen to commands for other plugins."""
 
 
 @rule("ROS001", "not-bridged", Severity.ERROR)
 def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
-    """Report topics of sensors and plugins that no node passes between Gazebo and ROS."""
+    """Report topics of sensors and plugins that no node bridges between Gazebo and ROS."""
     if robot.format == "urdf":
         # Described for Gazebo Classic, whose sensors speak ROS themselves.
         return
@@ -61,18 +62,18 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     place = Place(_launch_file(robot, launch))
     if missing and not bridged:
         owners = dict.fromkeys(channel.owner_name for channel in missing)
-        yield finding(place, f"nothing of the robot is bridged, such as {next(iter(owners))}")
+        yield finding(place, f"no topic of the robot is bridged, for example {next(iter(owners))}")
         return
     assuming = _assuming(launch)
     yield from _findings(missing, place, assuming)
     for topic in standard:
         shown = topic.replace("*", "<name>")
-        said = f"no bridge passes {shown}, which every robot of the challenge has"
+        said = f"no bridge for {shown}, which every robot of the challenge has"
         yield finding(place, said + assuming)
 
 
 def _missing(robot: Robot, bridged: Collection[str]) -> Iterator[Channel]:
-    """Yield the first of each group of channels of which none is bridged."""
+    """Yield the first channel of each group in which none is bridged."""
     groups: dict[tuple[Sensor | Plugin, str], list[Channel]] = defaultdict(list)
     for channel in channels(robot):
         groups[channel.owner, channel.group].append(channel)
@@ -86,7 +87,7 @@ def _missing(robot: Robot, bridged: Collection[str]) -> Iterator[Channel]:
 
 
 def _commanded_inside(robot: Robot) -> frozenset[str]:
-    """Return the topics that plugins of which nothing is known name: they may be the other end."""
+    """Return the topics that unknown plugins name: they may be the other end."""
     known = {channel.owner for channel in channels(robot)}
     others = (each for each in robot.plugins if each not in known)
     parameters = chain.from_iterable(
@@ -97,21 +98,21 @@ def _commanded_inside(robot: Robot) -> frozenset[str]:
 
 
 def _missing_standard(robot: Robot, context: Context, bridged: Collection[str]) -> list[str]:
-    """Return what must be bridged though the plugins that publish it cannot be read."""
+    """Return what must be bridged although the plugins that publish it cannot be read."""
     if not robot.unread_plugins or context.profile != _CHALLENGE:
         return []
     return [topic for topic in standard_topics() if topic not in bridged]
 
 
 def _assuming(launch: LaunchGraph) -> str:
-    """Return the end of a message that rests on what templates of subt_ros are assumed to do."""
+    """Return the end of a message that depends on assumptions about templates of subt_ros."""
     files = dict.fromkeys(bridge.node.assumed_from for bridge in launch.bridges)
     named = ", ".join(file for file in files if file)
-    return f", assuming that {named} of subt_ros does not" if named else ""
+    return f", assuming that {named} of subt_ros has none" if named else ""
 
 
 def _findings(missing: Iterable[Channel], place: Place, assuming: str) -> Iterator[Finding]:
-    """Yield one finding for all that an owner lacks."""
+    """Yield one finding for all missing bridges of an owner."""
     by_owner: dict[tuple[Sensor | Plugin, Need], list[Channel]] = defaultdict(list)
     seen: set[tuple[str, ...]] = set()
     for channel in missing:
@@ -123,14 +124,14 @@ def _findings(missing: Iterable[Channel], place: Place, assuming: str) -> Iterat
         names = ", ".join(_GROUPS.get(each.group, each.what) for each in lacking)
         yield finding(
             place,
-            f"no bridge passes {names} of {lacking[0].owner_name}{assuming}",
+            f"no bridge for {names} of {lacking[0].owner_name}{assuming}",
             severity=Severity.WARNING if need is Need.WANTED else None,
             related=[(owner, "not bridged")],
         )
 
 
 def _launch_file(robot: Robot, launch: LaunchGraph) -> str:
-    """Return the file that ought to hold a missing bridge: the one that holds most others."""
+    """Return the file in which a missing bridge belongs: the one with most other bridges."""
     read = [node for node in launch.nodes if not node.assumed_from]
     counted = Counter(bridge.node.file for bridge in launch.bridges)
     counted.update(node.file for node in (*read, *launch.nodes) if not counted)

@@ -1,13 +1,13 @@
-"""A bridge of a sensor or topic that does not exist.
+"""A bridge for a sensor or topic that does not exist.
 
-Gazebo names a sensor's topic by world, model, link and sensor. A bridge that names the wrong link
-listens to silence: the ROS topic is there and never carries a message. A bridge that a condition
-switches off is only a leftover of another robot's launch file, and information.
+Gazebo builds a sensor's topic from world, model, link and sensor. If a bridge names the wrong link,
+its ROS topic exists but never carries a message. A bridge that a condition switches off is only
+left over from another robot's launch file, and is information.
 
-Fix: name the link that carries the sensor and the sensor as the model spells them, and a topic
-that its type publishes.
-Source: topics that gz-sensors publishes by default; SubT review findings of IMUs bridged from
-`base_link` while they stood on a link of their own. What the launch files of subt_ros bridge is
+Fix: write the exact names of the link and its sensor, and a topic that this type of sensor
+publishes.
+Source: topics that gz-sensors publishes by default; SubT review findings about IMUs that were
+bridged from `base_link` but had a link of their own. Bridges of the launch files of subt_ros are
 assumed (`models_common.json`).
 """
 
@@ -38,19 +38,19 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         if bridge.node.assumed_from:
             continue
         if fault := _fault(robot, bridge, names):
-            said = _message(bridge, "is switched off, and when on listens", fault)
+            said = _message(bridge, "is switched off, and if switched on listens", fault)
             yield finding(bridge, said, severity=Severity.INFO, key="switched off")
 
 
 def _message(bridge: Bridge, listens: str, fault: str) -> str:
     node = bridge.node
     if node.assumed_from:
-        return f"{node.assumed_from}, as it is assumed to be, {listens} to {fault}"
+        return f"{node.assumed_from} (content assumed) {listens} to {fault}"
     return f"bridge {node.name!r} {listens} to {fault}"
 
 
 def _fault(robot: Robot, bridge: Bridge, names: Suggestions) -> str | None:
-    """Say what a bridge listens to in vain."""
+    """Return what a bridge listens to that nothing publishes."""
     topic = bridge.sensor
     if topic is None or "$(" in bridge.ign_topic:
         return None

@@ -1,13 +1,13 @@
-"""A bridge with another message type or direction than its topic has.
+"""A bridge has another message type or direction than its topic.
 
 The bridge starts, finds no message that it can convert, and its ROS topic stays silent. A bridge
-of `cmd_vel` that leads from Gazebo to ROS leaves the robot standing. And where the types fit, a
-LaserScan holds but one row of a lidar that has many, and no lidar of Gazebo gives a Range.
+for `cmd_vel` from Gazebo to ROS never moves the robot. Even with matching types, a LaserScan holds
+only one row of a lidar that has many, and no lidar of Gazebo publishes a Range.
 
-Fix: write the types of the message, and `[` for Gazebo to ROS, `]` for ROS to Gazebo; bridge
+Fix: write the types of the message, and `[` for Gazebo to ROS, `]` for ROS to Gazebo. Bridge
 `scan/points` of a lidar with several rows as PointCloud2.
 Source: message types of gz-sensors and Gazebo's systems, conversions of ros_ign_bridge; a review
-had the LaserScan of a lidar with 16 rows replaced.
+asked the author to replace the LaserScan of a lidar with 16 rows.
 """
 
 from collections import defaultdict
@@ -27,7 +27,7 @@ _VECTOR, _SINGLE = "ignition.msgs.Pose_V", "ignition.msgs.Pose"
 
 @rule("ROS003", "wrong-message-type", Severity.ERROR)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
-    """Report bridges whose types or direction do not fit what they bridge."""
+    """Report bridges whose types or direction do not fit their topic."""
     for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):
         if reason:
             yield unchecked(reason)
@@ -44,7 +44,7 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
 
 
 def _ends(robot: Robot) -> dict[str, list[Channel]]:
-    """Return what of the robot is behind each topic; several plugins may have one in common."""
+    """Return the robot's channels of each topic; several plugins may share one."""
     ends: dict[str, list[Channel]] = defaultdict(list)
     for channel in channels(robot):
         for topic in channel.topics:
@@ -54,7 +54,7 @@ def _ends(robot: Robot) -> dict[str, list[Channel]]:
 
 def _named(bridge: Bridge) -> str:
     assumed = bridge.node.assumed_from
-    return f"{assumed}, as it is assumed to be," if assumed else f"bridge {bridge.node.name!r}"
+    return f"{assumed} (content assumed)" if assumed else f"bridge {bridge.node.name!r}"
 
 
 def _faults(bridge: Bridge, ends: Sequence[Channel]) -> Iterator[str]:
@@ -62,22 +62,22 @@ def _faults(bridge: Bridge, ends: Sequence[Channel]) -> Iterator[str]:
     ros_types = list(dict.fromkeys(each for end in ends for each in end.ros_types))
     if not ros_types:
         if ros == _RANGE:
-            yield f"gives {_RANGE}, which nothing in Gazebo publishes; expected LaserScan"
+            yield f"has the type {_RANGE}, which no sensor of Gazebo publishes; expected LaserScan"
         return
     whose = f"{ends[0].what} of {ends[0].owner_name}"
     ign_types = list(dict.fromkeys(each for end in ends for each in _stated_types(end)))
     if ign not in ign_types:
-        yield f"takes {whose} as {bridge.ign_type}, expected {' or '.join(ign_types)}"
+        yield f"reads {whose} as {bridge.ign_type}, expected {' or '.join(ign_types)}"
     elif ros not in ros_types:
-        yield f"passes {whose} as {bridge.ros_type}, expected {ros_types[0]}"
+        yield f"publishes {whose} as {bridge.ros_type}, expected {ros_types[0]}"
     ways = {end.direction for end in ends}
     if bridge.direction not in (*ways, Direction.BOTH):
         found, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
-        yield f"passes {whose} from {found}, expected {expected}"
+        yield f"bridges {whose} from {found}, expected {expected}"
 
 
 def _stated_types(channel: Channel) -> tuple[str, ...]:
-    """Return Gazebo's types of a channel; PosePublisher states which of two it publishes."""
+    """Return Gazebo's types of a channel; PosePublisher states which of two types it publishes."""
     plugin = channel.owner
     if not isinstance(plugin, Plugin) or _VECTOR not in channel.ign_types:
         return channel.ign_types
@@ -93,8 +93,8 @@ def _one_row_of_many(ends: Sequence[Channel]) -> str:
     if rows <= 1:
         return ""
     return (
-        f"passes the LaserScan of {ends[0].owner_name}, which holds one of its {rows:g} rows; "
-        "expected its scan/points as PointCloud2"
+        f"bridges the LaserScan of {ends[0].owner_name}, which holds only one of its {rows:g} "
+        "rows; expected its scan/points as PointCloud2"
     )
 
 

@@ -1,10 +1,11 @@
-"""One topic that is bridged twice, or two that share a name in ROS.
+"""One topic is bridged twice, or two topics share a name in ROS.
 
-Two topics under one name mix: who subscribes it gets the messages of both sensors in turn. Two
-bridges of one topic convert every message twice, and under one name each arrives twice. The
-camera_info of an rgbd camera may be bridged once for its colour and once for its depth picture.
+Two topics with the same name are mixed: a subscriber receives the messages of both sensors in turn.
+Two bridges of one topic convert every message twice, and with the same name each message arrives
+twice. The camera_info of an rgbd camera may be bridged once for its colour and once for its depth
+image.
 
-Fix: remove one of the two bridges, or give each topic a name of its own.
+Fix: remove one of the two bridges, or give each topic its own name.
 Source: SubT reviews of launch files copied from other robots.
 """
 
@@ -21,7 +22,7 @@ _SHARED = "camera_info"
 
 @rule("ROS004", "bridged-twice", Severity.WARNING)
 def check(launch: LaunchGraph) -> Findings:
-    """Report second bridges of one topic, and second topics under one name."""
+    """Report second bridges of one topic, and second topics with the same name."""
     known = [bridge for bridge in launch.bridges if "$(" not in bridge.ign_topic]
     for again, first in _pairs(known, ros=False):
         shared = again.ign_topic.endswith(f"/{_SHARED}") and again.ros_topic != first.ros_topic
@@ -29,8 +30,8 @@ def check(launch: LaunchGraph) -> Findings:
         whose = f" of sensor {again.sensor.sensor!r}" if again.sensor else ""
         yield finding(
             again,
-            f"{name}{whose} is bridged a second time, by {again.node.name!r} to "
-            f"{_shown(again)} after {first.node.name!r} to {_shown(first)}",
+            f"{name}{whose} is bridged twice: by {again.node.name!r} to {_shown(again)}, and by "
+            f"{first.node.name!r} to {_shown(first)}",
             severity=Severity.INFO if shared else None,
             key=_SHARED if shared else "",
             related=[(first, "the first bridge")],
@@ -40,14 +41,14 @@ def check(launch: LaunchGraph) -> Findings:
         if comparable(again.ign_topic) != comparable(first.ign_topic):
             yield finding(
                 again,
-                f"{_shown(again)} gets messages of {again.node.name!r} and of "
-                f"{first.node.name!r}, expected one topic of Gazebo under each name",
+                f"{_shown(again)} gets messages from {again.node.name!r} and from "
+                f"{first.node.name!r}, expected one Gazebo topic for each name",
                 related=[(first, "the other bridge")],
             )
 
 
 def _pairs(bridges: Iterable[Bridge], *, ros: bool) -> list[tuple[Bridge, Bridge]]:
-    """Return bridges whose topic an earlier one has, each with the first of them."""
+    """Return bridges whose topic an earlier one already has, each with the first of them."""
     by_name: dict[tuple[str, Direction], list[Bridge]] = defaultdict(list)
     for bridge in bridges:
         topic = bridge.ros_topic if ros else comparable(bridge.ign_topic)

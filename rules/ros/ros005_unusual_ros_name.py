@@ -1,13 +1,13 @@
-"""A topic of ROS with another name than the SubT API gives it.
+"""A ROS topic whose name does not follow the SubT API.
 
 Teams' programs find a robot's topics by their names: `cmd_vel`, `odom`, `imu/data`, `points`,
-`front_scan`, `camera_front/image_raw`. A name of its own works for nobody but its author. Names
-are judged by pattern, not by a list: what the topic carries stands last, where the sensor sits
-(`front`, `rear`, `left`, `right`, …) stands before it.
+`front_scan`, `camera_front/image_raw`. Other names work only for their author. The rule judges
+names by pattern, not by a list: the kind of data comes last, the place of the sensor (`front`,
+`rear`, `left`, `right`, …) comes before it.
 
 Fix: remap the bridge to the usual name.
-Source: SubT API; review findings of names with `back` instead of `rear` and with the device
-(`rs_`) in front; the names that accepted packages use.
+Source: SubT API; review findings about names with `back` instead of `rear` and with the device
+(`rs_`) in front; names in accepted packages.
 """
 
 import re
@@ -22,11 +22,11 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _NAMESPACE = f"/{SAMPLE_NAME}/"
 _WORDS: Mapping[str, re.Pattern[str]] = {
-    "says 'back', expected 'rear'": re.compile(r"(?<![a-z])back(?![a-z])"),
-    "starts with the device 'rs_', expected where it sits": re.compile(r"(?:^|/)rs_"),
+    "contains 'back', expected 'rear'": re.compile(r"(?<![a-z])back(?![a-z])"),
+    "starts with the device 'rs_', expected the place of the sensor": re.compile(r"(?:^|/)rs_"),
 }
 _LONGEST = 100
-"""Characters of a name; what stands behind is not looked at."""
+"""Characters of a name that are checked."""
 
 
 @rule("ROS005", "unusual-ros-name", Severity.WARNING)
@@ -56,7 +56,7 @@ def _faults(bridge: Bridge, channel: Channel | None) -> Iterator[str]:
         return
     whose, example = f"{channel.what} of {channel.owner_name}", channel.ros_example
     if of_gazebo:
-        yield f"{whose} keeps its name of Gazebo in ROS, expected a name such as {example!r}"
+        yield f"{whose} has its Gazebo name in ROS, expected a name such as {example!r}"
     elif not bridge.ros_topic.startswith(_NAMESPACE):
         yield f"{whose} is {bridge.ros_topic!r} in ROS, outside the robot's namespace /<name>"
     elif not re.fullmatch(channel.ros_name, name):

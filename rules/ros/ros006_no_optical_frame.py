@@ -1,13 +1,12 @@
-"""A picture that is not given out in its optical frame.
+"""An image that is not published in its optical frame.
 
-Gazebo's cameras look along x, while ROS's programs for pictures expect z: without the topic of an
-optical_frame_publisher every object that they find is off by 90 degrees. What the launch files of
-subt_ros start is assumed (`models_common.json`).
+Gazebo's cameras look along x, but ROS programs for images expect z: without an
+optical_frame_publisher every detected object is off by 90 degrees. The nodes that the launch files
+of subt_ros start are assumed (`models_common.json`).
 
-Fix: start an optical_frame_publisher of subt_ros beside the bridge, with remaps of `input/image`,
-`output/image`, `input/camera_info` and `output/camera_info`; for a depth picture with
-`args="depth"`.
-Source: SubT review findings of cameras without it; REP 103, suffix frames of cameras.
+Fix: start an optical_frame_publisher of subt_ros next to the bridge, with remaps for `input/image`,
+`output/image`, `input/camera_info` and `output/camera_info`; for a depth image with `args="depth"`.
+Source: SubT review findings about cameras without it; REP 103, suffix frames of cameras.
 """
 
 from collections.abc import Iterator
@@ -25,7 +24,7 @@ _COLOUR, _DEPTH = "image", "depth image"
 
 @rule("ROS006", "no-optical-frame", Severity.ERROR)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
-    """Report bridged colour and depth pictures that no optical_frame_publisher takes."""
+    """Report bridged colour and depth images that no optical_frame_publisher reads."""
     for reason in dict.fromkeys((robot.missing_parts, *launch.unread)):
         if reason:
             yield unchecked(reason)
@@ -42,15 +41,15 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         depth = channel.what == _DEPTH
         yield finding(
             bridge,
-            f"no optical_frame_publisher takes the {'depth' if depth else 'colour'} picture of "
-            f"{channel.owner_name}: expected one node for each picture",
+            f"no optical_frame_publisher reads the {'depth' if depth else 'colour'} image of "
+            f"{channel.owner_name}: expected one node for each image",
             severity=Severity.WARNING if depth else None,
             key=channel.what,
         )
 
 
 def _pictures(robot: Robot, launch: LaunchGraph) -> Iterator[tuple[Bridge, Channel]]:
-    """Yield the bridges of colour and depth pictures."""
+    """Yield the bridges of colour and depth images."""
     pictures = {
         topic: channel
         for channel in channels(robot)

@@ -1,12 +1,11 @@
 """An optical_frame_publisher whose remaps are missing, swapped or copied.
 
-It takes whatever its remaps name: without one, or with that of another camera, it waits for a
-topic that nobody gives, or gives one camera's picture out under the name of another.
+The node reads the topics that its remaps name. Without a remap, or with that of another camera, it
+waits for a topic that nobody publishes, or publishes one camera's image under the name of another.
 
 Fix: remap `input/image` and `input/camera_info` to the topics of one camera's bridges, and
-`output/image` and `output/camera_info` to names of their own; with `args="depth"` the images
-alone.
-Source: a SubT review that had the remaps of four copied publishers corrected; the remaps of 99
+`output/image` and `output/camera_info` to new names; with `args="depth"` only the images.
+Source: a SubT review that asked for corrected remaps in four copied publishers; the remaps of 99
 packages.
 """
 
@@ -21,14 +20,14 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _TYPES = {"input/image": "Image", "input/camera_info": "CameraInfo"}
 _RENAMES = "topic_tools"
-"""Package of nodes that give topics out under other names."""
+"""Package of nodes that publish topics under other names."""
 
 _Given = Mapping[str, Sequence[Bridge]]
 
 
 @rule("ROS007", "wrong-optical-remap", Severity.ERROR)
 def check(launch: LaunchGraph) -> Findings:
-    """Report optical_frame_publishers that do not take what a bridge gives."""
+    """Report optical_frame_publishers that do not read a bridged topic."""
     for reason in launch.unread:
         yield unchecked(reason)
     frames = [frame for frame in optical_frames(launch.nodes) if not frame.node.assumed_from]
@@ -52,31 +51,31 @@ def _takes_unknown(frame: OpticalFrame, given: _Given) -> bool:
 
 
 def _faults(frame: OpticalFrame, given: _Given, *, sure: bool) -> Iterator[str]:
-    """Say what is wrong with one publisher.
+    """Return what is wrong with one publisher.
 
     Args:
         frame: The publisher.
-        given: Bridges by the ROS topic that they give.
-        sure: Whether nothing but the bridges gives topics.
+        given: Bridges by the ROS topic that they publish.
+        sure: Whether only the bridges publish topics.
     """
     missing = [name for name in frame.needed if name not in frame.remapped]
     if missing:
-        yield f"has no remap of {' and '.join(missing)}"
+        yield f"has no remap for {' and '.join(missing)}"
     for name, message in _TYPES.items():
         topic = frame.remapped.get(name)
         if topic is None or "$(" in topic:
             continue
         output = frame.remapped.get(name.replace("input", "output"), "")
         if output == topic:
-            yield f"gives {name} out under the topic that it takes it from, {_shown(topic)}"
+            yield f"publishes {name} on the topic that it reads, {_shown(topic)}"
         elif topic not in given and output in given:
             yield f"has {name} and {name.replace('input', 'output')} swapped"
         elif topic not in given and sure:
-            yield f"takes {name} from {_shown(topic)}, which no bridge gives"
+            yield f"reads {name} from {_shown(topic)}, which no bridge publishes"
         elif topic in given and not any(_is(bridge, message) for bridge in given[topic]):
-            yield f"takes {name} from {_shown(topic)}, which is no {message}"
+            yield f"reads {name} from {_shown(topic)}, which is not a {message}"
     if _of_two_cameras(frame, given):
-        yield "takes image and camera_info of different sensors"
+        yield "reads image and camera_info of different sensors"
 
 
 def _shown(name: str) -> str:
@@ -100,17 +99,17 @@ def _of_two_cameras(frame: OpticalFrame, given: _Given) -> bool:
 
 
 def _copies(frames: Sequence[OpticalFrame]) -> Findings:
-    """Report publishers that take or give the same picture as an earlier one."""
+    """Report publishers that read or publish the same image as an earlier one."""
     first: dict[tuple[str, str], OpticalFrame] = {}
     for frame in frames:
-        for name, does in (("input/image", "takes"), ("output/image", "gives")):
+        for name, does in (("input/image", "reads"), ("output/image", "publishes")):
             topic = frame.remapped.get(name, "")
             earlier = first.setdefault((name, topic), frame) if topic else frame
             if earlier is not frame:
                 yield finding(
                     frame.node,
                     f"{_shown(frame.node.full_name)} {does} {_shown(topic)}, as "
-                    f"{_shown(earlier.node.full_name)} does: expected one of them",
+                    f"{_shown(earlier.node.full_name)} does: remove one of them",
                     related=[(earlier.node, "the first of them")],
                 )
                 break

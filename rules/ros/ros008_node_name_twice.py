@@ -1,10 +1,10 @@
-"""Two nodes of one name.
+"""Two nodes with the same name.
 
-ROS knows a node by its full name: roslaunch refuses a file that starts two of one name, and of two
-files the second node shuts down the first. Its topics are then silent.
+ROS identifies a node by its full name. roslaunch refuses a file that starts two nodes with the same
+name. If two files start them, the second node shuts down the first, whose topics are then silent.
 
-Fix: give each node a name of its own, or put the nodes into groups with different `ns`.
-Source: ROS names (wiki.ros.org/Names), roslaunch XML specification; review findings of cameras
+Fix: give each node its own name, or put the nodes into groups with different `ns`.
+Source: ROS names (wiki.ros.org/Names), roslaunch XML specification; review findings about cameras
 whose `optical_frame_publisher` was copied with its name.
 """
 
@@ -16,12 +16,12 @@ from checker.expand.spawner.reader import SAMPLE_NAME
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _SHOWN = 20
-"""Further nodes of the name that are pointed at."""
+"""Greatest number of further nodes with the name that a finding lists."""
 
 
 @rule("ROS008", "node-name-twice", Severity.ERROR)
 def check(launch: LaunchGraph) -> Findings:
-    """Report every name that more than one node gets."""
+    """Report every name that more than one node has."""
     for reason in launch.unread:
         yield unchecked(reason)
     named: dict[str, list[Node]] = defaultdict(list)
@@ -36,8 +36,8 @@ def check(launch: LaunchGraph) -> Findings:
                 others[0],
                 f"{count} have the name {shown}, expected one; the first is {_program(first)}",
                 related=[
-                    (first, "the first node of the name"),
-                    *((node, "and here") for node in others[1 : _SHOWN + 1]),
+                    (first, "the first node with this name"),
+                    *((node, "another node with this name") for node in others[1 : _SHOWN + 1]),
                 ],
             )
 

@@ -1,12 +1,12 @@
-"""A tag or attribute that roslaunch does not know, or one that it needs.
+"""A tag or attribute that roslaunch does not know, or a missing required one.
 
-roslaunch warns in one line of its log and goes on without it: a misspelt `<remap srom=…>` renames
-nothing, and the topic keeps a name that nobody subscribes to. Without an attribute that it needs it
-does not start at all, and the robot has no topics.
+roslaunch prints one warning in its log and continues: a misspelt `<remap srom=…>` renames nothing,
+and the topic keeps a name that nobody subscribes to. Without a required attribute roslaunch does
+not start, and the robot has no topics.
 
-Fix: spell the tag or attribute as roslaunch does, or put it where roslaunch looks for it.
-Source: roslaunch XML specification (`roslaunch_tags.json`); packages under review with `<node>`
-tags that were closed before their attributes.
+Fix: spell the tag or attribute as roslaunch does, or move it to where roslaunch reads it.
+Source: roslaunch XML specification (`roslaunch_tags.json`); reviewed packages with `<node>` tags
+that end before their attributes.
 """
 
 import re
@@ -20,14 +20,14 @@ from checker.source.text import Span
 from checker.source.xml import Element, XmlDocument
 
 _BEHIND = 2000
-"""Characters behind a tag among which its second `>` is looked for."""
+"""Characters after a tag in which its second `>` is searched."""
 _OTHER_LAUNCHERS = ("ignition", "gz")
-"""Outermost tags of files that `ign launch` starts."""
+"""Root tags of files that `ign launch` starts."""
 
 
 @rule("ROS009", "unknown-launch-tag", Severity.ERROR)
 def check(package: Package) -> Findings:
-    """Compare the launch files of the package itself with what roslaunch knows."""
+    """Compare the package's own launch files with the tags that roslaunch knows."""
     known = launch_tags()
     tags = Suggestions(known)
     attributes = {name: Suggestions(sorted(tag.attributes)) for name, tag in known.items()}
@@ -37,7 +37,7 @@ def check(package: Package) -> Findings:
             continue
         if document.root.tag != "launch":
             yield finding(
-                document.root, f"the outermost tag is <{document.root.tag}>, not <launch>"
+                document.root, f"the root tag is <{document.root.tag}>, expected <launch>"
             )
             continue
         for element in _known_elements(document.root, known):
@@ -46,7 +46,7 @@ def check(package: Package) -> Findings:
 
 
 def _known_elements(root: Element, known: Mapping[str, LaunchTag]) -> Iterator[Element]:
-    """Yield the elements that roslaunch reads; what an unknown one holds is left out."""
+    """Yield the elements that roslaunch reads, without the content of unknown ones."""
     waiting = [root]
     while waiting:
         element = waiting.pop()
@@ -66,7 +66,7 @@ def _children(
         else:
             near = tags.near(child.tag)
             hint = f"; did you mean <{near}>?" if near else ""
-            yield finding(child, f"roslaunch knows no tag <{child.tag}>{hint}")
+            yield finding(child, f"<{child.tag}> is not a tag of roslaunch{hint}")
 
 
 def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterator[Finding]:
@@ -92,7 +92,9 @@ def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterato
             fix=replace_text(span, near, Safety.UNSAFE) if near and near not in stated else None,
         )
     if missing:
-        yield finding(element, f"<{element.tag}> lacks {_listed(missing)}, which it needs")
+        yield finding(
+            element, f"<{element.tag}> lacks {_listed(missing)}, which roslaunch requires"
+        )
 
 
 def _closed_early(element: Element, outside: list[str]) -> Finding:
@@ -102,7 +104,8 @@ def _closed_early(element: Element, outside: list[str]) -> Finding:
     closed_again = bracket.text == ">" and behind is not None
     return finding(
         element,
-        f"<{element.tag}> is closed before its attributes: {_listed(outside)} stand behind its '>'",
+        f"<{element.tag}> is closed before its attributes: move {_listed(outside)} in front of "
+        "its '>'",
         key=f"{element.tag} closed",
         fix=replace_text(bracket, "", Safety.UNSAFE) if closed_again else None,
     )

@@ -1,11 +1,11 @@
 """A launch file that roslaunch refuses.
 
-roslaunch reads everything before it starts anything. An undeclared arg, an include without an arg
-that it requires or of a file that is not there: the robot comes up without any of its topics.
-Files of packages that are not at hand are not judged.
+roslaunch reads all files before it starts anything. With an undeclared arg, an include without a
+required arg, or an include of a missing file, the robot starts without any of its topics. Files in
+packages that are not available are not judged.
 
-Fix: declare the arg with `<arg name="…"/>`, hand it over with `<arg name="…" value="…"/>` inside
-the include, or correct the path.
+Fix: declare the arg with `<arg name="…"/>`, pass it with `<arg name="…" value="…"/>` inside the
+include, or correct the path.
 Source: roslaunch XML specification, substitution args and `<include>`.
 """
 
@@ -17,7 +17,7 @@ from checker.package.package import Package
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 _FATAL: Mapping[LaunchFaultKind, str] = {
-    LaunchFaultKind.UNDECLARED_ARG: "roslaunch stops",
+    LaunchFaultKind.UNDECLARED_ARG: "roslaunch stops with an error",
     LaunchFaultKind.MISSING_ARG: "roslaunch stops",
     LaunchFaultKind.UNKNOWN_ARG: "roslaunch stops",
     LaunchFaultKind.CONSTANT_ARG: "roslaunch stops",
@@ -25,10 +25,10 @@ _FATAL: Mapping[LaunchFaultKind, str] = {
     LaunchFaultKind.CONDITION: "roslaunch stops",
     LaunchFaultKind.SUBSTITUTION: "roslaunch stops",
     LaunchFaultKind.MISSING_FILE: "roslaunch stops",
-    LaunchFaultKind.INCLUDE_LOOP: "roslaunch never comes to its end",
-    LaunchFaultKind.BRIDGE: "the bridge ends at once",
+    LaunchFaultKind.INCLUDE_LOOP: "roslaunch never finishes",
+    LaunchFaultKind.BRIDGE: "the bridge ends immediately",
 }
-"""What happens; a limit of our own reader is no fault of the file."""
+"""Consequences of faults; a limit of this checker's reader is not a fault of the file."""
 
 _OF_COMMANDS = (
     LaunchFaultKind.UNDECLARED_ARG,
@@ -40,7 +40,7 @@ _FILES = ("load", "textfile", "binfile")
 
 @rule("ROS010", "broken-launch-file", Severity.ERROR)
 def check(package: Package, launch: LaunchGraph) -> Findings:
-    """Report what keeps roslaunch from starting, in the files that are started."""
+    """Report faults that stop roslaunch, in the files that are started."""
     if launch.unknown_commands:
         yield unchecked(launch.unknown_commands)
     absent = [each.message for each in launch.faults if each.kind is LaunchFaultKind.MISSING_FILE]
@@ -50,7 +50,7 @@ def check(package: Package, launch: LaunchGraph) -> Findings:
     included = {include.file for include in launch.includes}
     for fault in launch.faults:
         if fault.kind is LaunchFaultKind.LIMIT:
-            yield unchecked(f"{fault.span.source.file} is not read to its end: {fault.message}")
+            yield unchecked(f"{fault.span.source.file} is not read completely: {fault.message}")
         elif not (launch.unknown_commands and _may_be_given(fault, included)):
             yield finding(fault, f"{fault.message}: {_FATAL[fault.kind]}", key=fault.message)
     for param in launch.params:
@@ -59,17 +59,17 @@ def check(package: Package, launch: LaunchGraph) -> Findings:
 
 
 def _may_be_given(fault: LaunchFault, included: Collection[str]) -> bool:
-    """Whether an arg is missing that the command may give."""
+    """Whether an arg is missing that the command may pass."""
     return fault.kind in _OF_COMMANDS and fault.span.source.file not in included
 
 
 def _missing_file(package: Package, param: Param) -> Iterator[Finding]:
-    """Report a parameter read from a file that a package at hand does not have."""
+    """Report a parameter whose file an available package does not have."""
     name, path = target_of(param.value)
     holder = package.workspace.package(name) if name and name != package.name else package
     if path and holder is not None and not holder.exists(path):
         named = f"{path} of {name}" if name else path
-        yield finding(param, f"{named} does not exist, which {param.name} is read from")
+        yield finding(param, f"{named}, from which {param.name} is read, does not exist")
 
 
 _TOPICS = "launch/vehicle_topics.launch"

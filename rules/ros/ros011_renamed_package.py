@@ -1,11 +1,11 @@
-"""A package of the ROS bridge under a name that its release does not have.
+"""A package of the ROS bridge with a name that the release does not have.
 
-The bridge's packages were renamed twice: ros1_ign_bridge, ros_ign_bridge, ros_gz_bridge. roslaunch
-finds no node under the old name, and the topics of that node never reach ROS.
+The bridge's packages had three names: ros1_ign_bridge, ros_ign_bridge and ros_gz_bridge. roslaunch
+finds no node under a wrong name, and the topics of that node never reach ROS.
 
-Fix: write the name that goes with the release, in launch files and in package.xml.
+Fix: write the name for the release, in launch files and in package.xml.
 Source: names of the packages of ros_ign and ros_gz (`renamed_packages.json`); early SubT packages
-name ros1_ign_bridge, none of the accepted ones at hand does.
+name ros1_ign_bridge, none of the accepted ones that we checked does.
 """
 
 import re
@@ -33,7 +33,7 @@ def check(package: Package, context: Context) -> Findings:
         exact = name.span.text == name.value
         yield finding(
             name,
-            f"package {name.value!r} is named {fitting!r} on {context.release.capitalize()}",
+            f"package {name.value!r} is called {fitting!r} on {context.release.capitalize()}",
             key=name.value,
             fix=replace_text(name, fitting, Safety.UNSAFE) if exact else None,
         )

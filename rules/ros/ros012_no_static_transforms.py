@@ -1,13 +1,13 @@
-"""Transforms that do not change are published by nobody.
+"""Nothing publishes the static transforms.
 
-Where a sensor sits on the robot is sent once, apart from the poses that change. Without it sensor
-data cannot be placed on the robot. Fixed joints of a description of one's own are not in the SDF
-model at all: the conversion joins their links, and only `robot_state_publisher` knows them.
+The place of a sensor on the robot is published once, separately from the poses that change. Without
+it sensor data cannot be placed on the robot. Fixed joints of the package's own description are not
+in the SDF model: the conversion merges their links, and only `robot_state_publisher` knows them.
 
-Fix: bridge `/model/<name>/pose_static`, and start `robot_state_publisher` when the description has
+Fix: bridge `/model/<name>/pose_static`, and start `robot_state_publisher` if the description has
 fixed frames that the model lacks.
-Source: a review that had `robot_state_publisher` added; parameters of PosePublisher (gz-sim): with
-`<static_publisher>` static poses come on a topic of their own.
+Source: a review that asked for `robot_state_publisher`; parameters of PosePublisher (gz-sim): with
+`<static_publisher>` static poses have their own topic.
 """
 
 from collections.abc import Iterator
@@ -38,10 +38,9 @@ def check(
     """Report static poses that are not bridged, and fixed frames that only a description has.
 
     Options:
-        published_elsewhere: Text in names of frames that come from optical_frame_publisher; fixed
-            frames with it in their names are passed over, none if it is empty.
-        shown: Number of lacking frames, at most, whose joints in the description the finding points
-            at.
+        published_elsewhere: Text in names of frames that optical_frame_publisher publishes; fixed
+            frames with it in their names are skipped; none if it is empty.
+        shown: Greatest number of missing frames whose joints in the description the finding lists.
     """
     if state_publishers(launch):
         return
@@ -68,8 +67,8 @@ def check(
         number = f"{len(frames)} fixed frames" if len(frames) > 1 else "a fixed frame"
         yield finding(
             where,
-            f"the description has {number} that the model lacks ({_listed(list(frames))}), and "
-            "no robot_state_publisher is started",
+            f"the description has {number} that the model lacks ({_listed(list(frames))}), but no "
+            "robot_state_publisher is started",
             key="description",
             related=[(joint, "fixed here") for joint in list(frames.values())[:shown]],
         )
@@ -86,16 +85,17 @@ def _static_poses(robot: Robot, where: Place) -> Findings:
     if apart:
         yield finding(
             where,
-            "no bridge of /model/<name>/pose_static, where PosePublisher sends static poses",
+            "no bridge for /model/<name>/pose_static, on which PosePublisher publishes static "
+            "poses",
             key="pose_static",
-            related=[(apart[0], "sent apart because of this")],
+            related=[(apart[0], "this makes them a separate topic")],
         )
     elif robot.unread_plugins and not publishers:
         yield unchecked(robot.unread_plugins)
 
 
 def _described(package: Package, launch: LaunchGraph) -> Iterator[tuple[str, HasSpan]]:
-    """Yield the frames that the robot's description fixes."""
+    """Yield the fixed frames of the robot's description."""
     for description in robot_descriptions(launch):
         for file in description.files:
             prefix = f"../{file.package}/" if file.package not in ("", package.name) else ""

@@ -1,14 +1,14 @@
-"""The relays to the mapping server are missing, or not told the robot's name.
+"""The relays to the mapping server are missing, or do not get the robot's name.
 
 A robot's map reaches the challenge's mapping server through topics that
-`mapping_server_relays.launch` of subt_ros passes on. Without it everything else works and the map
-is lost; without `name` it passes on the topics of no robot.
+`mapping_server_relays.launch` of subt_ros relays. Without this file everything else works, but the
+map is lost; without `name` it relays no robot's topics.
 
 Fix: inside the group of the robot's name, `<include file="$(find
 subt_ros)/launch/models_common/mapping_server_relays.launch"><arg name="name" value="$(arg name)"/>
 </include>`.
-Source: two reviews had it added; all accepted packages at hand include it, whatever their drive.
-What the file itself does is general knowledge: subt_ros is not at hand.
+Source: two reviews asked for it; all accepted packages that we checked include it, whatever their
+drive. The content of the file is general knowledge: subt_ros is not available.
 """
 
 import posixpath
@@ -26,11 +26,11 @@ _TOPICS = "launch/vehicle_topics.launch"
 def check(
     package: Package, launch: LaunchGraph, *, relays: str = "mapping_server_relays.launch"
 ) -> Findings:
-    """Look for the include of the relays among all that is started.
+    """Look for the include of the relays in all started files.
 
     Options:
-        relays: Name of the launch file, without folders, that has to be included and given the
-            robot's name as `name`.
+        relays: Name of the launch file, without folders, that must be included and get the robot's
+            name as `name`.
     """
     started: tuple[Include | UnresolvedInclude, ...] = launch.includes + launch.unresolved_includes
     includes = [include for include in started if posixpath.basename(include.file) == relays]
@@ -44,7 +44,7 @@ def check(
         elif named is not None and is_known(given) and given != named.value:
             yield finding(
                 include,
-                f"{relays} is given the name {given!r}, expected the robot's: $(arg name)",
+                f"{relays} gets the name {given!r}, expected the robot's name: $(arg name)",
             )
     if includes:
         return

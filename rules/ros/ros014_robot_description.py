@@ -1,7 +1,7 @@
-"""The robot's description cannot be loaded, or stands under the wrong name.
+"""The robot's description cannot be loaded, or has the wrong parameter name.
 
-Tools look for `/<robot's name>/robot_description`. When xacro does not find its file, roslaunch
-stops and starts nothing of the file; without `name:=` all robots of a team get the same frames.
+Tools look for `/<robot's name>/robot_description`. If xacro does not find its file, roslaunch stops
+and starts no node of the file. Without `name:=` all robots of a team get the same frames.
 
 Fix: `<param name="$(arg name)/robot_description" command="$(find xacro)/xacro '$(find
 <package>)/urdf/robot_from_sdf.xacro' name:=$(arg name)"/>`.
@@ -26,12 +26,12 @@ from checker.source.xml import XmlDocument
 
 _LAUNCH = "launch/description.launch"
 _PROGRAMS = ("scripts/", "bin/", "src/", "nodes/")
-"""Folders of programs that a package builds or installs; without sources they are not at hand."""
+"""Folders of programs that a package builds or installs, which are not in its sources."""
 
 
 @rule("ROS014", "robot-description", Severity.ERROR)
 def check(package: Package, launch: LaunchGraph) -> Findings:
-    """Judge the parameters named robot_description, of the files that are started."""
+    """Check the parameters named robot_description in the started files."""
     descriptions = robot_descriptions(launch)
     if not descriptions:
         yield from _absent(package, launch)
@@ -69,17 +69,17 @@ def _file(
     holder = package if name in ("", package.name) else package.workspace.package(name)
     if holder is None:
         if SUBMISSION_NAME.search(name):
-            yield unchecked(f"package {name}, which holds {path}, is not at hand")
+            yield unchecked(f"package {name}, which contains {path}, is not available")
     elif holder.exists(path):
         return
     elif path.startswith(_PROGRAMS) and not holder.exists(path.partition("/")[0]):
-        yield unchecked(f"{path}, which makes the description, is not at hand")
+        yield unchecked(f"{path}, which generates the description, is not available")
     else:
-        yield finding(description, f"{path} of {holder.name} does not exist: {NAME} is not set")
+        yield finding(description, f"{path} of {holder.name} does not exist, so {NAME} is not set")
 
 
 def _argument(package: Package, description: RobotDescription, robot: str) -> Iterator[Finding]:
-    """Report a xacro file that asks for the robot's name and is not told it."""
+    """Report a xacro file that needs the robot's name, but does not get it."""
     given = description.arguments.get("name")
     if given == robot or (given is not None and not is_known(given)):
         return
@@ -90,8 +90,7 @@ def _argument(package: Package, description: RobotDescription, robot: str) -> It
             what = "no name:=" if given is None else f"name:={given}"
             yield finding(
                 description,
-                f"{file.path} asks for the robot's name and is given {what}, "
-                "expected name:=$(arg name)",
+                f"{file.path} needs the robot's name, but gets {what}: expected name:=$(arg name)",
             )
 
 

@@ -1,12 +1,12 @@
 """Nothing publishes the robot's transforms.
 
-Without TF no sensor's data has a place: RViz shows nothing, and mapping and navigation reject every
-message. The bridged poses alone are not TF; `pose_tf_broadcaster` makes TF of them.
+Without TF, sensor data has no place: RViz shows nothing, and mapping and navigation reject every
+message. The bridged poses are not TF; `pose_tf_broadcaster` converts them.
 
 Fix: start `<node pkg="subt_ros" type="pose_tf_broadcaster" name="pose_tf_broadcaster"/>` in the
 group of the robot's name.
 Source: Model Migration Guide, vehicle_topics.launch; all accepted packages start it, themselves or
-by the template all_robots.launch of subt_ros, which is assumed to.
+with the template all_robots.launch of subt_ros, whose content is assumed.
 """
 
 from checker.expand.launch.graph import LaunchGraph
@@ -25,7 +25,7 @@ _TOPICS = "launch/vehicle_topics.launch"
 
 @rule("ROS015", "no-transforms", Severity.WARNING)
 def check(package: Package, launch: LaunchGraph, context: Context) -> Findings:
-    """Look for a node or bridge that publishes TF among all that is started."""
+    """Look for a node or bridge that publishes TF in all started files."""
     if any(map(publishes_transforms, launch.nodes)) or any(map(carries_transforms, launch.bridges)):
         return
     reasons = [reason for reason in launch.unread if reason != launch.unknown_commands]
@@ -42,7 +42,7 @@ def check(package: Package, launch: LaunchGraph, context: Context) -> Findings:
     remedy = f"start {BROADCASTER}" if context.release == "dome" else "bridge the poses to /tf"
     yield finding(
         package.place(part.path) if isinstance(part, Found) else package.folder_place(),
-        f"no node or bridge publishes transforms (TF), expected one: {remedy}",
+        f"no node or bridge publishes transforms (TF): {remedy}",
     )
 
 

@@ -1,10 +1,10 @@
 """An XML file that is not well-formed.
 
-A parser stops at the first such fault, so the simulator or roslaunch refuses the whole file.
-Gazebo's own parser (tinyxml2) forgives a blank line before the XML declaration and `--` inside a
+A parser stops at the first such error, so the simulator or roslaunch refuses the whole file.
+Gazebo's own parser (tinyxml2) accepts a blank line before the XML declaration and `--` inside a
 comment; the parsers of ROS do not.
 
-Fix: correct the text at the place the message names; it says what is still open there.
+Fix: correct the text at the place of the finding; the message says which element is still open.
 Source: Extensible Markup Language 1.0, "well-formed documents".
 """
 
@@ -18,12 +18,12 @@ from checker.source.text import SourceText, Span
 from checker.source.xml_positions import XmlFault
 
 FORGIVING = (".sdf", ".world", ".config")
-"""Files that Gazebo alone reads."""
+"""Files that only Gazebo reads."""
 
 
 @rule("SDF001", "not-well-formed", Severity.ERROR)
 def check(package: Package) -> Findings:
-    """Report files that an XML parser refuses, and those that only a forgiving one reads."""
+    """Report files that an XML parser refuses, and those that only a tolerant one reads."""
     model = package.model_path
     paths = list(package.xml_files)
     if isinstance(model, Found) and model.path not in paths:
@@ -44,7 +44,7 @@ def check(package: Package) -> Findings:
 def _unread_encoding(path: str, source: SourceText) -> Iterator[Finding]:
     if path.endswith(FORGIVING) and source.encoding.startswith(("utf-16", "utf-32")):
         yield finding(
-            source.whole(), f"{path} is {source.encoding.upper()} text, Gazebo reads UTF-8 only"
+            source.whole(), f"{path} is {source.encoding.upper()} text, but Gazebo reads only UTF-8"
         )
 
 

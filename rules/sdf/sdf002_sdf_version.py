@@ -1,9 +1,8 @@
-"""An SDF version that the target does not ask for, or that does not exist.
+"""An SDF version that the target does not use, or that does not exist.
 
-The version decides what each element means: which frame a pose is written in, which joint types
-and sensors there are. A parser reads a file by the version that it states, and refuses one that is
-newer than itself. When `model.config` states another version than the model file, tools that
-choose by it choose the wrong file.
+The version defines what each element means: the frame of a pose, the joint types and the sensors. A
+parser reads a file by its stated version and refuses versions newer than itself. If `model.config`
+states another version than the model file, tools that choose by it choose the wrong file.
 
 Fix: write `<sdf version="1.6">` (for the SubT simulator), in `model.sdf` and in `model.config`, and
 check the file against that version.
@@ -29,7 +28,7 @@ from checker.rule import (
 from checker.source.text import Located
 
 OLDER = ("1.0", "1.2", "1.3")
-"""Versions that exist, and whose elements are not listed in the tables."""
+"""Versions that exist, but whose elements are not in the tables."""
 
 
 @rule("SDF002", "sdf-version", Severity.ERROR)
@@ -40,7 +39,7 @@ def check(sdf: SdfDocument, paperwork: Paperwork, context: Context) -> Findings:
     written = sdf.root.attribute("version")
     version = Located("", sdf.root.span, stated=False) if written is None else written
     if version.value.strip() in OLDER:
-        yield unchecked(f"the elements of SDF {version.value.strip()} are not known here")
+        yield unchecked(f"the checker does not know the elements of SDF {version.value.strip()}")
     yield from _of_model(version, context)
     expected = context.sdf_version if _exact(context) else version.value.strip()
     config = paperwork.config
@@ -67,7 +66,7 @@ def _of_model(version: Located[str], context: Context) -> Iterator[Finding]:
 
 
 def _refused(version: str, context: Context) -> bool:
-    """Whether the target does not take this version; SubT asks for one, others read older ones."""
+    """Whether the target refuses this version; SubT requires one, others read older ones too."""
     stated, newest = parse_version(version), parse_version(context.sdf_version)
     return _exact(context) or stated is None or newest is None or stated > newest
 

@@ -1,8 +1,8 @@
 """An element that SDFormat does not know.
 
-Simulators skip elements that they do not know, so what it should have said is lost: a misspelt
-`<horizontal_fov>` leaves the camera at its default. Elements below `<plugin>` and elements with a
-namespace prefix belong to others and are left alone; a known element in the wrong place is SDF008.
+Simulators skip unknown elements, so their content has no effect: a misspelt `<horizontal_fov>`
+leaves the camera at its default. Elements below `<plugin>` and elements with a namespace prefix are
+ignored. SDF008 reports a known element in the wrong place.
 
 Fix: spell it as the specification does, or move what belongs to a plugin into that plugin.
 Source: SDFormat specification, the version that the file states.
@@ -18,7 +18,7 @@ from checker.rule import Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 
 GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
-"""An element lost here changes how the robot moves."""
+"""Places where a lost element changes how the robot moves."""
 
 
 @rule("SDF003", "unknown-element", Severity.WARNING)
@@ -38,7 +38,8 @@ def check(sdf: SdfDocument) -> Findings:
         hint = f"; did you mean <{near}>?" if near else ""
         yield finding(
             element,
-            f"<{element.tag}> in <{parent.tag}> is unknown to SDF {sdf.version or '1.6'}{hint}",
+            f"<{element.tag}> in <{parent.tag}> is not an element of SDF "
+            f"{sdf.version or '1.6'}{hint}",
             severity=Severity.ERROR if grave else None,
             key=f"{parent.tag}/{element.tag}",
             fix=_renamed(element, fitting) if fitting and not parent.all(fitting) else None,
@@ -48,7 +49,7 @@ def check(sdf: SdfDocument) -> Findings:
 def _with_known_siblings(
     sdf: SdfDocument, unknown: list[Element]
 ) -> Iterator[tuple[Element, Suggestions]]:
-    """Pair each unknown element with the tags that may stand in its place."""
+    """Pair each unknown element with the tags that are allowed in its place."""
     parents = {element.parent for element in unknown}
     known: dict[Element | None, Suggestions] = {
         element: Suggestions(kind.children)

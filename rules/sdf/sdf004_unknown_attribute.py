@@ -1,9 +1,8 @@
 """An attribute that the element does not have.
 
-Parsers skip attributes that they do not know, so what one should have said is lost: a misspelt
-`relative_to` leaves a part where nobody put it. The attribute `frame` of a pose is SDF014;
-attributes with a namespace prefix belong to others.
-No accepted package at hand shows it.
+Parsers skip unknown attributes, so they have no effect: a misspelt `relative_to` leaves a part in
+the wrong place. SDF014 reports the attribute `frame` of a pose. Attributes with a namespace prefix
+are ignored. None of the accepted packages that we checked shows this.
 
 Fix: spell it as the specification does, or remove it.
 Source: SDFormat specification, the version that the file states.

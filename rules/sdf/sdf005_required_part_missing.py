@@ -1,11 +1,10 @@
 """A required element or attribute that is missing or empty.
 
-What has no default cannot be made up: the parser refuses the file, or builds a part that is not
-there. A visual without geometry shows nothing, a part without a name cannot be found. The ends of
-joints are judged by KIN001.
-No accepted package at hand shows it.
+A part without a default cannot be invented: the parser refuses the file, or builds an incomplete
+part. A visual without geometry shows nothing, and a part without a name cannot be found. KIN001
+reports the ends of joints. None of the accepted packages that we checked shows this.
 
-Fix: add what the message names.
+Fix: add the element or attribute that the message names.
 Source: SDFormat specification, "Required: 1" at the element or attribute.
 """
 
@@ -17,18 +16,18 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 CHOICES = frozenset({"geometry"})
-"""Required containers that no default fills; all others come with defaults for what is in them."""
+"""Required containers without defaults for their content; all others have defaults."""
 ELSEWHERE = {("sdf", "version")}
 """Attributes, with their elements, that another rule judges."""
 ENDS = ("parent", "child")
-"""Of a model's joint: KIN001 speaks of those."""
+"""Children of a model's joint, which KIN001 reports."""
 
 
 @rule("SDF005", "required-part-missing", Severity.ERROR)
 def check(sdf: SdfDocument) -> Findings:
-    """Report what an element has to say and does not."""
+    """Report required parts that are missing."""
     if sdf.root.tag != "sdf":
-        yield finding(sdf.root, f"the outermost element is <{sdf.root.tag}>, expected <sdf>")
+        yield finding(sdf.root, f"the root element is <{sdf.root.tag}>, expected <sdf>")
     for element, kind in sdf.typed_elements:
         if kind is not None:
             yield from _attributes(element, kind)

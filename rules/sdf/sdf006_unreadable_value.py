@@ -1,11 +1,12 @@
-"""A value that does not read as its type.
+"""A value that is not of its type.
 
-`1.O1e2` with a letter O, `nan`, seven numbers in a pose, `yes` for a boolean: some parsers refuse
-the file, others take the part that they can read: the robot weighs 1 kg where 101 kg were meant.
-Numbers that the specification bounds (a stddev below 0), and words that it lists (the type of a
-light), are judged here as well.
+Examples are `1.O1e2` with a letter O, `nan`, seven numbers in a pose, or `yes` for a boolean. Some
+parsers refuse the file; others read only the first part, so the robot weighs 1 kg instead of 101
+kg. This rule also checks numbers that the specification limits (a stddev below 0) and words that it
+lists (the type of a light).
 
-Fix: write the value as the message says. Numbers have a point and no unit, and blanks between them.
+Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
+them.
 Source: SDFormat specification, type, min and max of each element.
 """
 
@@ -23,7 +24,7 @@ from checker.source.xml import Element
 
 @rule("SDF006", "unreadable-value", Severity.ERROR)
 def check(sdf: SdfDocument) -> Findings:
-    """Report texts and attributes that are no value of their type."""
+    """Report texts and attributes that are not values of their type."""
     words = table("sdf_words")
     for element, kind in sdf.typed_elements:
         if kind is None:
@@ -42,7 +43,7 @@ def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
         if value_type not in ("", "string", "pose") and kind.occurs in ("0", "*"):
             yield finding(
                 element,
-                f"<{element.tag}> is empty, and counts as its default {kind.default}",
+                f"<{element.tag}> is empty, so its default {kind.default} is used",
                 severity=Severity.WARNING,
             )
         return
@@ -50,7 +51,7 @@ def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
         quaternion = element.get("rotation_format") == "quat_xyzw"
         value_type = QUATERNION_POSE if quaternion else value_type
         if quaternion and in_degrees(element):
-            yield finding(element, "<pose> gives a quaternion in degrees, which has none")
+            yield finding(element, "<pose> gives a quaternion, but says that it is in degrees")
     faults = misread(text, value_type) or out_of_bounds(text, kind.bounds)
     for fault in faults:
         severity = Severity.WARNING if fault.lossy else None

@@ -1,9 +1,9 @@
 """Text between elements, where SDFormat has none.
 
-It is mostly the rest of something: a tag that lost its brackets, a note without `<!--`, the end of
-a line that was cut. Parsers skip it without a word, and with it what it should have been.
+The text is usually a leftover: a tag that lost its brackets, a note without `<!--`, or the end of a
+line that was cut. Parsers skip it without a message.
 
-Fix: remove it, or make it the element or comment that it was meant to be.
+Fix: remove it, or turn it into the intended element or comment.
 Source: SDFormat specification: elements hold either one value or other elements.
 """
 
@@ -29,7 +29,8 @@ def check(sdf: SdfDocument) -> Findings:
             shown = words if len(words) <= _SHOWN else words[:_SHOWN] + "…"
             yield finding(
                 span,
-                f"{shown!r} stands between the elements of <{element.tag}>",
+                f"{shown!r} is text between the elements of <{element.tag}>: remove it or make it "
+                "a comment",
                 fix=replace_text(with_blanks(span), ""),
             )
 

@@ -1,10 +1,10 @@
 """A known element in a place where it has no meaning.
 
-Simulators look for an element only where the specification puts it, so here it is skipped:
-`<enable_orientation>` directly below `<sensor>` does not reach the IMU. Elements that no place
-knows are SDF003.
+Simulators look for an element only in its place, so here it is skipped: `<enable_orientation>`
+directly below `<sensor>` does not reach the IMU. SDF003 reports elements that are not known in any
+place.
 
-Fix: move it to where the message says.
+Fix: move it to the place that the message names.
 Source: SDFormat specification, the version that the file states.
 """
 
@@ -18,7 +18,7 @@ from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
 
 HARMLESS = {("air_pressure", "noise"), ("camera", "aspect_ratio")}
-"""Parents and elements that accepted robots have: nothing is lost with them."""
+"""Parents and elements that accepted robots have: nothing is lost."""
 _LISTED = 3
 
 _Kinds = Mapping[Element, ElementType | None]
@@ -43,7 +43,7 @@ def check(sdf: SdfDocument) -> Findings:
         harmless = (parent.tag, element.tag) in HARMLESS
         yield finding(
             element,
-            f"<{element.tag}> means nothing in <{parent.tag}>{belongs}",
+            f"<{element.tag}> has no effect in <{parent.tag}>{belongs}",
             severity=Severity.WARNING if harmless else None,
             key=f"{parent.tag}/{element.tag}",
             fix=_moved(element, listed[0], kinds) if len(listed) == 1 and not harmless else None,
@@ -53,7 +53,7 @@ def check(sdf: SdfDocument) -> Findings:
 def _places(
     around: str, parent: str, tag: str, parents: Mapping[str, tuple[str, ...]]
 ) -> Sequence[str]:
-    """Return where an element may stand, beside its place or around it; nothing for too many."""
+    """Return where an element is allowed, near its place or around it; nothing for too many."""
     places = parents.get(tag, ())
     near = [each for each in places if each == around or parent in parents.get(each, ())]
     listed = near or places

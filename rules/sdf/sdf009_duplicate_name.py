@@ -1,13 +1,13 @@
-"""A name that two siblings share, or that is reserved.
+"""A name that two siblings share, or a reserved name.
 
-Plugins, bridges and joints find a part by its name; of two parts with one name only the first is
-found, and newer parsers refuse the file. From SDF 1.7 on no two siblings may share a name, before
-that a visual and a collision could. Names of the form `__x__`, the name `world`, and names with
-`::` mean something else to the parser. Plugins may share a name.
+Plugins, bridges and joints find a part by its name. If two parts have the same name only the first
+is found, and newer parsers refuse the file. Since SDF 1.7 no two siblings may share a name; before,
+a visual and a collision could. Names of the form `__x__`, the name `world`, and names with `::`
+have a special meaning for the parser. Plugins may share a name.
 
-No accepted package at hand shows it.
+None of the accepted packages that we checked shows this.
 
-Fix: give each sibling a name of its own.
+Fix: give each sibling its own name.
 Source: SDFormat specification 1.7, "unique sibling names" and "reserved names".
 """
 
@@ -21,7 +21,7 @@ from checker.source.xml import Element
 
 _RESERVED = re.compile(r"world|__.*__")
 _FRAMES = frozenset({"link", "joint", "frame", "model"})
-"""Elements that are frames too, and so share one set of names in every version."""
+"""Elements that are also frames, and so share one set of names in every version."""
 _PARTS = _FRAMES | {"world", "visual", "collision", "sensor", "light", "physics"}
 """Elements that may not have a reserved name."""
 
@@ -33,7 +33,7 @@ Version = tuple[int, int]
 
 @rule("SDF009", "duplicate-name", Severity.ERROR)
 def check(sdf: SdfDocument, context: Context) -> Findings:
-    """Report siblings of one name, and reserved names."""
+    """Report siblings with the same name, and reserved names."""
     version = sdf_version(sdf.document)
     # Names of parts that nested models once had, flattened: SDFormat took them until 1.8.
     divided = Severity.ERROR if context.release or version >= (1, 8) else Severity.WARNING
@@ -45,7 +45,9 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         if element.tag in _PARTS and _RESERVED.fullmatch(name.value):
             yield finding(name, f"<{element.tag}> has the reserved name {name.value!r}")
         elif "::" in name.value and (version >= (1, 8) or element.tag in _FRAMES):
-            message = f"name {name.value!r} holds '::', which separates the names of nested models"
+            message = (
+                f"name {name.value!r} contains '::', which separates the names of nested models"
+            )
             yield finding(name, message, severity=divided)
 
 
@@ -65,9 +67,9 @@ def _twins(parent: Element, version: Version) -> Iterator[Finding]:
             forbidden = twin.tag == child.tag or version >= (1, 7)
             yield finding(
                 name,
-                f"<{child.tag}> {name.value!r} has the name of {whose}",
+                f"<{child.tag}> {name.value!r} has the same name as {whose}",
                 severity=None if forbidden else Severity.WARNING,
-                related=[(_name(twin) or twin, "the first of that name")],
+                related=[(_name(twin) or twin, "the first with this name")],
             )
 
 

@@ -1,13 +1,13 @@
 """A model or an include inside the robot's model.
 
-Ignition Gazebo Dome does not simulate nested models: their links are not there. The `<include>`
-that `launch/spawner.rb` emits is another matter and must be there.
+Ignition Gazebo Dome does not simulate nested models: their links are missing in the simulation.
+This does not concern the `<include>` that `launch/spawner.rb` emits, which is required.
 
-`--fix --unsafe` flattens it: link `wrist` of a nested model `arm` becomes link `arm__wrist`, where
-it stood before. Files that name it are edited too; topics of its sensors change with the name.
-No accepted package at hand shows it.
+`--fix --unsafe` flattens the model: link `wrist` of a nested model `arm` becomes link `arm__wrist`,
+in the same place. It also edits files that name the link; topics of its sensors change with the
+name. None of the accepted packages that we checked shows this.
 
-Fix: flatten the model, so that all links and joints stand directly in one `<model>`.
+Fix: flatten the model, so that all links and joints are directly in one `<model>`.
 Source: Model Migration Guide, step 9: "Flattening the model file is necessary because nested
 models are not yet supported."
 """
@@ -43,7 +43,7 @@ def check(sdf: SdfDocument, robot: Robot, package: Package) -> Findings:
             f"{message}; --fix cannot flatten it: {reason}" if reason else message,
             key="nested",
             related=[
-                (edit.place, f"names {scoped}, to be {names.flat(scoped)}")
+                (edit.place, f"names {scoped}, which becomes {names.flat(scoped)}")
                 for scoped, edit in named
                 if number == 0
             ],
@@ -52,7 +52,7 @@ def check(sdf: SdfDocument, robot: Robot, package: Package) -> Findings:
 
 
 def _nested(sdf: SdfDocument, robot: Robot) -> Iterator[tuple[Element, str]]:
-    """Yield what is nested in the robot, with what is to be said of it."""
+    """Yield the nested elements of the robot, each with its message."""
     whole = robot.element.position
     for child in sdf.elements():
         model = child.parent

@@ -1,11 +1,10 @@
-"""A link or joint with the robot's name before its own.
+"""A link or joint with the robot's name as a prefix.
 
-Gazebo 9 needed names such as `X1/base_link` to tell robots apart. Ignition Gazebo keeps the names
-of one robot apart from those of another by itself, and the simulator renames the robot when it
-spawns it, so the old prefix is wrong in every frame and topic that is made of it.
-No accepted package at hand shows it.
+Gazebo 9 needed names such as `X1/base_link` to distinguish robots. Ignition Gazebo separates the
+names of robots itself, and the simulator renames the robot when it spawns it. The old prefix is
+then wrong in every frame and topic. None of the accepted packages that we checked shows this.
 
-Fix: remove the prefix from links and joints, and wherever they are named: joints' ends, plugins,
+Fix: remove the prefix from links and joints, and wherever they are used: joints' ends, plugins,
 launch files.
 Source: Model Migration Guide, step 2: "Before converting to SDF, remove namespaces from link names.
 Eg., X1/base_link becomes base_link."
@@ -29,7 +28,7 @@ _NAMED = {Link: "link", Joint: "joint"}
 
 @rule("SDF011", "name-with-prefix", Severity.WARNING)
 def check(robot: Robot, package: Package) -> Findings:
-    """Report names with a slash: as errors when all links have one and the same prefix."""
+    """Report names with a slash; they are errors if all links have the same prefix."""
     if robot.format != "sdf":
         return  # In URDF files for RViz the prefix is asked for.
     prefixes = {_prefix(link) for link in robot.links}
@@ -54,7 +53,7 @@ def _parts(robot: Robot) -> Iterator[Link | Joint]:
 
 
 def _fix(robot: Robot, package: Package) -> Fix | None:
-    """Return the fix that takes all prefixes away; None where a name without one is taken."""
+    """Return the fix that removes all prefixes; None if a name without prefix already exists."""
     changed = {
         part.scoped_name: part.name.value.partition("/")[2]
         for part in _parts(robot)
@@ -83,7 +82,7 @@ def _fix(robot: Robot, package: Package) -> Fix | None:
 
 
 def _prefix(part: Link | Joint) -> str:
-    """Return what stands before the first slash of a name."""
+    """Return the part of a name before the first slash."""
     before, slash, behind = part.name.value.partition("/")
     return before if slash and behind else ""
 

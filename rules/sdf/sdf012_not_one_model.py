@@ -1,11 +1,10 @@
-"""A model file that does not hold exactly one movable model with links.
+"""A model file that does not contain exactly one movable model with links.
 
-The simulator spawns the one model that it finds. A world around it, a second model, or
-`<static>true` gives another robot than the one that was meant, or one that cannot move. A model
-without links is refused by every parser.
-No accepted package at hand shows it.
+The simulator spawns one model of the file. With a world around it, a second model, or
+`<static>true`, it spawns another robot than intended, or one that cannot move. Every parser refuses
+a model without links. None of the accepted packages that we checked shows this.
 
-Fix: leave one `<model>` directly below `<sdf>`; worlds go to `worlds/`.
+Fix: keep one `<model>` directly below `<sdf>`; put worlds in `worlds/`.
 Source: Model Migration Guide, step 3; SDFormat specification 1.8, "only one model at the root";
 libsdformat: "A model must have at least one link."
 """
@@ -19,7 +18,7 @@ from checker.source.xml import Element
 
 @rule("SDF012", "not-one-model", Severity.ERROR)
 def check(sdf: SdfDocument, context: Context) -> Findings:
-    """Report what keeps a model file from being one robot."""
+    """Report what prevents a model file from being one robot."""
     if sdf.root.tag != "sdf":
         return  # SDF005 says so.
     yield from _second_models(sdf, context)
@@ -35,8 +34,8 @@ def _second_models(sdf: SdfDocument, context: Context) -> Iterator[Finding]:
     for model in models[1:]:
         yield finding(
             model,
-            f"model {model.get('name')!r} stands beside model {models[0].get('name')!r}, "
-            "expected one model in the file",
+            f"model {model.get('name')!r} is next to model {models[0].get('name')!r}, expected "
+            "one model in the file",
             severity=None if forbidden else Severity.WARNING,
             related=[(models[0], "the first model")],
         )
@@ -58,10 +57,12 @@ _WITH_LINKS = ("link", "model", "include")
 def _no_robot(sdf: SdfDocument) -> Iterator[Finding]:
     worlds = sdf.root.all("world")
     for world in worlds:
-        yield finding(world, f"world {world.get('name')!r} stands in the model file")
+        yield finding(
+            world, f"world {world.get('name')!r} is in the model file, expected only a model"
+        )
     models = sdf.root.all("model")
     if not models and not worlds:
-        yield finding(sdf.root, "the file holds no model")
+        yield finding(sdf.root, "the file contains no model")
     for model in models:
         static = model.child("static")
         if static is not None and _is_static(model):

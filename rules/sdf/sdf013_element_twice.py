@@ -1,8 +1,8 @@
-"""An element twice where one is allowed.
+"""An element occurs twice, but only one is allowed.
 
-Parsers take one of the two, mostly the first, and say nothing: the other is not what the robot has.
+Parsers use one of the two, usually the first, and print no message: the other has no effect.
 
-Fix: remove the one that is not meant.
+Fix: remove the wrong one.
 Source: SDFormat specification, "Required: 0" or "1" at the element: at most one.
 """
 
@@ -14,7 +14,7 @@ from checker.source.xml import Element
 ELSEWHERE = {("sdf", "model")}
 """Parents and elements that another rule judges."""
 SEVERAL = {("contact", "collision")}
-"""Parents and elements of which simulators read several, whatever the tables say."""
+"""Parents and elements of which simulators read several, despite the tables."""
 
 
 @rule("SDF013", "element-twice", Severity.WARNING)
@@ -33,7 +33,7 @@ def check(sdf: SdfDocument) -> Findings:
             same = _content(child) == said
             yield finding(
                 child,
-                f"<{element.tag}> holds a second <{child.tag}>, "
+                f"<{element.tag}> contains a second <{child.tag}>, "
                 + ("the same as the first" if same else "different from the first"),
                 severity=Severity.INFO if same else None,
                 related=[(earlier, "the first")],
@@ -50,7 +50,7 @@ def _once(parent: Element, kind: ElementType, tag: str) -> bool:
 
 
 def _content(element: Element) -> list[tuple[object, ...]]:
-    """Return all that an element says, blanks and the order of attributes aside."""
+    """Return the content of an element, without spaces and the order of attributes."""
     return [
         (each.tag, tuple(sorted(each.attributes.items())), " ".join(each.raw_text.split()))
         for each in (element, *element.descendants())

@@ -1,7 +1,7 @@
 """A pose with the attribute `frame`.
 
-Gazebo on SDF 1.5 and 1.6 never read it, and from SDF 1.7 on `relative_to` takes its place. A named
-frame is therefore ignored, or refused by a newer parser; an empty one says nothing.
+Gazebo with SDF 1.5 and 1.6 never read it, and since SDF 1.7 `relative_to` replaces it. So a named
+frame is ignored, or refused by a newer parser; an empty one has no effect.
 
 Fix: remove the attribute, and write the pose relative to the element around it.
 Source: SDFormat specification, pose 1.5 to 1.7. The Model Migration Guide's own example still has
@@ -21,12 +21,14 @@ def check(sdf: SdfDocument) -> Findings:
             continue
         if frame.value:
             yield finding(
-                frame, f"the pose names the frame {frame.value!r}, which the target ignores"
+                frame,
+                f"the pose names the frame {frame.value!r}, but the target ignores the attribute "
+                "`frame`",
             )
         else:
             yield finding(
                 element.attribute_name_span("frame"),
-                "the pose has an empty attribute `frame`, which says nothing",
+                "the pose has an empty attribute `frame`, which has no effect",
                 severity=Severity.INFO,
                 fix=replace_text(element.whole_attribute_span("frame"), ""),
             )

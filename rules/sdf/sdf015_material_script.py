@@ -1,8 +1,8 @@
-"""A material by script.
+"""A material with a script.
 
-Ignition Gazebo does not read OGRE material scripts: what only a script colours comes out grey or
-black. Where plain colours or PBR textures stand beside the script, they are what is seen, and the
-script does nothing. Its `file://media` URIs are judged here and nowhere else.
+Ignition Gazebo does not read OGRE material scripts: a part coloured only by a script is grey or
+black. If the material also has plain colours or PBR textures, Gazebo uses these, and the script
+does nothing. Only this rule checks `file://media` URIs of scripts.
 
 Fix: give `<ambient>`, `<diffuse>` and `<specular>`, or `<pbr>` with textures of the package, and
 remove the script.
@@ -18,13 +18,13 @@ from checker.source.xml import Element
 from checker.source.xml_insertion import removal
 
 SCRIPTED = ("", "classic")
-"""Releases that read scripts, and no release in particular."""
+"""Releases that read scripts, and no particular release."""
 _COLOURS = frozenset({"ambient", "diffuse", "specular", "emissive", "pbr"})
 
 
 @rule("SDF015", "material-script", Severity.ERROR)
 def check(sdf: SdfDocument, context: Context) -> Findings:
-    """Report scripts that the target does not read, and materials that say nothing."""
+    """Report scripts that the target does not read, and empty materials."""
     for element in sdf.elements():
         if element.tag != "material":
             continue
@@ -34,7 +34,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         elif not element.children and not element.text.stated:
             yield finding(
                 element,
-                "<material> is empty: it says nothing",
+                "<material> is empty, so it has no effect",
                 severity=Severity.INFO,
                 fix=Fix(Safety.SAFE, (removal(element),)),
             )
@@ -46,13 +46,13 @@ def _script(material: Element, script: Element) -> Iterator[Finding]:
     if any(child.tag in _COLOURS for child in material.children):
         yield finding(
             script,
-            f"the material script{called} is not read: what stands beside it counts",
+            f"the material script{called} is not read: the other colours of the material are used",
             severity=Severity.WARNING,
             fix=Fix(Safety.SAFE, (removal(script),)),
         )
     else:
         yield finding(
-            script, f"the material script{called} is not read, and nothing else colours the part"
+            script, f"the material script{called} is not read, and the part has no other colour"
         )
 
 

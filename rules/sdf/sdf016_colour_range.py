@@ -1,7 +1,7 @@
 """A colour outside 0…1.
 
-Red, green, blue and alpha go from 0 to 1. Colours of 0 to 255 come out white, or the parser refuses
-the file.
+Red, green, blue and alpha are numbers from 0 to 1. With numbers of 0 to 255 the part is white, or
+the parser refuses the file.
 
 Fix: divide by 255.
 Source: SDFormat specification, type color; libsdformat refuses other values.
@@ -22,8 +22,8 @@ def check(sdf: SdfDocument, *, eight_bit_from: float = 16.0) -> Findings:
     """Report colours with a number below 0 or above 1.
 
     Options:
-        eight_bit_from: Least value of the brightest of red, green and blue for a fix that divides
-            by 255; all numbers must be whole and from 0 to 255.
+        eight_bit_from: Least value of the largest of red, green and blue for which a fix divides by
+            255; all numbers must be whole and from 0 to 255.
     """
     for element, kind in sdf.typed_elements:
         if kind is None or kind.value_type != "color":
@@ -42,7 +42,7 @@ def check(sdf: SdfDocument, *, eight_bit_from: float = 16.0) -> Findings:
 
 
 def _divided(element: Element, colour: tuple[Located[float], ...], least: float) -> Fix | None:
-    """Return the fix that divides by 255; none for colours that are just too bright."""
+    """Return the fix that divides by 255; none for colours that are only slightly too bright."""
     values = [number.value for number in colour]
     whole = all(0.0 <= value <= EIGHT_BIT and value.is_integer() for value in values)
     if not whole or max(values[:3]) < least:

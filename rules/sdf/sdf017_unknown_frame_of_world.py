@@ -1,11 +1,10 @@
-"""A world, or a model as a whole, that refers to a frame which does not exist.
+"""A world or model refers to a frame that does not exist.
 
-Nobody can tell where the model or frame is, so parsers refuse the file. Frames inside a model are
-KIN010.
-No accepted package at hand shows it.
+The place of the model or frame is undefined, so parsers refuse the file. KIN010 reports frames
+inside a model. None of the accepted packages that we checked shows this.
 
-Fix: name a frame or model of the same world; let the pose of a model outside of a world stand
-alone; let `placement_frame` name a frame of the model.
+Fix: name a frame or model of the same world; remove `relative_to` from the pose of a model outside
+a world; let `placement_frame` name a frame of the model.
 Source: SDFormat specification 1.7, "Pose frame semantics", and 1.8, model/@placement_frame.
 """
 
@@ -16,7 +15,7 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("SDF017", "unknown-frame-of-world", Severity.ERROR)
 def check(sdf: SdfDocument) -> Findings:
-    """Report frames that are unknown, and circles of them."""
+    """Report unknown frames, and frames that refer to each other in a circle."""
     for fault in world_frame_faults(sdf.document):
         yield finding(fault.span, fault.message)
 

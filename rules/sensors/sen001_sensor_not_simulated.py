@@ -1,10 +1,11 @@
-"""A sensor of a type that the target does not simulate, or that there is not.
+"""A sensor of a type that does not exist or that the target does not simulate.
 
-It publishes nothing, and nothing says so: the robot drives on without the satellite receiver or
-the sonar that its sheet promises. A type that SDFormat does not know keeps the file from loading.
+The sensor publishes nothing, and Gazebo prints no message: the robot drives without the satellite
+receiver or the sonar that its specification sheet lists. With a type that SDFormat does not know,
+the file does not load.
 
-Fix: use a type that the target simulates, or leave the sensor out and say so in the sheet.
-Source: types that SDFormat reads, and systems that make sensors of them, per release
+Fix: use a type that the target simulates, or remove the sensor and say so in the sheet.
+Source: types that SDFormat reads, and systems that simulate them, per release
 (`gazebo_sensors.json`).
 """
 

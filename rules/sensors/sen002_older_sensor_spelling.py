@@ -1,12 +1,12 @@
-"""A lidar whose type is spelled as in older releases, or that is simulated by none.
+"""A lidar with an older spelling of its type, or a type that is not simulated.
 
-`ray` and `lidar` are lidars of the processor, and in Ignition Gazebo nothing simulates them: their
+`ray` and `lidar` are lidars that run on the CPU. Ignition Gazebo does not simulate them, so their
 topics stay silent. `gpu_ray` still works and is the older name of `gpu_lidar`; a file with both
-names hides that they are one thing.
+names hides that they mean the same.
 
 Fix: write the type `gpu_lidar`, and `<lidar>` for `<ray>`.
 Source: Model Migration Guide; src/Sensor.cc of sdformat, which reads `gpu_ray` as `gpu_lidar`; no
-system of gz-sim makes a lidar of the processor (`gazebo_sensors.json`).
+system of gz-sim simulates a lidar on the CPU (`gazebo_sensors.json`).
 """
 
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ from checker.source.text import Span
 _OLD = {"gpu_ray": "gpu_lidar", "ray": "lidar"}
 _CLASSIC = "classic"
 _FIRST_GPU_LIDAR = (1, 6)
-"""SDF version from which on there is a `<lidar>`."""
+"""SDF version since which `<lidar>` exists."""
 
 
 @rule("SEN002", "older-sensor-spelling", Severity.WARNING)

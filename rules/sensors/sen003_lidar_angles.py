@@ -1,9 +1,9 @@
-"""A lidar whose angles are more than a full turn, turned round, or no interval.
+"""A lidar whose angles span more than a full turn, or are reversed or equal.
 
-A full turn from -3.1459 to 3.1459 is 0.5 degrees more than there is: the last rays see what the
-first ones saw, and every point of the cloud is off by its share. A full turn is to run from -π to
-π, as those of all other robots do, and not from 0 to 2π. Where the first angle is not below the
-last, all rays point one way or the scan is mirrored.
+A full turn from -3.1459 to 3.1459 is 0.5 degrees too large: the last rays see what the first ones
+saw, and every point of the cloud is slightly wrong. In the challenge a full turn goes from -π to π,
+as on all other robots, and not from 0 to 2π. If the first angle is not below the last, all rays
+point in one direction or the scan is mirrored.
 
 Fix: write -3.141592653589793 and 3.141592653589793 for a full turn, and the smaller angle first.
 Source: reviews of SubT models, which had 3.1459 and 0 … 6.283 corrected to ±3.14159.
@@ -19,17 +19,17 @@ from checker.rule import Finding, Findings, Safety, Severity, finding, rule
 
 _TURN = 2 * math.pi
 _NEAR = 0.1
-"""Radians: what is this near to a full turn is meant to be one."""
+"""Radians: an angle this close to a full turn is meant to be one."""
 
 
 @rule("SEN003", "lidar-angles", Severity.WARNING)
 def check(robot: Robot, *, tolerance: float = 1e-3, near: float = _NEAR) -> Findings:
-    """Report scans over more than a full turn, from 0 to 2π, or of no width.
+    """Report scans over more than a full turn, from 0 to 2π, or without width.
 
     Options:
-        tolerance: Radians that a scan may span beyond a full turn; more is reported.
+        tolerance: Radians by which a scan may exceed a full turn; more is reported.
         near: Radians within which the ends of a scan count as 0 and 2π, which is reported, and its
-            span as a full turn, which the fix writes as -π to π.
+            width counts as a full turn, which the fix writes as -π to π.
     """
     for sensor in robot.sensors:
         lidar = sensor.lidar
@@ -63,7 +63,7 @@ def _one_way(said: str, scan: Scan, tolerance: float, near: float) -> Iterator[F
 
 
 def _written(scan: Scan, lower: float, upper: float) -> Fix | None:
-    """Return the fix that writes other angles; None where the file states none."""
+    """Return the fix that writes other angles; None if the file states none."""
     if not scan.lower.stated or not scan.upper.stated:
         return None
     edits = (

@@ -1,12 +1,12 @@
-"""A lidar with other samples than its device gives at that rate.
+"""The number of a lidar's samples differs from that of its device at this rate.
 
-A VLP-16 measures 1800 points a row at 10 Hz and 900 at 20 Hz; who gives it 10000 sees far more
-than the real robot and slows the simulation down for everybody. That number stands in an old
-template together with a scan resolution of 0.1, and was copied into many robots.
-A scan over a part of the turn may have its part of the samples. Figures that nobody compared with
-a datasheet are information.
+A VLP-16 measures 1800 points per row at 10 Hz and 900 at 20 Hz. With 10000 points the model sees
+far more than the real robot and slows the simulation down for everybody. That number comes from an
+old template, together with a scan resolution of 0.1, and was copied into many robots. A scan over a
+part of the turn may have the same part of the samples. If a figure was never compared with a
+datasheet, this is information.
 
-Fix: write the samples that the device gives at the model's `<update_rate>`.
+Fix: write the number of samples that the device measures at the model's `<update_rate>`.
 Source: reviews of SubT models; the seed tutorial "Simulating the Ouster OS-1"; `devices.json`
 names others, figure by figure.
 """
@@ -26,13 +26,13 @@ from checker.rule import Finding, Findings, Severity, finding, rule
 def check(
     robot: Robot, devices: SensorDevices, *, copied: int = 10_000, tolerance: float = 0.02
 ) -> Findings:
-    """Report rows of far too many samples, and of others than the device gives.
+    """Report rows of far too many samples, or of another number than the device has.
 
     Options:
-        copied: Samples in a row; so many or more are reported as copied from an old template, even
-            where no device is known.
-        tolerance: Share by which the samples in a row may differ from what the device gives at that
-            rate; one sample off is always accepted.
+        copied: Samples per row; this number or more is reported as copied from an old template,
+            even if no device is known.
+        tolerance: Share by which the samples per row may differ from those of the device at that
+            rate; a difference of one sample is always accepted.
     """
     for sensor in robot.sensors:
         lidar = sensor.lidar
@@ -50,7 +50,7 @@ def check(
 
 
 def _rays(sensor: Sensor, lidar: Lidar, device: Device) -> Iterator[Finding]:
-    """Compare the rays that spread over the beam of a device that measures one distance."""
+    """Compare the number of rays of a device that measures a single distance."""
     rays = device.values["rays"]
     if lidar.rays not in (rays, 1):
         yield finding(
@@ -63,7 +63,7 @@ def _rays(sensor: Sensor, lidar: Lidar, device: Device) -> Iterator[Finding]:
 
 
 def _expected(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
-    """Return what the device gives at the sensor's rate; at any, where it has no such rate."""
+    """Return the device's samples at the sensor's rate; at any rate if it has no such rate."""
     by_rate = {
         float(rate): samples for rate, samples in device.values.get("samples_by_rate", {}).items()
     }
@@ -80,7 +80,7 @@ def _expected(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
 
 
 def _share_of_turn(lidar: Lidar, device: Device) -> float:
-    """Return how much of its field of view a sensor covers; 1 for all."""
+    """Return the share of the device's field of view that a sensor covers."""
     whole = device.values.get("hfov_deg")
     if not whole or whole <= 0:
         return 1.0
@@ -100,17 +100,21 @@ def _finding(
     too_many: bool,
 ) -> Finding:
     samples, rate = lidar.horizontal.samples, sensor.update_rate.value
-    said = f"lidar {sensor.name.value!r} has {samples.value:g} samples a row"
+    said = f"lidar {sensor.name.value!r} has {samples.value:g} samples per row"
     said += f" at {rate:g} Hz" if rate > 0 else ""
     if known is None or not expected:
-        return finding(samples, f"{said}: a number copied from an old template", key="copied")
+        return finding(
+            samples,
+            f"{said}, a number copied from an old template: expected the number of the device",
+            key="copied",
+        )
     from_memory = known.device.is_from_memory("samples_by_rate") and not too_many
     return finding(
         samples,
         f"{said}, expected {either(expected)} ({known.device.name})",
         severity=Severity.INFO if from_memory else None,
         key=f"{known.device.id} {samples.value:g} {rate:g}",
-        related=[(known.said, "says which device it is")],
+        related=[(known.said, "names the device")],
     )
 
 

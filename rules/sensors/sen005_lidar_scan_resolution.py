@@ -1,11 +1,11 @@
-"""A lidar whose scan resolution is other than 1.
+"""A lidar whose scan resolution is not 1.
 
-The resolution multiplies the samples: with 0.1 the sensor gives a tenth of the points that it
-measures, with 0.03 a row of 920 samples becomes one of 28. It is no angle and no distance, as
-its name suggests; that of distances stands in `<range>`.
+The resolution multiplies the samples: with 0.1 the sensor publishes a tenth of the points that it
+measures, and with 0.03 a row of 920 samples becomes one of 28. Despite its name it is not an angle
+or a distance; the resolution of distances is in `<range>`.
 
-Fix: write `<resolution>1</resolution>`, and as many samples as the device gives.
-Source: reviews of SubT models, which had 0.1 and 0.03 corrected to 1; sdformat, lidar.sdf.
+Fix: write `<resolution>1</resolution>`, and as many samples as the device has.
+Source: reviews of SubT models, which asked for 1 instead of 0.1 and 0.03; sdformat, lidar.sdf.
 """
 
 from checker.model.robot import Robot
@@ -14,11 +14,11 @@ from checker.rule import Findings, Severity, finding, replace_text, rule
 
 @rule("SEN005", "lidar-scan-resolution", Severity.WARNING)
 def check(robot: Robot, *, expected: float = 1.0) -> Findings:
-    """Report lidars whose rows have another resolution than expected.
+    """Report lidars whose rows have an unexpected resolution.
 
     Options:
-        expected: Points given for each sample of a row; any other `<resolution>` that the file
-            states is reported, and the fix writes this one.
+        expected: Points published for each sample of a row; any other `<resolution>` in the file is
+            reported, and the fix writes this one.
     """
     for sensor in robot.sensors:
         if sensor.lidar is None or not sensor.kind.is_lidar:

@@ -1,11 +1,11 @@
-"""A lidar whose range resolution or noise is other than SubT's.
+"""A lidar whose range resolution or noise differs from the SubT standard.
 
-All robots of a competition measure with the same quality of sensors: ranges come in steps of 0.01
-m with a noise of 0.01 m, unless the device's own figures are known. A lidar without noise sees
-better than any real one.
+All robots of a competition have sensors of the same quality: ranges in steps of 0.01 m with a noise
+of 0.01 m, unless the device's own figures are known. A lidar without noise is better than any real
+one.
 
 Fix: write `<range><resolution>0.01</resolution>` and a Gaussian `<noise>` with the `<stddev>` 0.01.
-Source: reviews of SubT models, which had 0.003 and 0.03 of Ouster lidars corrected to 0.01
+Source: reviews of SubT models, which asked for 0.01 instead of 0.003 and 0.03 for Ouster lidars
 (`subt_standards.json`, `devices.json`). The published model of the Ouster OS-1 has 0.008.
 """
 
@@ -33,13 +33,13 @@ def check(
     tolerance: float = 0.01,
     grave: float = 5.0,
 ) -> Findings:
-    """Report missing noise, and figures that are off: information where no device is known.
+    """Report missing noise and wrong figures; information if no device is known.
 
     Options:
         tolerance: Share by which range resolution and noise may differ from the device's own
             figures, else from SubT's 0.01 m.
-        grave: Multiple of the expected figure; what is above it is a warning even where no
-            datasheet confirms what is expected.
+        grave: Multiple of the expected figure; a figure above it is a warning even if no datasheet
+            confirms the expected one.
     """
     if context.profile != _PROFILE:
         return
@@ -69,7 +69,7 @@ def check(
 
 
 def _expected(device: Device | None, figure: str) -> list[float]:
-    """Return what a device's own figure may be, else the standard."""
+    """Return the accepted figures of a device, else the standard."""
     values = device.values if device is not None else {}
     expected = [float(values.get(figure, table("subt_standards")["lidar"][figure]))]
     own = values.get("seed_defaults", {}).get(figure)

@@ -1,10 +1,10 @@
-"""A lidar with other rows, vertical field of view, range or rate than its device has.
+"""A lidar's rows, vertical field of view, range or rate differ from its device.
 
-Who reads "VLP-16" in the sheet counts on 16 rows over 30 degrees and 100 m. Rates that a device
-does not know, such as 15 Hz of an Ouster, give points that the real one cannot give.
-What "Diversions from Physical Hardware" says of a lidar and a figure is not reported again.
-Where nothing names the device, a range that no lidar of this shape has is information, and so are
-figures that nobody compared with a datasheet.
+Readers of "VLP-16" in the specification sheet expect 16 rows over 30 degrees and 100 m. With a rate
+that the device does not have, such as 15 Hz for an Ouster, the model publishes points that the real
+device cannot. A figure of a lidar that "Diversions from Physical Hardware" mentions is not
+reported. If nothing names the device, a range that no lidar of this shape has is information. A
+figure that was never compared with a datasheet is also information.
 
 Fix: write the figures of the datasheet, or describe the difference under "Diversions from Physical
 Hardware" in specifications.md.
@@ -30,11 +30,11 @@ _SPOKEN_OF = {
     "range_min": r"\branges?\b|\bdistances?\b|\bnear\b|\bblind",
     "rates": r"\brates?\b|\bhz\b|\bfrequenc",
 }
-"""What "Diversions" would say of a figure."""
+"""Words with which "Diversions" mentions a figure."""
 
 
 class _Difference(Record, eq=False):
-    """A figure that is off: where it stands, which one, what is said, what was expected."""
+    """A wrong figure: its place, its kind, the stated and the expected value."""
 
     where: HasSpan
     figure: str
@@ -52,13 +52,13 @@ def check(
     angle: float = 1.0,
     near: float = 0.02,
 ) -> Findings:
-    """Report figures that differ from the datasheet's.
+    """Report figures that differ from those of the datasheet.
 
     Options:
         tolerance: Share by which the greatest range and the rate may differ from the datasheet's.
-        angle: Degrees by which the lowest and the highest row may differ from the datasheet's, also
-            to find lidars of the same shape.
-        near: Metres by which the least range may differ from the datasheet's.
+        angle: Degrees by which the lowest and the highest row may differ from the datasheet's; also
+            used to find lidars of the same shape.
+        near: Metres by which the minimum range may differ from the datasheet's.
     """
     for sensor in robot.sensors:
         lidar = sensor.lidar
@@ -112,16 +112,18 @@ def _ranges(
     farthest = _known_values(named, "range_max")
     value = lidar.range_max
     if value.stated and not _near(value.value, farthest, tolerance):
-        yield _Difference(value, "range_max", f"reaches {value.value:g} m", f"{either(farthest)} m")
+        yield _Difference(
+            value, "range_max", f"has a maximum range of {value.value:g} m", f"{either(farthest)} m"
+        )
     nearest = _known_values(named, "range_min")
     value = lidar.range_min
     if value.stated and nearest and min(abs(value.value - each) for each in nearest) > near:
-        said = f"measures from {value.value:g} m on"
+        said = f"has a minimum range of {value.value:g} m"
         yield _Difference(value, "range_min", said, f"{either(nearest)} m")
 
 
 def _known_values(named: SensorDevice, figure: str) -> list[float]:
-    """Return the figure of the datasheet, and what is accepted in its place."""
+    """Return the figure of the datasheet, and accepted alternatives."""
     values = named.device.values
     if figure not in values:
         return []
@@ -141,7 +143,7 @@ def _rate(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Differe
 
 
 def _near(value: float, expected: Sequence[float], tolerance: float) -> bool:
-    """Whether a value is near one of those expected; any is where nothing is known."""
+    """Whether a value is close to an expected one; always, if none is known."""
     return not expected or any(abs(value - each) <= tolerance * each for each in expected)
 
 
@@ -153,22 +155,22 @@ def _finding(sensor: Sensor, named: SensorDevice, difference: _Difference) -> Fi
         f"expected {difference.expected} ({device.name})",
         severity=Severity.INFO if device.is_from_memory(difference.figure) else None,
         key=f"{device.id} {difference.said}",
-        related=[(named.said, "says which device it is")],
+        related=[(named.said, "names the device")],
     )
 
 
 def _by_shape(
     sensor: Sensor, lidar: Lidar, known: KnownDevices, tolerance: float, angle: float
 ) -> Iterator[Finding]:
-    """Compare the range of a lidar that nothing names with that of devices of its shape."""
+    """Compare the range of a lidar without a named device with that of devices of its shape."""
     alike = [each for each in devices_of_shape(lidar, known, angle) if "range_max" in each.values]
     ranges = sorted({float(each.values["range_max"]) for each in alike})
     reach = lidar.range_max
     if reach.stated and not _near(reach.value, ranges, tolerance):
         yield finding(
             reach,
-            f"lidar {sensor.name.value!r} has the rows of a {alike[0].name} and reaches "
-            f"{reach.value:g} m: lidars of this shape reach {either(ranges)} m",
+            f"lidar {sensor.name.value!r} has the rows of a {alike[0].name} and a maximum range "
+            f"of {reach.value:g} m, expected, as for lidars of this shape, {either(ranges)} m",
             severity=Severity.INFO,
             key=f"shape {reach.value:g}",
         )

@@ -1,13 +1,13 @@
 """A camera without intrinsics.
 
-Gazebo Dome fills `camera_info` from `<lens><intrinsics>` alone. Without them it publishes
-SDFormat's defaults (fx = fy = 277, cx = 160, cy = 120), which fit a picture of 320 × 240 pixels and
-60°: with any other, whatever is projected into the picture or out of it is in the wrong place.
+Gazebo Dome fills `camera_info` from `<lens><intrinsics>` only. Without them it publishes SDFormat's
+defaults (fx = fy = 277, cx = 160, cy = 120), which fit an image of 320 × 240 pixels and 60°. With
+any other image, whatever is projected into or out of it is in the wrong place.
 
 Fix: add `<lens><intrinsics>` with fx = fy = width / (2·tan(horizontal_fov / 2)),
 cx = (width - 1) / 2 and cy = (height - 1) / 2.
 Source: SubT maintainers ask for the intrinsics of cameras in their reviews; SDFormat specification,
-camera/lens/intrinsics. That later releases work them out is from memory of gz-sensors.
+camera/lens/intrinsics. From memory of gz-sensors, later releases compute them.
 """
 
 from checker.finding import Fix
@@ -28,17 +28,17 @@ def check(
     centre_tolerance: float = 1.0,
     releases: tuple[str, ...] = ("dome",),
 ) -> Findings:
-    """Report cameras without intrinsics, on releases that do not work them out.
+    """Report cameras without intrinsics, on releases that do not compute them.
 
-    Cameras that the defaults fit, in focal length and centre, are left out.
+    Cameras whose focal length and centre fit the defaults are skipped.
 
     Options:
-        tolerance: Share by which the default focal length, 277 px, may differ from the picture's
+        tolerance: Share by which the default focal length, 277 px, may differ from the image's
             before it is reported.
-        centre_tolerance: Pixels by which the default centre, 160 and 120 px, may be off the
-            picture's before it is reported.
-        releases: Names of Gazebo releases, in lower case, on which cameras need intrinsics; on all
-            others nothing is reported.
+        centre_tolerance: Pixels by which the default centre, 160 and 120 px, may differ from the
+            image's before it is reported.
+        releases: Names of Gazebo releases, in lower case, on which cameras need intrinsics; on
+            other releases nothing is reported.
     """
     if context.release not in releases:
         return
@@ -60,7 +60,7 @@ def check(
 
 
 def _is_plain(sensor: Sensor) -> bool:
-    """Say whether a sensor pictures the world as a pinhole does."""
+    """Whether a sensor projects the world like a pinhole camera."""
     return sensor.kind.takes_pictures and sensor.kind is not SensorType.WIDE_ANGLE_CAMERA
 
 

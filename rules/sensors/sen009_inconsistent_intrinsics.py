@@ -1,14 +1,14 @@
-"""Intrinsics that disagree with the picture.
+"""Intrinsics that do not match the image.
 
-The picture is rendered from width, height and `horizontal_fov`, and `camera_info` is published from
-`<intrinsics>`: where they disagree, all that is measured in the picture is wrong. On later
-releases the intrinsics shape the picture, and it does not show the field of view that is stated.
-Intrinsics copied from a camera of another resolution are the usual cause. Those of a calibrated
-camera, whose centre is no half pixel, are only mentioned while their focal length is right.
+Gazebo renders the image from width, height and `horizontal_fov`, and publishes `camera_info` from
+`<intrinsics>`. If they disagree, every measurement in the image is wrong. On later releases the
+intrinsics define the image, and it does not show the stated field of view. The usual cause is
+intrinsics copied from a camera of another resolution. For a calibrated camera, whose centre is not
+at half the size, this is information while the focal length is right.
 
 Fix: write fx = fy = width / (2·tan(horizontal_fov / 2)), cx = (width - 1) / 2,
 cy = (height - 1) / 2 and s = 0, or correct `horizontal_fov`.
-Source: projection of a pinhole camera; SubT review findings of wrong focal lengths. How releases
+Source: projection of a pinhole camera; SubT review findings about wrong focal lengths. How releases
 use the intrinsics is from memory of gz-sensors.
 """
 
@@ -26,7 +26,7 @@ from checker.source.xml_insertion import append_to
 
 
 class _Wrong(NamedTuple):
-    """A figure that is not as the picture has it; `tag` is its element."""
+    """A figure that does not match the image; `tag` is its element."""
 
     tag: str
     value: Located[float]
@@ -35,13 +35,13 @@ class _Wrong(NamedTuple):
 
 @rule("SEN009", "inconsistent-intrinsics", Severity.WARNING)
 def check(robot: Robot, *, tolerance: float = 0.01, centre_tolerance: float = 1.0) -> Findings:
-    """Compare intrinsics with the picture.
+    """Compare intrinsics with the image.
 
     Options:
         tolerance: Share by which the focal lengths `<fx>` and `<fy>` may differ from those of the
-            picture.
-        centre_tolerance: Pixels by which `<cx>` and `<cy>` may be off half the picture's width and
-            height.
+            image.
+        centre_tolerance: Pixels by which `<cx>` and `<cy>` may differ from half the image's width
+            and height.
     """
     for sensor in robot.sensors:
         camera = sensor.camera
@@ -60,8 +60,8 @@ def check(robot: Robot, *, tolerance: float = 0.01, centre_tolerance: float = 1.
         calibrated = given.are_measured and not lengths
         yield finding(
             given,
-            f"camera {sensor.name.value!r} has the intrinsics {said}; a picture of "
-            f"{camera.width.value:g} × {camera.height.value:g} px that spans "
+            f"camera {sensor.name.value!r} has the intrinsics {said}, but an image of "
+            f"{camera.width.value:g} × {camera.height.value:g} px with a field of view of "
             f"{camera.horizontal_fov.value:g} rad has {expected} px",
             severity=Severity.INFO if calibrated else None,
             key="calibrated" if calibrated else f"{said}; {expected}",
@@ -76,7 +76,7 @@ def _wrong_lengths(given: Intrinsics, picture: Pinhole, tolerance: float) -> Ite
 
 
 def _wrong_centre(given: Intrinsics, picture: Pinhole, tolerance: float) -> Iterator[_Wrong]:
-    """Yield what is off the middle; it is given with and without half a pixel, from 0 or from 1."""
+    """Yield wrong centres; a centre may include half a pixel and count from 0 or 1."""
     for tag, value, expected in (("cx", given.cx, picture.cx), ("cy", given.cy, picture.cy)):
         if not abs(value.value - (expected + 0.5)) <= tolerance:
             yield _Wrong(tag, value, expected)

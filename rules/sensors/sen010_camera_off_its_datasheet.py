@@ -1,16 +1,15 @@
-"""A camera that is set to what its device cannot do.
+"""A camera whose settings its device does not have.
 
-Teams plan with the camera that the sheet names. More pixels, a higher rate or a wider view than it
-has make the robot better than the real one, and fewer pixels make it worse; both are asked about.
-Colour pictures with depth have at most 640 × 480 pixels in the SubT challenge, so that the
-simulation keeps pace.
+Teams plan with the camera in the specification sheet. More pixels, a higher rate or a wider view
+make the simulated robot better than the real one, and fewer pixels make it worse; reviewers ask
+about both. In the SubT challenge, images with depth have at most 640 × 480 pixels, so that the
+simulation keeps up.
 
-Fix: set size, rate and horizontal_fov as the datasheet of the device gives them, or name the device
-that is modelled in specifications.md.
-Source: figures of `devices.json`, each with its source; those from memory, and differences of which
-the sheet speaks under diversions, give information only. A device of a family is compared when the
-sheet names its model. SubT review findings for 640 × 480
-and 640 × 360.
+Fix: set size, rate and horizontal_fov to the figures of the device's datasheet, or name the
+modelled device in specifications.md.
+Source: `devices.json`, which names the source of each figure. Figures from memory, and differences
+that the sheet mentions under diversions, are information. A device of a family is compared if the
+sheet names its model. SubT review findings for 640 × 480 and 640 × 360.
 """
 
 import math
@@ -30,9 +29,9 @@ _VIEW = r"\bh?fov\b|field of view|\blens"
 
 
 class _Gap(NamedTuple):
-    """What a camera has and its device has not.
+    """A setting of a camera that its device does not have.
 
-    `field` is the device's figure that says so, `words` an expression for how people call it.
+    `field` is the device's figure, `words` an expression for the words that name it.
     """
 
     where: HasSpan
@@ -52,15 +51,15 @@ def check(
     rate_tolerance: float = 0.01,
     view_tolerance: float = 0.02,
 ) -> Findings:
-    """Compare cameras with their devices, and the size of RGBD cameras with that of SubT.
+    """Compare cameras with their devices, and the size of RGBD cameras with SubT's.
 
     Options:
-        rgbd_pixels: Pixels, width times height, that a picture of an RGBD camera may have in the
-            SubT profile.
-        rate_tolerance: Share by which the rate may exceed the device's highest; lower rates are
-            never reported.
-        view_tolerance: Share by which `<horizontal_fov>` may differ from the device's, to either
-            side.
+        rgbd_pixels: Greatest number of pixels, width times height, of an RGBD camera in the SubT
+            profile.
+        rate_tolerance: Share by which the rate may exceed the device's highest rate; lower rates
+            are never reported.
+        view_tolerance: Share by which `<horizontal_fov>` may differ from the device's, in both
+            directions.
     """
     for sensor in robot.sensors:
         camera = sensor.camera
@@ -92,7 +91,7 @@ def _said(sensor: Sensor, known: SensorDevice, gap: _Gap, explained: bool) -> Fi
     slight = explained or device.is_from_memory(gap.field)
     return finding(
         gap.where,
-        f"camera {sensor.name.value!r} has {gap.has}; {device.name} has {gap.expected}",
+        f"camera {sensor.name.value!r} has {gap.has}, but {device.name} has {gap.expected}",
         severity=Severity.INFO if slight else None,
         key=f"{device.id} {gap.has}",
         related=[(known.said, "names the device")],
@@ -104,7 +103,7 @@ def _size(camera: Camera) -> str:
 
 
 def _size_gap(camera: Camera, device: Device) -> Iterator[_Gap]:
-    """Yield the size if it is none of the device's; a camera may stand on its side."""
+    """Yield the size if the device does not have it; a camera may be mounted on its side."""
     sizes = [tuple(size) for size in device.values.get("image_sizes", ())]
     given = (camera.width.value, camera.height.value)
     if sizes and given not in sizes and given[::-1] not in sizes:
@@ -113,7 +112,7 @@ def _size_gap(camera: Camera, device: Device) -> Iterator[_Gap]:
 
 
 def _rate_gap(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Gap]:
-    """Yield the rate if it is above all of the device's; slower ones spare the simulation."""
+    """Yield the rate if it is above all rates of the device; slower ones save time."""
     values, rate = device.values, sensor.update_rate
     field = "rate_max" if "rate_max" in values else "rates"
     rates = [*values.get("rates", ()), *([values["rate_max"]] if "rate_max" in values else ())]
@@ -122,7 +121,7 @@ def _rate_gap(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Gap
 
 
 def _view_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap]:
-    """Yield the view if it is none of the device's; a fisheye lens cannot be modelled."""
+    """Yield the field of view if the device does not have it, unless the lens is a fisheye."""
     values, view = device.values, camera.horizontal_fov
     degrees = dict(values.get("hfov_deg_by_size", {}))
     angles = [math.radians(each) for each in degrees.values()]
@@ -137,7 +136,7 @@ def _view_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap
     if not any(math.isclose(view.value, each, rel_tol=tolerance) for each in accepted):
         expected = " or ".join(dict.fromkeys(f"{each:.4g}" for each in sorted(angles)))
         said = f"a horizontal_fov of {view.value:.4g} rad"
-        said = said if view.stated else f"no <horizontal_fov>, which means {view.value:.4g} rad"
+        said = said if view.stated else f"no <horizontal_fov> (default {view.value:.4g} rad)"
         yield _Gap(view, fields[0], _VIEW, said, f"{expected} rad")
 
 

@@ -1,10 +1,11 @@
-"""A camera that sees up to where it should not, or nothing at all.
+"""A camera that sees too far, or nothing.
 
-Between `<near>` and `<far>` lies all that a camera sees: where near is not below far, nothing is
-rendered. In the SubT challenge RGBD cameras measure up to 10 m and thermal cameras see up to
-100 m; a copied 300 m gives a robot eyes that no device has.
+A camera sees only what is between `<near>` and `<far>`: if near is not below far, nothing is
+rendered. In the SubT challenge RGBD cameras measure up to 10 m and thermal cameras see up to 100 m;
+with a copied 300 m the robot sees farther than any device.
 
-Fix: write near below far; `<depth_camera><clip><far>10` for depth, `<clip><far>100` for heat.
+Fix: write near below far; `<depth_camera><clip><far>10` for depth, `<clip><far>100` for thermal
+cameras.
 Source: SDFormat specification, camera/clip; SubT review findings (`subt_standards.json`: rgbd,
 thermal).
 """
@@ -22,13 +23,13 @@ from checker.rule import Context, Finding, Findings, Severity, finding, rule
 def check(
     robot: Robot, context: Context, *, depth_far: float = 10.0, thermal_far: float = 100.0
 ) -> Findings:
-    """Report empty ranges, and in SubT those of RGBD and thermal cameras that reach too far.
+    """Report empty ranges, and in SubT ranges of RGBD and thermal cameras that are too large.
 
     Options:
-        depth_far: Metres up to which an RGBD camera may measure depth in the SubT profile; beyond
-            is reported.
-        thermal_far: Metres up to which a thermal camera may see in the SubT profile; beyond is
-            reported.
+        depth_far: Greatest distance, metres, at which an RGBD camera may measure depth in the SubT
+            profile; more is reported.
+        thermal_far: Greatest distance, metres, at which a thermal camera may see in the SubT
+            profile; more is reported.
     """
     farthest = {SensorType.RGBD_CAMERA: depth_far, SensorType.THERMAL_CAMERA: thermal_far}
     for sensor in robot.sensors:
@@ -49,8 +50,8 @@ def _empty(sensor: Sensor, camera: Camera) -> Iterator[Finding]:
             continue
         yield finding(
             near if near.stated else far,
-            f"camera {sensor.name.value!r} {what} from {near.value:g} m to {far.value:g} m, which "
-            "is nothing; expected near below far",
+            f"camera {sensor.name.value!r} {what} from {near.value:g} m to {far.value:g} m, an "
+            "empty range; expected near below far",
             severity=Severity.ERROR,
         )
         return
@@ -65,9 +66,9 @@ def _too_far(sensor: Sensor, camera: Camera, limit: float) -> Iterator[Finding]:
     shared = depth and far is camera.clip.far
     yield finding(
         far,
-        f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} "
-        f"{'measures' if depth else 'sees'} up to {far.value:g} m; the SubT standard is "
-        f"{limit:g} m in {tag}{', which is not given' if shared else ''}",
+        f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} {'measures' if depth else 'sees'} "
+        f"up to {far.value:g} m; the SubT standard is {limit:g} m in "
+        f"{tag}{', which is missing' if shared else ''}",
         key=f"{sensor.kind} {far.value:g}",
     )
 

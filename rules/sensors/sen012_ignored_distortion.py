@@ -1,11 +1,11 @@
 """Lens distortion that the simulator does not show.
 
-Gazebo Dome renders an undistorted picture whatever `<distortion>` says, and still publishes the
-coefficients in `camera_info`: whoever rectifies the picture distorts it.
+Gazebo Dome renders an undistorted image whatever `<distortion>` says, but still publishes the
+coefficients in `camera_info`: a program that rectifies the image distorts it.
 
-Fix: write 0 for all coefficients, or take `<distortion>` out.
-Source: SubT review findings of distortion that "is not supported". That later releases render it
-is from memory of gz-sensors.
+Fix: write 0 for all coefficients, or remove `<distortion>`.
+Source: SubT review findings about distortion that "is not supported". From memory of gz-sensors,
+later releases render it.
 """
 
 from checker.model.robot import Robot
@@ -14,11 +14,11 @@ from checker.rule import Context, Findings, Severity, finding, rule
 
 @rule("SEN012", "ignored-distortion", Severity.WARNING)
 def check(robot: Robot, context: Context, *, releases: tuple[str, ...] = ("dome",)) -> Findings:
-    """Report coefficients other than 0 on releases that ignore them.
+    """Report coefficients that are not 0 on releases that ignore them.
 
     Options:
-        releases: Names of Gazebo releases, in lower case, that do not render distortion; on all
-            others nothing is reported.
+        releases: Names of Gazebo releases, in lower case, that do not render distortion; on other
+            releases nothing is reported.
     """
     if context.release not in releases:
         return
@@ -31,7 +31,7 @@ def check(robot: Robot, context: Context, *, releases: tuple[str, ...] = ("dome"
             yield finding(
                 next(iter(bent.values())),
                 f"camera {sensor.name.value!r} has distortion {said}, which Gazebo "
-                f"{context.release.capitalize()} publishes and does not render; expected 0",
+                f"{context.release.capitalize()} publishes but does not render; expected 0",
                 key="distortion",
             )
 

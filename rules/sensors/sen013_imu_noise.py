@@ -1,12 +1,12 @@
-"""An IMU whose noise is not that of the SubT standard.
+"""An IMU whose noise differs from the SubT standard.
 
-An IMU without noise measures better than any device, and where a robot is can be worked out from
-it for a whole run. So that no team gains by its datasheet, all robots of the SubT challenge carry
-the same noise on each axis.
+An IMU without noise measures better than any device, and can track the robot's place for a whole
+run. All robots of the SubT challenge have the same noise on each axis, so that no team profits from
+its datasheet.
 
-Fix: copy the figures that the message names into `<angular_velocity>` and `<linear_acceleration>`,
-for x, y and z.
-Source: SubT maintainers set one noise model for all IMUs (`subt_standards.json`, imu).
+Fix: copy the figures of the message into `<angular_velocity>` and `<linear_acceleration>`, for x, y
+and z.
+Source: SubT maintainers require one noise model for all IMUs (`subt_standards.json`, imu).
 """
 
 import math
@@ -45,7 +45,7 @@ def check(robot: Robot, *, tolerance: float = 0.01) -> Findings:
         if imu is None or not imu.noises:
             yield finding(
                 sensor if imu is None else imu,
-                f"IMU {sensor.name.value!r} has no noise; expected that of the SubT standard: "
+                f"IMU {sensor.name.value!r} has no noise; expected the SubT standard: "
                 + ", ".join(
                     f"{q} stddev {standards[q]['stddev']:g} {_UNITS[q]}" for q in QUANTITIES
                 ),
@@ -65,7 +65,7 @@ def _standard(quantity: str) -> _Figures:
 def _differing(
     sensor: Sensor, imu: Imu, quantity: str, standard: _Figures, tolerance: float
 ) -> Iterator[Finding]:
-    """Yield what differs axis by axis; axes of which the same is to say are one fault."""
+    """Yield the differences; axes with the same difference are one finding."""
     said: dict[str, str] = {}
     for axis in "xyz":
         noise = imu.noises.get((quantity, axis))
@@ -85,9 +85,9 @@ def _differing(
 
 
 def _said(noise: Noise | None, standard: _Figures, tolerance: float) -> str:
-    """Say how noise differs from the standard; empty when it does not."""
+    """Return how noise differs from the standard; empty if it does not."""
     if noise is None:
-        return "no noise, expected that of the SubT standard"
+        return "no noise, expected the SubT standard"
     if noise.type.value not in _GAUSSIAN:
         return f"noise of type {noise.type.value!r}, expected 'gaussian'"
     given, wrong = noise.figures, _wrong(noise, standard, tolerance)
@@ -115,7 +115,7 @@ def _figures_fix(noise: Noise, standard: _Figures, tolerance: float) -> Fix:
 
 
 def _whole(imu: Imu | None, standards: Mapping[str, _Figures]) -> Fix | None:
-    """Return the fix that writes all noise; none where parts of it stand there already."""
+    """Return the fix that writes all noise; none if the file already has parts of it."""
     if imu is None or any(imu.element.child(quantity) for quantity in standards):
         return None
     lines: list[str] = []

@@ -1,10 +1,10 @@
-"""An IMU that gives away its true orientation.
+"""An IMU that publishes its true orientation.
 
-Unless `<imu><enable_orientation>` is 0, the message carries the orientation of the robot in the
-world without any error: ground truth, which no team may have.
+Unless `<imu><enable_orientation>` is 0, the message contains the orientation of the robot in the
+world without any error. This is ground truth, which no team may use.
 
-Fix: write `<enable_orientation>0</enable_orientation>` into `<imu>`; below `<sensor>` nothing reads
-it.
+Fix: write `<enable_orientation>0</enable_orientation>` into `<imu>`; Gazebo does not read it
+directly below `<sensor>`.
 Source: SubT maintainers add it to every model; SDFormat specification, imu/enable_orientation.
 """
 
@@ -29,8 +29,8 @@ def check(robot: Robot) -> Findings:
             continue
         yield finding(
             imu.enable_orientation if imu is not None else sensor,
-            f"IMU {sensor.name.value!r} gives its true orientation{_why(sensor)}; "
-            "expected <enable_orientation>0 in <imu>",
+            f"IMU {sensor.name.value!r} publishes its true orientation{_why(sensor)}; expected "
+            "<enable_orientation>0 in <imu>",
             key="orientation",
             fix=_fix(sensor),
         )

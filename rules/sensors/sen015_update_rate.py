@@ -1,9 +1,9 @@
 """A sensor without a sensible update rate.
 
-Without `<update_rate>`, and at 0, a sensor measures at every step of the simulation, a thousand
-times a second: a camera or lidar slows everything down, and no device is that fast. A negative
-rate means nothing.
-In the SubT challenge most IMUs give 50 measurements a second; other rates are worth knowing.
+Without `<update_rate>`, or with 0, a sensor measures at every simulation step, a thousand times per
+second. A camera or lidar then slows everything down, and no device is that fast. A negative rate
+has no meaning. Most IMUs in the SubT challenge measure 50 times per second; another rate is
+information.
 
 Fix: write the rate of the device, in hertz.
 Source: SDFormat specification, sensor/update_rate; SubT model reviews; the robots of the challenge.
@@ -15,7 +15,7 @@ from checker.model.sensing.kind import SensorType
 from checker.rule import Context, Findings, Severity, finding, rule
 
 EXEMPT = (SensorType.CONTACT, SensorType.OTHER)
-"""What happens when it happens, and what SEN001 speaks of."""
+"""Sensors that measure on events, and those that SEN001 reports."""
 
 
 @rule("SEN015", "update-rate", Severity.WARNING)
@@ -23,8 +23,8 @@ def check(robot: Robot, context: Context, *, imu_rate: float = 50.0) -> Findings
     """Report rates that are missing, 0 or negative; in SubT also IMUs with an unusual one.
 
     Options:
-        imu_rate: Hertz at which IMUs usually measure in the SubT profile; any other rate is given
-            as information.
+        imu_rate: Hertz at which IMUs usually measure in the SubT profile; any other rate is
+            information.
     """
     for sensor in robot.sensors:
         if sensor.kind in EXEMPT:
@@ -39,8 +39,8 @@ def check(robot: Robot, context: Context, *, imu_rate: float = 50.0) -> Findings
         elif sensor.kind is SensorType.IMU and context.profile == "subt" and rate.value != imu_rate:
             yield finding(
                 rate,
-                f"{_name(sensor)} measures at {rate.value:g} Hz; most of the SubT challenge "
-                f"measure at {imu_rate:g} Hz",
+                f"{_name(sensor)} measures at {rate.value:g} Hz, but most IMUs of the SubT "
+                f"challenge measure at {imu_rate:g} Hz",
                 severity=Severity.INFO,
             )
 

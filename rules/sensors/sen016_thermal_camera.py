@@ -1,13 +1,13 @@
-"""A thermal camera that is not set up as SubT's are.
+"""A thermal camera with other settings than the SubT standard.
 
-Only the system ThermalSensor, inside `<sensor>`, gives a thermal camera its 8-bit picture and its
-range of temperatures. Without it, or with other figures, the same pixel means another temperature
-than what teams and their detectors count on.
+Only the system ThermalSensor, inside `<sensor>`, gives a thermal camera its 8-bit image and its
+temperature range. Without it, or with other settings, a pixel value means another temperature than
+teams and their detectors expect.
 
 Fix: write `<format>L8` and, inside `<sensor>`, the plugin `ignition-gazebo-thermal-sensor-system`
 with min_temp 253.15, max_temp 673.15 and resolution 1.6.
-Source: SubT review findings (`subt_standards.json`, thermal). How far it sees is SEN011, its
-pixels SEN010.
+Source: SubT review findings (`subt_standards.json`, thermal). SEN011 checks the clip distances,
+SEN010 the pixels.
 """
 
 import math
@@ -44,7 +44,7 @@ def check(robot: Robot, context: Context, *, tolerance: float = 0.01) -> Finding
         if plugin is None:
             yield finding(
                 sensor,
-                f"thermal camera {sensor.name.value!r} holds no plugin of class {_CLASS}; expected "
+                f"thermal camera {sensor.name.value!r} has no plugin of class {_CLASS}; expected "
                 f"{standard['plugin_filename']!r}",
                 key="no plugin",
             )

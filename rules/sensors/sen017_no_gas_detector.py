@@ -1,11 +1,11 @@
 """A robot without the gas detector.
 
-Gas is one of the artifacts of the SubT challenge, and every robot smells it: without the plugin a
-robot drives through it and reports nothing.
+Gas is one of the artifacts of the SubT challenge, and every robot detects it: without the plugin a
+robot drives through gas and reports nothing.
 
-Fix: add the plugin `subt::GasDetector` of `libGasEmitterDetectorPlugin.so` to the spawner, with
-topic `/model/<name>/gas_detected`, update_rate 10 and type gas; bridge that topic.
-Source: SubT maintainers had it added to every robot (`subt_standards.json`, gas_sensor).
+Fix: add the plugin `subt::GasDetector` of `libGasEmitterDetectorPlugin.so` to what the spawner
+emits, with topic `/model/<name>/gas_detected`, update_rate 10 and type gas; bridge that topic.
+Source: SubT maintainers ask for it on every robot (`subt_standards.json`, gas_sensor).
 """
 
 from checker.base.resources import table
@@ -22,7 +22,7 @@ _ROBOTS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
 
 @rule("SEN017", "no-gas-detector", Severity.ERROR)
 def check(package: Package, robot: Robot) -> Findings:
-    """Report robots without the gas detector; what others build on may leave it to them."""
+    """Report robots without the gas detector; packages for others to build on need none."""
     standard = table("subt_standards")["gas_sensor"]["plugin"]
     wanted = (standard["name"].rsplit("::", 1)[-1], library_stem(standard["filename"]))
     if package.kind not in _ROBOTS:
@@ -36,8 +36,8 @@ def check(package: Package, robot: Robot) -> Findings:
         return
     yield finding(
         Place(SPAWNER) if package.exists(SPAWNER) else robot,
-        f"robot {robot.name.value!r} has no gas detector; expected the plugin "
-        f"{standard['name']!r} of {standard['filename']!r}",
+        f"robot {robot.name.value!r} has no gas detector; add the plugin {standard['name']!r} of "
+        f"{standard['filename']!r}",
     )
 
 

@@ -1,12 +1,12 @@
 """A sensor far outside the robot that carries it.
 
-It floats beside the robot and sees, or weighs, from a place where nothing is: most often a decimal
-point that slipped (0.82 for 0.082), or a pose in another frame or unit. It goes through walls with
-the robot, and what it measures fits no transform that the team computes from the real robot.
+The sensor floats next to the robot and measures from a place where there is nothing. The usual
+cause is a wrong decimal point (0.82 for 0.082), or a pose in another frame or unit. The sensor
+passes through walls, and its data fits no transform of the real robot.
 
-Fix: write the pose in metres in the frame of the sensor's link, at the device that it stands for.
-Source: SDFormat specification, sensor/pose; in 18 accepted packages they stand within the box
-around the robot's shapes or up to 5 cm outside of it.
+Fix: write the pose in metres in the frame of the sensor's link, at the device that it models.
+Source: SDFormat specification, sensor/pose; in 18 accepted packages all sensors are within the box
+around the robot's shapes or up to 5 cm outside it.
 """
 
 from checker.model.components import Collision, Link, Visual
@@ -19,7 +19,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("SEN018", "sensor-off-the-robot", Severity.WARNING)
 def check(robot: Robot, *, sizes: float = 0.5) -> Findings:
-    """Report sensors far outside of the robot.
+    """Report sensors far outside the robot.
 
     Options:
         sizes: Distance of a sensor from the box around the robot's shapes, as a multiple of that
@@ -40,13 +40,13 @@ def check(robot: Robot, *, sizes: float = 0.5) -> Findings:
     unknown = next((use for use in robot.mesh_uses if use.mesh is None), None)
     if far and unknown is not None:
         # A mesh that is missing will stand there again once its path is mended.
-        yield unchecked(f"how far {unknown.uri.value} reaches is not known")
+        yield unchecked(f"the size of {unknown.uri.value} is not known")
         return
     for each, gap in far:
         yield finding(
             each.sensor.pose,
-            f"sensor {each.sensor.name.value!r} stands {gap:.3g} m outside the robot, whose box "
-            f"is {box.diagonal:.3g} m from corner to corner; expected at or in the robot",
+            f"sensor {each.sensor.name.value!r} is {gap:.3g} m outside the robot, whose box is "
+            f"{box.diagonal:.3g} m from corner to corner; expected at or in the robot",
         )
 
 

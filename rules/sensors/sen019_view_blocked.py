@@ -1,20 +1,19 @@
-"""A camera or lidar that looks into its own robot.
+"""The robot blocks the view of its own camera or lidar.
 
-What a sensor sees of its own robot is lost for what it is there for: a camera that stands inside
-its housing shows plastic, a lidar behind a mast reports the mast all around, and maps and obstacle
-detection take it for a wall that goes along. Where a visual is nearer than the near clip, pictures
-show it cut open.
+A sensor cannot see past its own robot. A camera inside its housing shows plastic, and a lidar
+behind a mast reports the mast all the time. Mapping and obstacle detection treat this as a wall
+that moves along. A visual that is nearer than the near clip looks cut open in the image.
 
-Rays are cast over the view at the robot's visuals, boxes and meshes alike, with all joints where
-they start. Simulators draw only the outer side of a surface, beyond the near clip or the least
-range; so a sensor within its own closed housing sees through it. Parts that one can see through do
-not count.
+The rule casts rays over the view at the robot's visuals, both boxes and meshes, with all joints in
+their initial position. Simulators draw only the outer side of a surface, beyond the near clip or
+the minimum range, so a sensor in its own closed housing sees through it. Transparent parts do not
+count.
 
-Fix: move the sensor to the front of its housing, as the real lens is, or the visual out of its way;
-for a lidar raise `<range><min>` over the radius of its own housing.
-Source: SubT review findings (a RealSense whose pose was that of its frame, inside its visual).
-In 18 accepted packages the robot fills up to 42 % of a camera's view, up to 10 % within 10 cm, and
-up to 29 % of a lidar's; the shares allowed here are set above that.
+Fix: move the sensor to the front of its housing, where the real lens is, or move the visual away;
+for a lidar increase `<range><min>` above the radius of its own housing.
+Source: SubT review findings (a RealSense whose pose was that of its frame, inside its visual). In
+18 accepted packages the robot fills up to 42 % of a camera's view, up to 10 % within 10 cm, and up
+to 29 % of a lidar's; the limits here are higher.
 """
 
 from collections.abc import Iterator
@@ -31,15 +30,14 @@ def check(
     most_of_picture: float = 0.5,
     close: float = 0.1,
 ) -> Findings:
-    """Report views of which the robot takes more than a share.
+    """Report views of which the robot fills more than a share.
 
     Options:
-        most: Share of a lidar's rays that may meet the robot, and of a camera's view that it may
-            fill nearer than `close`, or that the near clip may cut open.
-        most_of_picture: Share of a camera's view that the robot may fill at any distance, larger
-            than `most` as it may see itself below; more is reported.
-        close: Metres from a camera; what the robot fills of its view nearer than this counts
-            against `most`.
+        most: Share of a lidar's rays that may hit the robot; also the share of a camera's view that
+            it may fill closer than `close`, or that the near clip may cut open.
+        most_of_picture: Share of a camera's view that the robot may fill at any distance; larger
+            than `most`, because a camera may see the robot below it; more is reported.
+        close: Metres from a camera; parts of the robot nearer than this count for `most`.
     """
     for view in seen.views:
         fault = next(_faults(view, most, most_of_picture, close), None)
@@ -56,21 +54,23 @@ def check(
         yield unchecked(seen.robot.missing_parts)
     if seen.unseen:
         others = len(seen.unseen) - 1
-        more = f", and {others} more that may stand in a view are not known" if others else ""
+        more = f", and {others} more meshes that may be in a view are not known" if others else ""
         yield unchecked(seen.unseen[0] + more)
 
 
 def _faults(view: View, most: float, most_of_picture: float, close: float) -> Iterator[str]:
-    """Say what is wrong with a view, the worst first."""
+    """Return what is wrong with a view, the worst first."""
     if view.mounted.sensor.kind.is_lidar:
         if view.hidden > most:
-            yield _said(view.hidden, "of its rays meet the robot itself", most)
+            yield _said(view.hidden, "of its rays hit the robot itself", most)
         return
     near = view.hidden_within(close)
     if near > most:
         yield _said(near, f"of its view is filled by the robot within {close:g} m", most)
     if view.cut > most:
-        yield _said(view.cut, "of its view goes through what its near clip cuts open", most)
+        yield _said(
+            view.cut, "of its view passes through visuals that its near clip cuts open", most
+        )
     if view.hidden > most_of_picture:
         yield _said(view.hidden, "of its view is filled by the robot itself", most_of_picture)
 

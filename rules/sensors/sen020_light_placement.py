@@ -1,12 +1,12 @@
-"""A light that shines from inside a body, from nowhere, without end, or one of too many.
+"""A light inside a body, without a lamp or without a range, or too many lights.
 
-A light that casts shadows from inside a visual lights up that visual alone: the robot drives in
-the dark. Without shadows it shines through the body, and a light with no lamp at its place comes
-from nowhere; both puzzle whoever looks at the robot, and most are poses with a wrong sign or frame.
-Where the file states no range, a lamp ends at 10 m. Every light is worked out for every pixel of
-every camera, so a team of robots with many lights slows the whole run.
+A light with shadows inside a visual lights up only that visual: the robot drives in the dark. A
+light without shadows shines through the body, and a light without a lamp comes from nowhere. Both
+are confusing, and usually come from a pose with a wrong sign or frame. Without a stated range, a
+lamp ends at 10 m. Gazebo computes every light for every pixel of every camera, so a team of robots
+with many lights slows down the whole run.
 
-Fix: put the light just in front of its lamp's visual, state `<attenuation><range>`, and keep to
+Fix: put the light just in front of its lamp's visual, state `<attenuation><range>`, and use at most
 six lights.
 Source: SDFormat specification, light (attenuation/range: 10 by default); the robots of 18
 accepted packages have up to six lights, each within 8 cm of a visual.
@@ -25,7 +25,7 @@ from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 
 _PLACED = 60
-"""After so many lights no more are placed: that there are too many is found."""
+"""Greatest number of lights whose places are checked; more are reported as too many."""
 
 
 @rule("SEN020", "light-placement", Severity.WARNING)
@@ -37,16 +37,16 @@ def check(
     deepest: float = 0.05,
     deepest_with_shadows: float = 0.01,
 ) -> Findings:
-    """Count the lights, and compare their distance to visuals and depth in them.
+    """Count the lights, and check their distance to visuals and depth inside them.
 
     Options:
         most: Number of lights that a robot may have; more are reported as too many.
-        nearest: Metres from a light to the box around the nearest visual; a light farther away is
-            reported to have no lamp.
-        deepest: Metres that a light without shadows may lie inside an opaque, convex visual; deeper
-            is reported.
-        deepest_with_shadows: Metres that a light that casts shadows may lie inside an opaque,
-            convex visual; deeper is reported.
+        nearest: Metres from a light to the box around the nearest visual; a light farther away has
+            no lamp and is reported.
+        deepest: Metres that a light without shadows may be inside an opaque, convex visual; more is
+            reported.
+        deepest_with_shadows: Metres that a light with shadows may be inside an opaque, convex
+            visual; more is reported.
     """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
@@ -57,7 +57,7 @@ def check(
     if len(lights) > most:
         yield finding(
             lights[most][1],
-            f"robot has {len(lights)} lights, expected {most} or fewer",
+            f"the robot has {len(lights)} lights, expected {most} or fewer",
             related=[(light, "another light") for _, light in lights[most + 1 :]],
         )
     yield from _without_range(light for _, light in lights)
@@ -82,13 +82,13 @@ def _without_range(lights: Iterator[Light]) -> Iterator[Finding]:
             continue
         yield finding(
             light if attenuation is None else attenuation,
-            f"light {light.name.value!r} states no <attenuation><range>, so that it ends at 10 m",
+            f"light {light.name.value!r} states no <attenuation><range>, so it ends at 10 m",
             key="no range",
         )
 
 
 def _is_inside(robot: Robot, visual: Placed, place: Vector, limit: float) -> bool:
-    """Say whether a point is deeper than a limit in a visual; concave ones do not count."""
+    """Whether a point is deeper than a limit in a visual; concave ones do not count."""
     if visual.box.gap(Box(place, place)) > 0.0 or not is_convex(robot, visual):
         return False
     if isinstance(visual.shape, Visual) and visual.shape.is_see_through:
@@ -106,12 +106,14 @@ def _is_inside(robot: Robot, visual: Placed, place: Vector, limit: float) -> boo
 
 def _inside(light: Light, visual: Placed, limit: float) -> Finding:
     said = (
-        "which keeps its light in, as it casts shadows" if light.casts_shadows else "out of sight"
+        "which blocks its light, because it casts shadows"
+        if light.casts_shadows
+        else "where nobody sees it"
     )
     return finding(
         light,
-        f"light {light.name.value!r} is more than {limit:g} m deep in visual "
-        f"{visual.shape.name.value!r}, {said}; expected in front of its lamp",
+        f"light {light.name.value!r} is more than {limit:g} m inside visual "
+        f"{visual.shape.name.value!r}, {said}; expected it in front of its lamp",
         related=[(visual.shape, "the visual around it")],
     )
 
@@ -126,7 +128,7 @@ def _alone(
     unknown = next((use for use in robot.mesh_uses if not use.is_collision and not use.mesh), None)
     if unknown is not None:
         # A mesh that is missing will stand there again once its path is mended.
-        yield unchecked(f"how far {unknown.uri.value} reaches is not known")
+        yield unchecked(f"the size of {unknown.uri.value} is not known")
         return
     away = "the robot has no visual" if gap is None else f"the nearest visual is {gap:.3g} m away"
     yield finding(

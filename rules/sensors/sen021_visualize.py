@@ -1,7 +1,7 @@
-"""A sensor that shows what it measures.
+"""A sensor with `<visualize>` switched on.
 
-`<visualize>` draws the rays or the view of a sensor in the window of whoever looks on. It helps
-while a robot is made; in a run it costs time and hides the scene.
+`<visualize>` draws the rays or the view of a sensor in the simulator's window. It helps during
+modelling; in a run it costs time and hides the scene.
 
 Fix: write `<visualize>0</visualize>`.
 Source: SDFormat specification, sensor/visualize; SubT model reviews (`subt_standards.json`, lidar).

@@ -1,8 +1,8 @@
 """A robot without an IMU.
 
-Every robot of the SubT challenge carries one: what estimates where the robot is starts from it.
+Every robot of the SubT challenge has an IMU: localisation of the robot starts from it.
 
-Fix: add a sensor of type `imu` to the link that carries the robot's, with the noise of the SubT
+Fix: add a sensor of type `imu` to the link that carries the real IMU, with the noise of the SubT
 standard (SEN013).
 Source: SubT model reviews; every accepted robot has an IMU.
 """
@@ -18,13 +18,13 @@ _ROBOTS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
 
 @rule("SEN022", "no-imu", Severity.ERROR)
 def check(package: Package, robot: Robot) -> Findings:
-    """Report robots that no IMU is found on; what others build on may leave it to them."""
+    """Report robots without an IMU; packages for others to build on need none."""
     if package.kind not in _ROBOTS or any(s.kind is SensorType.IMU for s in robot.sensors):
         return
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
-    yield finding(robot, f"robot {robot.name.value!r} has no IMU; expected a sensor of type imu")
+    yield finding(robot, f"robot {robot.name.value!r} has no IMU; add a sensor of type imu")
 
 
 _MODEL = """

@@ -1,11 +1,12 @@
-"""A light that is as dim as Gazebo Classic's lights are meant to be.
+"""A light whose attenuation is for Gazebo Classic, and so is too dim.
 
-Lights are darker in Ignition Gazebo than in Gazebo Classic for the same settings: with an
-attenuation from Classic, the robot's cameras see next to nothing in a mine. What lamps give is
-divided by constant + linear·d + quadratic·d²; Classic's usual 0.5 and more weaken it at the start.
+With the same settings, lights are darker in Ignition Gazebo than in Gazebo Classic: with an
+attenuation for Classic, the robot's cameras see almost nothing in a mine. The brightness is divided
+by constant + linear·d + quadratic·d²; Classic's usual constant of 0.5 and more weakens it from the
+start.
 
 Fix: lower `<constant>` to about 0.1 and `<linear>` to 0, and set `<quadratic>` for the distance at
-which the light is to fade, such as 0.0025.
+which the light fades, such as 0.0025.
 Source: Model Migration Guide of SubT (light brightness is lower in ign-gazebo: adjust the
 parameters under `<attenuation>`); lights of accepted robots are divided by 0.04 to 0.21 at 1 m,
 those that Gazebo Classic makes by 0.51 (general knowledge).
@@ -15,7 +16,7 @@ from checker.model.robot import Robot
 from checker.rule import Context, Findings, Severity, finding, rule
 
 _NOT_DARKER = ("", "classic")
-"""Releases of which that is not said: none in particular, and Gazebo Classic."""
+"""Releases to which this does not apply: no particular release, and Gazebo Classic."""
 
 
 @rule("SEN023", "dim-light", Severity.INFO)
@@ -27,15 +28,15 @@ def check(
     largest_divisor: float = 0.5,
     least_range: float = 5.0,
 ) -> Findings:
-    """Report lights that are weakened as in Gazebo Classic.
+    """Report lights with an attenuation as in Gazebo Classic.
 
     Options:
         distance: Metres from the light at which its divisor, constant + linear·d + quadratic·d², is
-            worked out.
-        largest_divisor: What the light may be divided by at that distance; a greater divisor is
-            reported as dim.
-        least_range: Metres; a light whose `<range>` is less is taken for a signal, not a lamp, and
-            passed over.
+            computed.
+        largest_divisor: Greatest divisor of the light at that distance; a light with a greater one
+            is reported as dim.
+        least_range: Metres; a light with a smaller `<range>` counts as a signal, not a lamp, and is
+            skipped.
     """
     if context.release in _NOT_DARKER:
         return
@@ -51,9 +52,9 @@ def check(
                 continue
             yield finding(
                 attenuation,
-                f"light {light.name.value!r} is divided by {divisor:.3g} at {distance:g} m, as in "
-                f"Gazebo Classic; Ignition Gazebo renders it darker, expected {largest_divisor:g} "
-                "or less",
+                f"the brightness of light {light.name.value!r} is divided by {divisor:.3g} at "
+                f"{distance:g} m, as in Gazebo Classic; Ignition Gazebo renders it darker, "
+                f"expected {largest_divisor:g} or less",
                 key=f"divided by {divisor:.3g}",
             )
 

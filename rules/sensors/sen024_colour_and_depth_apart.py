@@ -1,9 +1,9 @@
-"""A colour camera and a depth camera at one pose.
+"""A colour camera and a depth camera at the same pose.
 
-They stand for one device, such as a RealSense, and are rendered twice: two sensors of Gazebo cost
-twice the time, their pictures are of different moments, and neither gives a coloured point cloud.
-An `rgbd_camera` renders once and gives all three; beside one, a colour camera adds nothing. Where
-their pictures differ in size they may be two devices, and this is information.
+They model one device, such as a RealSense, but Gazebo renders two sensors, which costs twice the
+time. Their images are from different moments, and neither sensor publishes a coloured point cloud.
+An `rgbd_camera` renders once and publishes all three; next to one, a colour camera adds nothing. If
+the images differ in size they may be two devices, and this is information.
 
 Fix: replace both by one sensor of type `rgbd_camera`, and bridge its `image`, `depth_image` and
 `points`.
@@ -19,17 +19,18 @@ from checker.model.sensing.mounting import Mounted, mounted_sensors
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _COMPARED = 100
-"""Cameras of each kind; a robot has ten."""
+"""Greatest number of cameras of each kind; a robot has ten."""
 
 
 @rule("SEN024", "colour-and-depth-apart", Severity.WARNING)
 def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findings:
-    """Report colour and depth cameras that are at one place and look one way.
+    """Report colour and depth cameras with the same place and direction.
 
     Options:
-        distance: Metres between a colour and a depth camera up to which they count as being at one
+        distance: Metres between a colour and a depth camera up to which they count as at the same
             place.
-        angle: Radians between the directions of the two up to which they look one way.
+        angle: Radians between the directions of the two up to which they look in the same
+            direction.
     """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
@@ -48,8 +49,8 @@ def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findi
         yield finding(
             colour.sensor,
             f"camera {colour.sensor.name.value!r} is {1000 * apart:.3g} mm from {kind} "
-            f"{depth.sensor.name.value!r} and looks the same way; expected one rgbd_camera "
-            f"for both{'' if alike else ', unless they are two devices'}",
+            f"{depth.sensor.name.value!r} and looks in the same direction; expected one "
+            f"rgbd_camera for both{'' if alike else ', unless they are two devices'}",
             severity=None if alike else Severity.INFO,
             key="one device" if alike else "two devices",
             related=[(depth.sensor, f"the {kind}")],
@@ -57,7 +58,7 @@ def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findi
 
 
 def _sees_colours(mounted: Mounted) -> bool:
-    """Say whether a sensor is a camera for colours; infrared ones have pictures in grey."""
+    """Whether a sensor is a colour camera; infrared ones have grey images."""
     sensor = mounted.sensor
     if sensor.kind is not SensorType.CAMERA:
         return False
@@ -65,7 +66,7 @@ def _sees_colours(mounted: Mounted) -> bool:
 
 
 def _have_one_size(one: Mounted, other: Mounted) -> bool:
-    """Say whether one sensor could give the pictures of both, as far as sizes tell."""
+    """Whether one sensor could publish the images of both, judged by their sizes."""
     first, second = one.sensor.camera, other.sensor.camera
     if first is None or second is None:
         return True

@@ -1,12 +1,12 @@
 """Cameras and lidars that together render more than a simulation can.
 
-All pixels and rays of all robots are rendered on one graphics card, and the simulation waits for
-it: a robot that asks for hundreds of millions a second slows down the whole team's run.
+One graphics card renders all pixels and rays of all robots, and the simulation waits for it: a
+robot that needs hundreds of millions per second slows down the whole team's run.
 
-Fix: lower the resolution or the rate of the sensors that the report names first; the standard of
-SubT is 640×480 for depth, and 10 to 30 pictures a second.
-Source: the heaviest accepted robot at hand, four cameras of 3 megapixels at 15 Hz, asks for 183
-million pixels a second.
+Fix: reduce the resolution or the rate of the sensors that the report names first; the SubT standard
+is 640×480 for depth, and 10 to 30 images per second.
+Source: the accepted package that we checked with the highest load, four cameras of 3 megapixels at
+15 Hz, needs 183 million pixels per second.
 """
 
 import math
@@ -18,11 +18,11 @@ from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _NAMED = 5
-"""Sensors that the finding points at."""
+"""Greatest number of sensors that the finding lists."""
 
 
 class _Load(Record, eq=False):
-    """What a sensor renders: so many pixels or rays, so often a second."""
+    """The load of a sensor: its pixels or rays, and its rate."""
 
     sensor: Sensor
     amount: float
@@ -36,10 +36,10 @@ class _Load(Record, eq=False):
 
 @rule("SEN025", "render-load", Severity.WARNING)
 def check(robot: Robot, *, most: float = 250e6) -> Findings:
-    """Add up the pixels and rays a second; sensors without a rate do not count.
+    """Add up the pixels and rays per second; sensors without a rate do not count.
 
     Options:
-        most: Pixels and rays a second that all cameras and lidars of a robot may render together;
+        most: Pixels and rays per second that all cameras and lidars of a robot may render together;
             more is reported.
     """
     loads = sorted(_loads(robot), key=lambda load: load.per_second, reverse=True)
@@ -48,8 +48,8 @@ def check(robot: Robot, *, most: float = 250e6) -> Findings:
         heaviest = loads[0]
         yield finding(
             heaviest.sensor,
-            f"cameras and lidars render {total / 1e6:.3g} million pixels and rays a second, "
-            f"{heaviest.per_second / 1e6:.3g} million of them sensor "
+            f"cameras and lidars render {total / 1e6:.3g} million pixels and rays per second, "
+            f"{heaviest.per_second / 1e6:.3g} million of them for sensor "
             f"{heaviest.sensor.name.value!r}; expected {most / 1e6:g} million or fewer",
             key="render load",
             related=[(load.sensor, _words(load)) for load in loads[1:_NAMED]],

@@ -1,10 +1,10 @@
-"""A sensor that looks elsewhere than its name says.
+"""A sensor looks in another direction than its name says.
 
-Whoever drives by `camera_rear` and is shown the front runs into a wall, and a map that is built
-from a turned lidar is turned as well. Most often a yaw is missing, or written in degrees.
+A driver who relies on `camera_rear` but sees the front hits a wall, and a map from a rotated lidar
+is rotated too. Usually a yaw is missing, or is in degrees.
 
-Fix: turn the sensor's pose (a camera looks along its x axis, and the robot's x axis points ahead),
-or give it the name of where it looks.
+Fix: turn the sensor's pose (a camera looks along its x axis, and the robot's x axis points
+forward), or rename it after its direction.
 Source: SDFormat specification, sensor/pose; REP 103 (x forward, y left, z up).
 """
 
@@ -23,15 +23,15 @@ def check(
     largest_angle_tilted: float = 80.0,
     largest_angle_sideways: float = 120.0,
 ) -> Findings:
-    """Compare where sensors look with their names.
+    """Compare the directions of sensors with their names.
 
     Options:
-        largest_angle: Degrees that a sensor may look away from where its name says, where that
-            speaks of front or rear.
-        largest_angle_tilted: Degrees that a sensor may look away from where its name says, where
-            that speaks of up or down and not of front or rear; some are tilted a little.
-        largest_angle_sideways: Degrees that a sensor may look away from where its name says, where
-            that speaks of left or right alone; some look ahead side by side.
+        largest_angle: Degrees that a sensor may look away from the direction in its name, for names
+            with front or rear.
+        largest_angle_tilted: Degrees that a sensor may look away from the direction in its name,
+            for names with up or down and without front or rear; some are slightly tilted.
+        largest_angle_sideways: Degrees that a sensor may look away from the direction in its name,
+            for names with only left or right; some pairs look forward.
     """
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
@@ -50,8 +50,8 @@ def check(
         x, y, z = (round(part, 2) + 0.0 for part in looking)
         yield finding(
             each.sensor,
-            f"sensor {each.sensor.name.value!r} looks {angle:.0f}° away from where "
-            f"{called.word!r} in its {called.source} says, along ({x:g}, {y:g}, {z:g}) of the "
+            f"sensor {each.sensor.name.value!r} looks {angle:.0f}° away from the direction "
+            f"{called.word!r} in its {called.source}: it looks along ({x:g}, {y:g}, {z:g}) in the "
             f"robot's frame; expected {limit:g}° or less",
         )
 

@@ -1,10 +1,10 @@
-"""A picture format that the simulator does not give.
+"""An image format that the simulator does not support.
 
-A camera of Gazebo Dome gives R8G8B8 and nothing else: with another format it complains, and the
-pixels are not what the topic says. A name that SDFormat does not know is no format at all.
+A camera of Gazebo Dome publishes only R8G8B8: with another format it prints an error, and the
+pixels do not match the topic. A name that SDFormat does not know is not a format.
 
-Fix: write `<format>R8G8B8</format>`; where grey is wanted, turn the picture grey on the robot.
-Source: `camera_formats.json`; which formats a release gives is from memory of gz-sensors.
+Fix: write `<format>R8G8B8</format>`; for grey images, convert them on the robot.
+Source: `camera_formats.json`; the formats of each release are from memory of gz-sensors.
 """
 
 from collections.abc import Mapping, Sequence
@@ -20,7 +20,7 @@ _SHOWN = 40
 
 @rule("SEN027", "image-format", Severity.WARNING)
 def check(robot: Robot, context: Context) -> Findings:
-    """Report formats that are unknown, and those of colour cameras that the release lacks."""
+    """Report unknown formats, and formats of colour cameras that the release lacks."""
     formats = table("camera_formats")
     names: Mapping[str, str] = formats["names"]
     rendered = formats["rendered"].get(context.release)
@@ -36,7 +36,7 @@ def check(robot: Robot, context: Context) -> Findings:
             fault = f", which SDFormat does not know{suggestions.hint(given)}"
         elif sensor.kind is SensorType.CAMERA and names[given] not in rendered:
             release = f"Gazebo {context.release.capitalize()}"
-            fault = f"; cameras of {release} give {_listed(rendered, names)}"
+            fault = f"; cameras of {release} support {_listed(rendered, names)}"
         else:
             continue
         said = f"camera {sensor.name.value!r} has format {given[:_SHOWN]!r}{fault}"

@@ -1,10 +1,10 @@
 """A spawner that is not valid Ruby.
 
-The launcher cannot load the file, and the robot cannot be started at all.
+The SubT launcher cannot load the file, so it cannot start the robot.
 
-Fix: close what the message names.
-Source: Ruby's grammar; only errors that cannot be anything else are reported. No accepted package
-at hand shows the fault.
+Fix: correct the code that the message names.
+Source: Ruby's grammar; only errors that cannot be anything else are reported. None of the accepted
+packages that we checked shows this.
 """
 
 from checker.expand.spawner.reader import Spawner

@@ -1,11 +1,12 @@
 """A spawner that cannot be read without running it.
 
-Ruby that is uploaded is never run. A small part of the language is evaluated instead: definitions,
-conditions, loops, texts, numbers, arrays, hashes and YAML files. What lies beyond it is named here,
-and the rules that need what the spawner emits are not checked.
+The checker never runs uploaded Ruby. It evaluates a small part of the language: definitions,
+conditions, loops, strings, numbers, arrays, hashes and YAML files. The message names code outside
+this part; rules that need what the spawner emits are then not checked.
 
-Fix: build the XML from the function's parameters alone, without other programs, files or network.
-Source: the evaluator of this checker. No accepted package at hand goes beyond it.
+Fix: build the XML from the function's parameters only, without other programs, files or network.
+Source: the Ruby evaluator of this checker. None of the accepted packages that we checked goes
+beyond it.
 """
 
 from collections.abc import Iterator
@@ -22,7 +23,7 @@ ARGUMENTS = {"spawner": SPAWNER_ARGUMENTS, "rosExecutables": EXECUTABLES_ARGUMEN
 
 @rule("SPW002", "spawner-not-readable", Severity.INFO)
 def check(spawner: Spawner) -> Findings:
-    """Report what ended the evaluation; errors that Ruby itself raises are warnings."""
+    """Report what stopped the evaluation; errors that Ruby itself raises are warnings."""
     if spawner.syntax_faults:
         return
     for unread in spawner.unread:
@@ -31,13 +32,13 @@ def check(spawner: Spawner) -> Findings:
         raises = unread.reason.startswith("raises ")
         yield finding(
             unread.span,
-            f"the spawner {unread.reason}: what it emits is not known",
+            f"the spawner {unread.reason}, so what it emits is not known",
             severity=Severity.WARNING if raises else None,
         )
 
 
 def _not_to_be_called(spawner: Spawner) -> Iterator[object]:
-    """Yield the results of functions that are missing or take other arguments: SPW003."""
+    """Yield the results of functions, except those that SPW003 reports."""
     for name, result in (("spawner", spawner.spawn), ("rosExecutables", spawner.executables)):
         function = spawner.functions.get(name)
         if spawner.lacks(name) or (function and function.required > len(ARGUMENTS[name])):

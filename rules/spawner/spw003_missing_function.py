@@ -1,11 +1,12 @@
-"""A spawner without the functions or parameters that the launcher calls.
+"""A spawner without a function or parameter that the launcher uses.
 
-The launcher calls `spawner` with 9 and `rosExecutables` with 2 arguments, by position. A function
-that is missing, or that takes fewer, stops the launch; further parameters need defaults.
+The SubT launcher calls `spawner` with 9 and `rosExecutables` with 2 arguments, by position. The
+launch stops if a function is missing or takes fewer; further parameters need defaults.
 
 Fix: define `spawner(_name, _modelURI, _worldName, _x, _y, _z, _roll, _pitch, _yaw)` and
 `rosExecutables(_name, _worldName)`.
-Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
+this.
 """
 
 from collections.abc import Iterator
@@ -39,10 +40,10 @@ def _judge(function: Function, expected: list[str]) -> Iterator[Finding]:
     call = f"the launcher calls {function.name!r} with {given} arguments"
     if takes is not None and takes < given:
         missing = ", ".join(expected[takes:])
-        yield finding(function, f"{call}, it takes {takes}: {missing} is missing")
+        yield finding(function, f"{call}, but it takes {takes}: {missing} is missing")
     elif function.required > given:
         yield finding(
-            function, f"{call}, it wants {function.required}: the last ones need defaults"
+            function, f"{call}, but it requires {function.required}: the last ones need defaults"
         )
 
 

@@ -1,10 +1,10 @@
-"""A spawner that emits broken XML, or text beside the elements.
+"""A spawner that emits broken XML, or text between the elements.
 
-XML that is not well-formed cannot be spawned. Text beside the elements is ignored, and usually the
-rest of an element that lost its tag. A lone quotation mark behind a comment is harmless: many
-spawners carry one along from a template.
+XML that is not well-formed cannot be spawned. Text between the elements is ignored, and is usually
+the rest of an element that lost its tag. A single quotation mark after a comment is harmless: many
+spawners have one from a template.
 
-Fix: mend the tag that the message names, or remove the text.
+Fix: correct the tag that the message names, or remove the text.
 Source: XML specification; SubT spawner templates.
 """
 
@@ -22,7 +22,7 @@ _HARMLESS = frozenset("\"' \t\r\n")
 
 @rule("SPW004", "broken-emitted-xml", Severity.ERROR)
 def check(spawner: Spawner) -> Findings:
-    """Report what the spawner's functions emit and no XML reader accepts."""
+    """Report emitted text that no XML reader accepts."""
     for name, text in (("spawner", spawner.spawn), ("rosExecutables", spawner.executables)):
         if isinstance(text, Unread):
             continue

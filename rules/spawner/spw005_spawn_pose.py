@@ -1,9 +1,9 @@
-"""A spawn pose that does not use what the launcher hands over.
+"""A spawn pose that does not use the launcher's arguments.
 
-The launcher decides where each robot of a team starts. A spawner that leaves out a coordinate puts
-the robot somewhere else, or turned the wrong way, on top of its team mates.
+The SubT launcher decides where each robot of a team starts. A spawner that leaves out a coordinate
+puts the robot in another place, turned the wrong way, or on top of another robot.
 
-No accepted package at hand shows it.
+None of the accepted packages that we checked shows this.
 
 Fix: write `<pose>#{_x} #{_y} #{_z + 0.2} #{_roll} #{_pitch} #{_yaw}</pose>`.
 Source: Model Migration Guide, example spawner.
@@ -32,7 +32,7 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     for spawn in spawned.spawns:
         pose = spawn.child("pose")
         if pose is None:
-            yield finding(spawn, "<spawn> has no <pose>, the robot starts at the origin")
+            yield finding(spawn, "<spawn> has no <pose>, so the robot starts at the origin")
         else:
             yield from _judge(pose, wanted, spawned)
 
@@ -42,7 +42,7 @@ def _judge(pose: Element, wanted: list[str], spawned: SpawnedXml) -> Iterator[Fi
     missing = [name for name in wanted if name not in used]
     if missing:
         yield finding(
-            pose.text_span, f"spawn pose does not use {', '.join(missing)}", key="missing"
+            pose.text_span, f"the spawn pose does not use {', '.join(missing)}", key="missing"
         )
         return
     words = [spawned.parameters_of(word) for word in spawned.words_of(pose.text_span)]
@@ -50,7 +50,8 @@ def _judge(pose: Element, wanted: list[str], spawned: SpawnedXml) -> Iterator[Fi
         if name not in word:
             yield finding(
                 pose.text_span,
-                f"spawn pose has {' and '.join(sorted(word)) or 'a constant'} where {name} belongs",
+                f"the spawn pose has {' and '.join(sorted(word)) or 'a constant'} in the place of "
+                f"{name}",
                 severity=Severity.WARNING,
                 key="order",
             )

@@ -1,10 +1,11 @@
-"""A spawner that writes a name or model down instead of taking what the launcher hands over.
+"""A spawner with a fixed name or model instead of the launcher's arguments.
 
-The launcher chooses the robot's name and where its model lies. With a fixed name two robots of a
-team collide; with a fixed URI another model may be started than the one under test.
+The SubT launcher chooses the robot's name and the place of its model. With a fixed name two robots
+of a team collide; with a fixed URI another model may start than the one under test.
 
-Fix: write `#{_name}` and `#{_modelURI}`; `${_name}` is no Ruby.
-Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+Fix: write `#{_name}` and `#{_modelURI}`; `${_name}` is not Ruby.
+Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
+this.
 """
 
 from collections.abc import Iterator
@@ -53,7 +54,7 @@ def _uris(spawn: Element) -> Iterator[tuple[str, int, Located[str]]]:
 
 
 def _includes(spawn: Element) -> list[Element]:
-    """Return the included models; the first is the robot, others may be what it carries."""
+    """Return the included models; the first is the robot, others may be its payload."""
     sdf = spawn.child("sdf")
     return sdf.all("include") if sdf is not None else []
 

@@ -1,10 +1,10 @@
 """A spawner that wraps the robot in the old gazebo-factory plugin.
 
-The launcher of the competition reads `<spawn>`. What stands in a plugin of the launch system is not
-spawned.
+The SubT launcher reads `<spawn>`. It does not spawn a robot in a plugin of the launch system.
 
-Fix: put name, pose, world and SDF directly into `<spawn name="#{_name}">` and drop the plugin.
-Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+Fix: put name, pose, world and SDF directly into `<spawn name="#{_name}">` and remove the plugin.
+Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
+this.
 """
 
 from checker.expand.spawner.emitted_xml import SpawnedXml

@@ -1,12 +1,12 @@
-"""A PosePublisher that is missing or set up differently from other robots'.
+"""A PosePublisher that is missing, or whose settings differ from other robots.
 
-ROS gets the transforms between the robot's links and sensors from it; static ones may come once a
-second. `publish_nested_model_pose` gives away the robot's true pose in the world, which only the
-organisers may switch on.
+From this plugin ROS gets the transforms between the robot's links and sensors; once per second is
+enough for static ones. `publish_nested_model_pose` publishes the robot's true pose in the world,
+which only the organisers may switch on.
 
 Fix: add the plugin as in the example spawner, with
-`<publish_nested_model_pose>#{$enableGroundTruth}</publish_nested_model_pose>`. A robot that starts
-its own robot_state_publisher may leave link poses out.
+`<publish_nested_model_pose>#{$enableGroundTruth}</publish_nested_model_pose>`. A robot with its own
+robot_state_publisher needs no link poses.
 Source: Model Migration Guide, example spawner; `static_publisher` is missing in some accepted
 packages that write `static_pose_publisher`.
 """
@@ -40,8 +40,8 @@ def check(
     """Report missing PosePublishers, and settings that are missing or unusual.
 
     Options:
-        rate: Hertz at which static poses are to come; any other `<static_update_frequency>` that is
-            stated is a warning.
+        rate: Hertz at which static poses are published; any other stated
+            `<static_update_frequency>` is a warning.
     """
     publishers = [each for each in robot.plugins if each.class_name == "PosePublisher"]
     if not publishers:
@@ -63,14 +63,14 @@ def _true_pose(publishers: Sequence[Plugin], spawned: SpawnedXml) -> Iterator[Fi
             if not asked and element.text.value.lower() in _YES:
                 yield finding(
                     element,
-                    f"<{TRUE_POSE}> is {element.text.value} always, expected only when "
-                    f"{GROUND_TRUTH} says so",
+                    f"<{TRUE_POSE}> is always {element.text.value}, expected the value of "
+                    f"{GROUND_TRUTH}",
                     severity=Severity.WARNING,
                 )
 
 
 def _settings(publishers: Sequence[Plugin], rate: float) -> Iterator[Finding]:
-    """Judge all publishers together: each may give a part."""
+    """Check all publishers together: each may publish a part."""
     parameters = [child for plugin in publishers for child in plugin.element.children]
     on = {child.tag for child in parameters if child.text.value.lower() in _YES}
     missing = [tag for tag in WANTED if tag not in on]
@@ -84,7 +84,7 @@ def _settings(publishers: Sequence[Plugin], rate: float) -> Iterator[Finding]:
         if child.tag == "static_update_frequency" and _number(child) not in (None, rate):
             yield finding(
                 child,
-                f"static poses come at {child.text.value} Hz, expected {rate:g} Hz",
+                f"static poses are published at {child.text.value} Hz, expected {rate:g} Hz",
                 severity=Severity.WARNING,
             )
 

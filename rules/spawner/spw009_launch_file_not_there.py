@@ -1,11 +1,12 @@
-"""A roslaunch command for a file that is not there, or a launch file that nothing starts.
+"""A roslaunch command for a missing file, or a launch file that nothing starts.
 
-A command of a missing file, or of a robot that is not installed beside this one, fails: the robot
-moves and no topic of it reaches ROS. A description.launch or vehicle_topics.launch that nothing
-starts leaves out the robot's description or its bridges.
+A command fails if its file is missing, or if it is from a robot that is not installed next to this
+one: the robot moves, but none of its topics reach ROS. If nothing starts description.launch or
+vehicle_topics.launch, the robot's description or its bridges are missing.
 
 Fix: name this package and an existing file; declare another robot's package in package.xml.
-Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
+this.
 """
 
 from collections.abc import Iterator
@@ -25,7 +26,7 @@ USUAL = ("description.launch", "vehicle_topics.launch")
 
 @rule("SPW009", "launch-file-not-there", Severity.ERROR)
 def check(package: Package, spawner: Spawner, started: StartedXml, launch: LaunchGraph) -> Findings:
-    """Report commands that fail, and launch files that are left out."""
+    """Report commands that fail, and launch files that nothing starts."""
     names = {include.file.rsplit("/", 1)[-1] for include in launch.includes}
     for element in started.commands:
         command = LaunchCommand.parse(element.text.value)
@@ -39,7 +40,7 @@ def check(package: Package, spawner: Spawner, started: StartedXml, launch: Launc
         if name not in names and isinstance(package.part(f"launch/{name}"), Found):
             yield finding(
                 function or spawner.entry.whole(),
-                f"nothing starts {name}",
+                f"nothing starts {name}: start it in the spawner",
                 severity=Severity.WARNING,
             )
 
@@ -50,15 +51,19 @@ def _judge(
     name, file = command.package, command.file.rsplit("/", 1)[-1]
     foreign = bool(SUBMISSION_NAME.search(name)) and _robot(name) != _robot(package.name)
     if foreign and not _is_meant(package, name):
-        yield finding(where, f"starts {file} of another robot, {name}, which is not declared")
+        yield finding(
+            where,
+            f"the command starts {file} of another robot, {name}, which package.xml does not "
+            "declare",
+        )
         return
     holder = package if name == package.name else package.workspace.package(name)
     if holder is None and name in PROVIDED:
         return
     if holder is None:
-        yield unchecked(f"{name}, whose {file} is started, is not at hand")
+        yield unchecked(f"{name}, whose {file} is started, is not available")
     elif not any(e.path.rsplit("/", 1)[-1] == file for e in holder.index.with_suffix(file.lower())):
-        yield finding(where, f"starts {file}, which {holder.name} does not have")
+        yield finding(where, f"the command starts {file}, which {holder.name} does not have")
 
 
 def _robot(name: str) -> str:
@@ -66,7 +71,7 @@ def _robot(name: str) -> str:
 
 
 def _is_meant(package: Package, name: str) -> bool:
-    """Say whether a package lends its model to this one or is declared in package.xml."""
+    """Whether this package inherits the model of another or declares it in package.xml."""
     if package.base is not None and package.base.package_name == name:
         return True
     declared = (each for each in package.references if each.kind is ReferenceKind.DEPENDENCY)

@@ -1,13 +1,13 @@
-"""A robot that starts in the ground, or falls onto it.
+"""A robot that starts in the ground, or far above it.
 
-Overlapping the ground, the robot is thrown into the air by the contact; dropped from high, it
-bounces, tips over or loses its pose estimate before the first command.
+If the robot starts in the ground, contact forces throw it into the air. If it drops from a height,
+it bounces, tips over or loses its pose estimate before the first command.
 
-No accepted package at hand shows it.
+None of the accepted packages that we checked shows this.
 
-Fix: write into `<pose>` the height that puts the lowest point of the wheels just above the ground:
+Fix: write a height into `<pose>` that puts the lowest point of the wheels just above the ground:
 `#{_z + 0.2}` for wheels that reach 0.19 m below the model's origin.
-Source: SubT review findings. Legged robots, which start high and let themselves down, are left out.
+Source: SubT review findings. Legged robots start high and lower themselves, so they are skipped.
 """
 
 from collections.abc import Iterator
@@ -23,7 +23,7 @@ from checker.source.text import Span
 
 DOWN = (0.0, 0.0, -1.0)
 GROUND = SPAWNER_ARGUMENTS[5]
-"""`_z` that the spawner is evaluated with, metres."""
+"""Value of `_z` with which the spawner is evaluated, metres."""
 
 
 @rule("SPW010", "spawn-height", Severity.WARNING)
@@ -33,10 +33,10 @@ def check(
     """Compare the lowest point of the robot's collisions with the ground.
 
     Options:
-        deepest: Metres that the lowest point of the collisions may start below the ground; deeper
-            is reported.
-        highest: Metres that the lowest point of the collisions may start above the ground; higher
-            is reported.
+        deepest: Metres that the lowest point of the collisions may start below the ground; more is
+            reported.
+        highest: Metres that the lowest point of the collisions may start above the ground; more is
+            reported.
     """
     if is_legged(robot.plugins):
         return
@@ -49,7 +49,8 @@ def check(
         clearance = height - max(depths, default=0.0)
         if depths and clearance < -deepest:
             yield finding(
-                pose.text, f"the robot starts {-clearance:.3g} m in the ground, expected above it"
+                pose.text,
+                f"the robot starts {-clearance:.3g} m in the ground, expected it above the ground",
             )
         elif (unknown := _unknown(robot)) is not None:
             yield unchecked(f"the spawn height depends on {unknown}")
@@ -62,7 +63,7 @@ def check(
 
 
 def _height(pose: Span, spawned: SpawnedXml) -> float | None:
-    """Return how far above `_z` a pose lies; None when it has nothing to do with it."""
+    """Return how far above `_z` a pose is; None if it does not depend on `_z`."""
     words = spawned.words_of(pose)
     if len(words) != len("xyzrpy") or not spawned.parameters_of(words[2]):
         return None
@@ -85,9 +86,9 @@ def _depth(robot: Robot, link: Link, collision: Collision) -> float | None:
 
 
 def _unknown(robot: Robot) -> str | None:
-    """Return which shape of unknown extent may reach lowest, and why it is unknown.
+    """Return which shape of unknown size may reach lowest, and why it is unknown.
 
-    Wheels reach below their robot: then only theirs count.
+    If the robot has wheels, only theirs count, because they reach lowest.
     """
     wheels = [wheel for wheel in robot.wheels if wheel.collisions]
     for link in wheels or robot.links:

@@ -4,7 +4,7 @@ A variable that nothing reads, or a condition that is always the same, is usuall
 another robot's spawner, and hides what this one does.
 
 Fix: remove the variable, or the branch that is never taken.
-Source: SubT review findings. No accepted package at hand shows the fault.
+Source: SubT review findings. None of the accepted packages that we checked shows this.
 """
 
 from collections import Counter
@@ -19,7 +19,7 @@ _BRANCHES = ("if", "elsif", "unless", "if_modifier", "unless_modifier", "conditi
 _LITERALS = ("true", "false", "nil", "integer", "float", "string", "simple_symbol")
 _OPERATIONS = ("binary", "unary", "parenthesized_statements")
 _READING_ALL = ("binding", "eval", "local_variables")
-"""Methods that see variables without naming them."""
+"""Methods that use variables without naming them."""
 
 
 @rule("SPW011", "leftover-code", Severity.WARNING)
@@ -34,7 +34,7 @@ def check(spawner: Spawner) -> Findings:
 
 
 def _methods(nodes: Sequence[RubyNode]) -> Iterator[RubyNode]:
-    """Yield the methods, in order; those inside another one belong to it."""
+    """Yield the methods, in order; nested ones belong to the outer one."""
     end = 0
     for node in nodes:
         if node.type == "method" and node.start >= end:
@@ -87,7 +87,7 @@ def _constants(assigned: list[RubyNode]) -> set[str]:
 
 
 def _is_constant(condition: RubyNode, constants: set[str]) -> bool:
-    """Say whether a condition is made of literals and constant variables alone."""
+    """Whether a condition contains only literals and constant variables."""
     waiting = [condition]
     while waiting:
         node = waiting.pop()

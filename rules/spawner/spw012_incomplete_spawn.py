@@ -1,11 +1,13 @@
-"""A spawn element that lacks what the competition needs.
+"""A spawn element without an entry that the competition needs.
 
-Without `<is_performer>true</is_performer>` the robot does not count as a member of the team; with
-renaming allowed its topics may carry another name than its own; without `<world>` it goes nowhere.
+Without `<is_performer>true</is_performer>` the robot does not count as a member of the team. If
+renaming is allowed, its topics may have another name than the robot. Without `<world>` it is not
+spawned.
 
 Fix: write `<world>#{_worldName}</world>`, `<is_performer>true</is_performer>` and
 `<allow_renaming>false</allow_renaming>` below `<spawn>`.
-Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
+this.
 """
 
 from collections.abc import Iterator
@@ -24,11 +26,11 @@ _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 @rule("SPW012", "incomplete-spawn", Severity.ERROR)
 def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
-    """Report `<spawn>` elements without world or with other flags than the launcher needs."""
+    """Report `<spawn>` elements without world or with wrong flags."""
     function = spawner.functions.get("spawner")
     names = [each.name for each in function.parameters] if function else []
     if not spawned.spawns and not spawned.gazebo_factories:
-        yield finding(function or spawner.entry.whole(), "spawner emits no <spawn>")
+        yield finding(function or spawner.entry.whole(), "the spawner emits no <spawn>")
     for spawn in spawned.spawns:
         yield from _judge_flags(spawn)
         world = spawn.child("world")

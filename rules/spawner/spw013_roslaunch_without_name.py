@@ -1,10 +1,11 @@
 """A roslaunch command without the robot's name or the world's.
 
-The launch file then uses its default: the topics of another robot, or none. The world's name stands
-in the topics of all sensors.
+The launch file then uses its default: the topics of another robot, or none. The topics of all
+sensors contain the world's name.
 
 Fix: append `world_name:=#{_worldName} name:=#{_name}` to the command.
-Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
+Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
+this.
 """
 
 from itertools import zip_longest

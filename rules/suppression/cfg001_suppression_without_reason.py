@@ -1,8 +1,8 @@
 """A suppression that gives no reason.
 
-It has no effect: who reads the report wants to know why a finding does not count.
+The suppression has no effect: readers of the report want to know why a finding does not count.
 
-Fix: write the reason behind the bracket: `subt-check: ignore[SEN015] the device has 15 Hz`.
+Fix: write the reason after the bracket: `subt-check: ignore[SEN015] the device has 15 Hz`.
 Source: README, section "Suppress".
 """
 
@@ -12,12 +12,12 @@ from checker.rulebook.suppression.parts import Suppressions
 
 @rule("CFG001", "suppression-without-reason", Severity.WARNING)
 def check(suppressions: Suppressions) -> Findings:
-    """Report comments that name rules and say no more."""
+    """Report comments that name rules, but give no reason."""
     for comment in suppressions.comments:
         if comment.names and not comment.reason:
             names = ", ".join(comment.names)
             yield finding(
-                comment.place, f"ignore[{names}] has no effect: no reason stands behind the bracket"
+                comment.place, f"ignore[{names}] has no effect: write the reason after the bracket"
             )
 
 

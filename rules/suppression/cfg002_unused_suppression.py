@@ -1,7 +1,7 @@
 """A suppression of a rule that finds nothing there.
 
-What it was for is mended or has moved, and it would hide the next fault of that kind. A comment
-reaches one line: its own or, alone on its line, also the one below. Only rules that looked count;
+The fault is corrected or has moved, and the suppression would hide the next one. A comment applies
+to one line: its own or, if alone on its line, also the next one. Only rules that ran count;
 comments on CFG rules are not judged.
 
 Fix: remove the comment or the entry of the settings, or move it to the line that the finding names.
@@ -16,15 +16,15 @@ from checker.rulebook.suppression.parts import Suppressions, UnusedEntries
 
 @rule("CFG002", "unused-suppression", Severity.WARNING)
 def check(suppressions: Suppressions) -> Findings:
-    """Report comments and entries of settings without a finding."""
+    """Report comments and entries of the settings without a finding."""
     for each in suppressions.unused:
-        message = f"ignore[{each.rule}] is of no use: {each.rule} finds nothing on its line"
+        message = f"ignore[{each.rule}] is unused: {each.rule} has no finding on its line"
         yield finding(each.comment.place, message)
     yield from _entries(suppressions.unused_entries)
 
 
 def _entries(unused: UnusedEntries) -> Iterator[Finding]:
-    """Report entries one by one; those of settings for many packages serve others, maybe."""
+    """Report entries one by one; entries of shared settings may apply to other packages."""
     if unused.own:
         for entry in unused.entries:
             yield _finding(unused, str(entry), Severity.WARNING)
@@ -33,7 +33,7 @@ def _entries(unused: UnusedEntries) -> Iterator[Finding]:
 
 
 def _finding(unused: UnusedEntries, what: str, severity: Severity) -> Finding:
-    message = f"suppress in {unused.file} is of no use here: nothing is found of {what}"
+    message = f"suppress in {unused.file} is unused here: there is no finding of {what}"
     return finding(unused.place, message, severity=severity)
 
 

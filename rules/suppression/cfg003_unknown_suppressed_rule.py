@@ -1,8 +1,8 @@
-"""A suppression that names no rule.
+"""A suppression that names no known rule.
 
-It has no effect, although it reads as if it had.
+The suppression has no effect, although it looks as if it had.
 
-Fix: write ids or names of rules into the bracket: `subt-check: ignore[SEN005, GEO001] reason`.
+Fix: write ids or names of rules in the bracket: `subt-check: ignore[SEN005, GEO001] reason`.
 `subt-check rules` lists them. Groups, such as `SEN`, cannot be suppressed by a comment.
 Source: README, section "Suppress".
 """
@@ -13,12 +13,12 @@ from checker.rule import Findings, Severity, finding, rule
 from checker.rulebook.suppression.parts import Suppressions
 
 _NAMED = 5
-"""Unknown names that the message tells; the rest is counted."""
+"""Greatest number of unknown names in the message; the rest is counted."""
 
 
 @rule("CFG003", "unknown-suppressed-rule", Severity.WARNING)
 def check(suppressions: Suppressions) -> Findings:
-    """Report comments that name other words than rules, or nothing."""
+    """Report comments with words that are not rules, or without any."""
     names = dict.fromkeys(f"{each.name!r}{each.hint}" for each in suppressions.unknown)
     more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
     message = f"there is no rule {', nor '.join(islice(names, _NAMED))}{more}"
@@ -27,7 +27,7 @@ def check(suppressions: Suppressions) -> Findings:
     for comment in suppressions.comments:
         if comment.fault:
             expected = "expected 'subt-check: ignore[RULE] reason'"
-            yield finding(comment.place, f"comment has no effect: {comment.fault}, {expected}")
+            yield finding(comment.place, f"the comment has no effect: {comment.fault}, {expected}")
 
 
 GOOD = [

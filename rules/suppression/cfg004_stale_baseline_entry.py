@@ -1,9 +1,9 @@
-"""A finding of the baseline that is gone.
+"""A finding of the baseline that no longer occurs.
 
-It is mended: as long as the baseline holds it, the same fault may come back unseen. Only rules
-that looked count, and those that do not exist.
+The fault is corrected: while the baseline contains it, the same fault may return unseen. Only rules
+that ran count, and those that do not exist.
 
-Fix: write the baseline anew with `--write-baseline`, or remove the entry from its file.
+Fix: write the baseline again with `--write-baseline`, or remove the entry from its file.
 Source: README, section "Suppress".
 """
 
@@ -16,13 +16,13 @@ from checker.rulebook.suppression.parts import BaselineUse
 
 @rule("CFG004", "stale-baseline-entry", Severity.INFO)
 def check(baseline: BaselineUse) -> Findings:
-    """Report entries without a finding, rule by rule."""
+    """Report entries without a finding, one finding per rule."""
     for each in baseline.stale:
         if each.known:
-            said = f"what {each.rules[0]} finds no more: {_some(each.messages)}"
+            said = f"findings of {each.rules[0]} that no longer occur: {_some(each.messages)}"
         else:
             said = f"findings of rules that do not exist: {_some(each.rules)}"
-        yield finding(Place(""), f"{each.file} holds {said}")
+        yield finding(Place(""), f"{each.file} contains {said}")
 
 
 def _some(texts: Sequence[str]) -> str:

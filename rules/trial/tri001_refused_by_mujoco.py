@@ -1,11 +1,10 @@
-"""A model that MuJoCo does not take as it is written.
+"""A model that MuJoCo refuses.
 
-Another simulator that refuses a model says that some part of it has no physical meaning; Gazebo
-guesses, and what it guesses differs between its physics engines. Masses and inertias are left to
-the INE rules.
+If another simulator refuses a model, some part of it has no physical meaning; Gazebo guesses, and
+its physics engines guess differently. The INE rules report masses and inertias.
 
-Fix: correct the part that the message names; what was changed so that the trial could go on stands
-beside its result.
+Fix: correct the part that the message names. The result of the trial lists the repairs that the
+trial needed.
 Source: MuJoCo documentation, XML reference: checks of the compiler.
 """
 
@@ -15,24 +14,24 @@ from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
 
 _OF_INERTIA = re.compile(r"\b(mass|moments?)\b")
-"""What the rules about inertia report themselves, with more to say about it."""
+"""Repairs that the rules on inertia report in more detail."""
 
 
 @rule("TRI001", "refused-by-mujoco", Severity.ERROR)
 def check(driven: RobotTrial) -> Findings:
-    """Report why the model is refused, and each repair without which it would be."""
+    """Report why the model is refused, and each repair that the trial needed."""
     trial = driven.trial
     if trial.refused:
         yield finding(
             driven.part(trial.refused_part),
-            f"MuJoCo does not take the model even with repairs: {trial.refused}",
+            f"MuJoCo refuses the model even with repairs: {trial.refused}",
             key="refused",
         )
     for repair in trial.repairs:
         if repair.serious and not _OF_INERTIA.search(repair.what):
             yield finding(
                 driven.part(repair.part),
-                f"MuJoCo does not take the model as written: {repair.part!r} {repair.what}",
+                f"MuJoCo refuses the model without a repair: {repair.part!r} {repair.what}",
             )
 
 

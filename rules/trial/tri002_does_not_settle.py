@@ -1,11 +1,11 @@
-"""A robot that does not come to rest when it is put down.
+"""A robot that does not come to rest.
 
-It sinks, tips, jumps, slides or folds up before anything is asked of it, so nothing that it does
-afterwards means anything. Mostly a collision shape is missing or stands askew, parts start inside
-each other, or the inertia of a part is far too small.
+The robot sinks, tips, jumps, slides or folds up before any command, so all later measurements mean
+nothing. Usually a collision is missing or tilted, parts start inside each other, or the inertia of
+a part is far too small.
 
-Fix: look at the collision shapes and inertias of the parts that touch the ground first.
-Source: experience; the robot is put down from 10 mm above the ground and left alone for 2 s.
+Fix: check first the collisions and inertias of the parts that touch the ground.
+Source: experience; the robot starts 10 mm above the ground and gets no command for 2 s.
 """
 
 import math
@@ -27,21 +27,21 @@ def check(
     settle_speed_above: float = 0.05,
     rest_penetration_above: float = 0.05,
 ) -> Findings:
-    """Report a robot that moves further than these limits while it settles.
+    """Report a robot that moves more than these limits while it settles.
 
     Options:
-        settle_drop_above: Metres that the robot's origin may sink from where it is put, 0.01 m of
-            which is the fall to the ground; more is an error.
-        settle_rise_above: Metres that the robot's origin may rise above where it is put; more is an
+        settle_drop_above: Metres that the robot's origin may sink from its start, including a fall
+            of 0.01 m to the ground; more is an error.
+        settle_rise_above: Metres that the robot's origin may rise above its start; more is an
             error.
-        settle_shift_above: Metres that the robot's origin may have moved sideways after 2 s; more
-            is an error.
-        settle_tilt_above: Radians between the robot's z axis and the vertical, on average over the
+        settle_shift_above: Metres that the robot's origin may move sideways in 2 s; more is an
+            error.
+        settle_tilt_above: Radians between the robot's z axis and the vertical, averaged over the
             last 0.5 s; more is an error.
-        settle_speed_above: Speed of the robot's origin in m/s, on average over the last 0.5 s; more
+        settle_speed_above: Speed of the robot's origin in m/s, averaged over the last 0.5 s; more
             is an error.
-        rest_penetration_above: Metres that the deepest contact may lie in the ground in the last
-            0.5 s; more is an error.
+        rest_penetration_above: Metres that the deepest contact may be in the ground in the last 0.5
+            s; more is an error.
     """
     limits = {
         "settle_drop": settle_drop_above,
@@ -55,7 +55,7 @@ def check(
     if said:
         yield finding(
             driven.robot,
-            f"put down from 10 mm above the ground and left alone, it {', '.join(said.values())}",
+            f"without a command, from 10 mm above the ground, the robot {', '.join(said.values())}",
             key=" ".join(said),
         )
 

@@ -1,10 +1,10 @@
-"""A robot that drives slower or faster than it is told.
+"""A robot that drives slower or faster than commanded.
 
-Odometry counts on the commanded speed: whoever steers the robot believes it elsewhere. Mostly
-`wheel_radius` is not the radius of the wheels, or the wheels slip because they carry too little.
-With a limit of 0 it does not move at all.
+Odometry assumes the commanded speed, so the robot is in another place than its driver believes.
+Usually `wheel_radius` is not the radius of the wheels, or the wheels slip because they carry too
+little load. With a limit of 0 the robot does not move.
 
-Fix: set `wheel_radius` to the radius of the wheels' collisions, and look at friction and loads.
+Fix: set `wheel_radius` to the radius of the wheels' collisions, and check friction and loads.
 Source: a prototype trial of 60 accepted ground robots: all reach 0.98 to 1.00 of the command.
 """
 
@@ -17,7 +17,7 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 def check(
     driven: RobotTrial, *, warning_beyond: float = 0.05, error_beyond: float = 0.15
 ) -> Findings:
-    """Report a speed that differs from the command by more than these shares of it.
+    """Report a speed that differs too much from the command.
 
     Options:
         warning_beyond: Share of the commanded speed by which the robot may be slower or faster;
@@ -35,7 +35,7 @@ def check(
     if ratio is None:
         yield finding(
             driven.drive,
-            "a limit of its velocity or acceleration is 0: it stands still, whatever it is told",
+            "a limit of its velocity or acceleration is 0, so the robot ignores commands",
             key="speed_ratio",
         )
         return
@@ -45,20 +45,22 @@ def check(
     reached = round(ratio * leg.linear, 3) + 0.0
     yield finding(
         driven.drive,
-        f"told to drive at {leg.linear:.3g} m/s, it reaches {reached:g} m/s: off by {off:.0%}, "
-        f"expected at most {warning_beyond:.0%}{_cause(driven, ratio, warning_beyond)}",
+        f"commanded to drive at {leg.linear:.3g} m/s, the robot reaches {reached:g} m/s: a "
+        f"difference of {off:.0%}, expected at most "
+        f"{warning_beyond:.0%}{_cause(driven, ratio, warning_beyond)}",
         severity=Severity.ERROR if off > error_beyond else Severity.WARNING,
         key="speed_ratio",
     )
 
 
 def _cause(driven: RobotTrial, ratio: float, tolerance: float) -> str:
-    """Say so when the radius that the plugin counts with explains the speed."""
+    """Return the cause if the plugin's wheel radius explains the speed."""
     for drive in driven.robot.locomotion.wheel_drives:
         stated = drive.wheel_radius.value
         for wheel in drive.wheels:
             if wheel.radius and stated > 0.0 and abs(wheel.radius / stated - ratio) <= tolerance:
-                return f"; wheel_radius is {stated:g} m, the wheels' own is {wheel.radius:.3g} m"
+                radius = f"the wheels have a radius of {wheel.radius:.3g} m"
+                return f"; wheel_radius is {stated:g} m, but {radius}"
     return ""
 
 

@@ -1,7 +1,7 @@
-"""A robot that does not drive straight when it is told to.
+"""A robot that does not drive straight when commanded to.
 
-It steers off by itself: a wheel's collision is turned, is smaller than the others, carries no
-load or is missing, or the centre of mass lies far to one side.
+The robot drifts to one side: a wheel's collision is tilted, is smaller than the others, carries no
+load or is missing, or the centre of mass is far to one side.
 
 Fix: compare the wheels of both sides: radius, pose and friction of their collisions, their axes.
 Source: a prototype trial of 60 accepted ground robots: all are straight to three decimals.
@@ -27,14 +27,13 @@ def check(
 
     Options:
         path_sideways_warning: Metres sideways for each metre forward; more is a warning.
-        path_sideways_error: Metres sideways for each metre forward beyond which it is an error
-            instead of a warning.
-        path_heading_warning: Radians by which the heading may change on the whole straight drive;
-            more is a warning.
-        path_heading_error: Radians of change in heading beyond which it is an error instead of a
+        path_sideways_error: Metres sideways for each metre forward; more is an error instead of a
             warning.
-        moved: Share of the commanded speed that must be reached for the way sideways to be judged;
-            the heading always is.
+        path_heading_warning: Radians by which the heading may change on the straight drive; more is
+            a warning.
+        path_heading_error: Radians of change in heading; more is an error instead of a warning.
+        moved: Share of the commanded speed that the robot must reach for its sideways motion to be
+            judged; the heading is always judged.
     """
     speed = driven.trial.value("speed_ratio")
     heading = abs(driven.trial.value("path_heading") or 0.0)
@@ -49,14 +48,14 @@ def check(
         )
     if heading > path_heading_warning:
         said["path_heading"] = (
-            f"turns by {math.degrees(heading):.1f}° on the straight, "
-            f"expected at most {math.degrees(path_heading_warning):.0f}°"
+            f"turns by {math.degrees(heading):.1f}° on the straight drive, expected at most "
+            f"{math.degrees(path_heading_warning):.0f}°"
         )
     if said:
         grave = sideways > path_sideways_error or heading > path_heading_error
         yield finding(
             driven.drive,
-            f"told to drive straight, it {'; it '.join(said.values())}",
+            f"commanded to drive straight, the robot {'; it '.join(said.values())}",
             severity=Severity.ERROR if grave else Severity.WARNING,
             key=" ".join(said),
         )

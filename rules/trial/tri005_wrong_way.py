@@ -1,7 +1,7 @@
-"""A robot that drives or turns the other way than it is told.
+"""A robot that drives or turns in the opposite direction.
 
-Whoever steers it runs into the wall that he wants to avoid. The axes of the wheels point to the
-right instead of to the left, or left and right wheels are swapped in the plugin.
+A driver who steers away from a wall hits it. The axes of the wheels point to the right instead of
+to the left, or left and right wheels are swapped in the plugin.
 
 Fix: let wheels turn about an axis that points to the robot's left (`0 1 0` in its frame), and
 name in `<left_joint>` the wheels at positive y.
@@ -18,15 +18,17 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("TRI005", "moves-the-wrong-way", Severity.ERROR)
 def check(driven: RobotTrial) -> Findings:
-    """Report motion against the command, by more than a creep."""
+    """Report motion against the command."""
     said = {}
     if driven.drives_backwards:
         ratio, leg = driven.trial.value("speed_ratio") or 0.0, driven.leg("drive")
         told = f" at {leg.linear:.3g} m/s" if leg else ""
-        said["speed_ratio"] = f"told to drive forward{told}, it drives backward ({ratio:.0%})"
+        said["speed_ratio"] = (
+            f"commanded to drive forward{told}, the robot drives backward ({ratio:.0%})"
+        )
     if driven.turns_backwards:
         ratio = driven.trial.value("yaw_ratio") or 0.0
-        said["yaw_rate"] = f"told to turn left, it turns right ({ratio:.0%})"
+        said["yaw_rate"] = f"commanded to turn left, the robot turns right ({ratio:.0%})"
     if said:
         yield finding(
             driven.drive,
@@ -44,12 +46,12 @@ _CAUSES = {
 
 
 def _suspects(driven: RobotTrial) -> Iterator[tuple[Joint, str]]:
-    """Yield the wheels whose axis points to the right or whose side is not where they are."""
+    """Yield the wheels whose axis points to the right or whose stated side is wrong."""
     for wheel in driven.robot.locomotion.wheels:
         if wheel.axis is not None and wheel.axis[1] < 0.0:
             yield wheel.joint, f"the axis of {wheel.name.value!r} points to the right"
         if wheel.centre is not None and (wheel.centre[1] > 0.0) is not (wheel.side is Side.LEFT):
-            yield wheel.joint, f"{wheel.name.value!r} is named as a {wheel.side} wheel"
+            yield wheel.joint, f"{wheel.name.value!r} is listed as a {wheel.side} wheel"
 
 
 _MARK = {'DiffDrive">': 'DiffDrive">  <!-- ^ TRI005 -->'}

@@ -1,12 +1,12 @@
-"""A robot that turns far less than its wheels and loads let expect.
+"""A robot that turns far less than its wheels and loads predict.
 
-Wheels in fixed directions slide sideways in a turn: a skid-steer robot turns slower than it is
-told, and how much slower follows from where its wheels stand and what each of them carries. One
-that stays far below that is held back by something else.
+Wheels in fixed directions slide sideways in a turn: a skid-steer robot turns slower than commanded.
+How much slower depends on the places of its wheels and the load on each. If a robot turns far less
+than that, something else holds it back.
 
-Fix: look for a collision that drags on the ground, and for wheels that stand askew or do not turn.
-Source: quasi-static balance of Coulomb friction over the wheels; it foretells the turn rate of 20
-of 22 accepted skid-steer robots within 20 %.
+Fix: look for a collision that drags on the ground, and for wheels that are tilted or do not turn.
+Source: quasi-static balance of Coulomb friction over the wheels; it predicts the turn rate of 20 of
+22 accepted skid-steer robots within 20 %.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -17,23 +17,23 @@ from checker.rule import Findings, Severity, finding, rule
 def check(
     driven: RobotTrial, *, warning_below: float = 0.5, error_below_command: float = 0.05
 ) -> Findings:
-    """Report a turn rate below shares of what is predicted, and of what is commanded.
+    """Report a turn rate far below the predicted or the commanded one.
 
     Options:
         warning_below: Share of the turn rate that is predicted from the loads on wheels or tracks;
             less is a warning.
-        error_below_command: Share of the commanded turn rate; less is an error, whatever is
-            predicted.
+        error_below_command: Share of the commanded turn rate; less is an error, whatever the
+            prediction.
     """
     trial = driven.trial
     rate, ratio = trial.value("yaw_rate"), trial.value("yaw_ratio")
     if rate is None or ratio is None or driven.turns_backwards:
         return
-    told = f"told to turn at {rate / ratio:.3g} rad/s" if ratio else "told to turn"
+    told = f"commanded to turn at {rate / ratio:.3g} rad/s" if ratio else "told to turn"
     if ratio < error_below_command:
         yield finding(
             driven.drive,
-            f"{told}, it hardly moves: {round(rate, 3) + 0.0:g} rad/s",
+            f"{told}, the robot hardly moves: {round(rate, 3) + 0.0:g} rad/s",
             severity=Severity.ERROR,
             key="yaw_of_predicted",
         )
@@ -42,8 +42,8 @@ def check(
     if share is not None and predicted is not None and share < warning_below:
         yield finding(
             driven.drive,
-            f"{told}, it turns at {rate:.2g} rad/s; where its wheels stand and what they carry "
-            f"lets expect {predicted:.2g} rad/s",
+            f"{told}, the robot turns at {rate:.2g} rad/s, but the places and loads of its wheels "
+            f"predict {predicted:.2g} rad/s",
             key="yaw_of_predicted",
         )
 

@@ -1,10 +1,11 @@
-"""A drive wheel that carries no load, or next to none.
+"""A drive wheel that carries no load, or almost none.
 
-It turns in the air: the robot is weaker than it looks, and steers off where the ground is not
-even. Its collision is missing or too small, or the wheel hangs higher than the others.
+The wheel turns in the air: the robot is weaker than it looks, and drifts to one side on uneven
+ground. Its collision is missing or too small, or the wheel is higher than the others.
 
-Fix: give the wheel a collision of its radius, and let all wheels stand on one plane.
-Source: experience; the load is the mean over the robot at rest, against the weight shared equally.
+Fix: give the wheel a collision with its radius, and put all wheels on one plane.
+Source: experience; the load is the mean while the robot is at rest, compared with an equal share of
+the weight.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -15,11 +16,11 @@ from checker.rule import Findings, Severity, finding, rule
 def check(
     driven: RobotTrial, *, warning_below: float = 0.05, error_below: float = 0.002
 ) -> Findings:
-    """Report wheels that carry less than these shares of an equal part of the weight.
+    """Report wheels that carry far less than an equal share of the weight.
 
     Options:
-        warning_below: Share of an equal part of the weight (weight over number of drive wheels)
-            that a wheel is to carry; less is a warning.
+        warning_below: Share of an equal part of the weight (weight divided by number of drive
+            wheels); a wheel that carries less is a warning.
         error_below: Share of an equal part of the weight; a wheel that carries less is an error
             instead of a warning.
     """

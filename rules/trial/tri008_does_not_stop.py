@@ -1,10 +1,11 @@
-"""A robot that does not stop when it is told to.
+"""A robot that does not stop when commanded to.
 
-It rolls or slides on after the command has gone to zero. Brakes are what a drive plugin does by
-itself; a robot that drives on has a part that pushes it, or wheels that do not grip.
+The robot rolls or slides on after the command is zero. A drive plugin brakes by itself; if the
+robot keeps moving, a part pushes it, or its wheels do not grip.
 
-Fix: look at the friction of the wheels, at their axes, and at plugins that fight each other.
-Source: experience; the speed at the end of a stop, 1.5 s or as long as its limits let it brake.
+Fix: check the friction of the wheels, their axes, and plugins that work against each other.
+Source: experience; the speed at the end of a stop of 1.5 s, or longer if the robot's limits need
+more time.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -13,21 +14,20 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("TRI008", "does-not-stop", Severity.ERROR)
 def check(driven: RobotTrial, *, error_above: float = 0.05) -> Findings:
-    """Report a speed beyond the command that is left after a stop.
+    """Report a speed above the command after a stop.
 
     Options:
-        error_above: Speed in m/s, over what is still commanded, that may be left at the end of a
-            stop; more is an error.
+        error_above: Speed in m/s above the command at the end of a stop; more is an error.
     """
     speed = driven.trial.value("stop_speed")
     if speed is None or abs(speed) <= error_above:
         return
     distance = driven.trial.value("stop_distance")
-    way = f" and has gone {distance:.2g} m" if distance is not None else ""
+    way = f" and has moved {distance:.2g} m" if distance is not None else ""
     yield finding(
         driven.drive,
-        f"after a stop it still moves at {abs(speed):.2g} m/s{way}, expected "
-        f"at most {error_above:g} m/s",
+        f"after a stop the robot still moves at {abs(speed):.2g} m/s{way}, expected at most "
+        f"{error_above:g} m/s",
         key="stop_speed",
     )
 

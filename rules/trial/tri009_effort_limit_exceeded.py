@@ -1,11 +1,11 @@
 """A joint that needs more torque than its effort limit allows.
 
-The trial's servos are as strong as they have to be; the simulated motor stops at its limit: the
-robot starts slower, does not reach its speed, or drops what it holds.
+The servos of the trial have unlimited torque, but the simulated motor stops at its limit: the robot
+starts slower, does not reach its speed, or drops its load.
 
 Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
 Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without
-the drive at full speed, against `<effort>`.
+the drive at full speed, compared with `<effort>`.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -14,11 +14,11 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("TRI009", "effort-limit-exceeded", Severity.WARNING)
 def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
-    """Report joints that need more than their effort limit.
+    """Report joints that need more torque or force than their effort limit.
 
     Options:
         warning_above: Multiple of a joint's effort limit; a joint that needs more torque or force
-            than that is reported.
+            is reported.
     """
     limits = {each.part: each.value for each in driven.trial.all("torque_limit")}
     for torque in driven.trial.all("torque"):
@@ -27,8 +27,8 @@ def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
             unit = _unit(driven, torque.part)
             yield finding(
                 driven.part(torque.part),
-                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit}, its effort limit is "
-                f"{limit:.3g} {unit}",
+                f"joint {torque.part!r} needs {abs(torque.value):.3g} {unit}, but its effort "
+                f"limit is {limit:.3g} {unit}",
                 key="torque",
             )
 

@@ -1,12 +1,12 @@
 """A multicopter that cannot hover or climb.
 
-It drifts to the ground at full throttle, or tips over: the rotors are too weak for the mass, stand
-on one side of the centre of mass, or some of them turn the wrong way.
+The robot sinks at full throttle, or tips over: the rotors are too weak for the mass, are on one
+side of the centre of mass, or some of them turn the wrong way.
 
 Fix: compare `motorConstant` · `maxRotVelocity`² of all rotors with the weight, the poses of the
 rotors with the centre of mass, and the turning directions with each other.
-Source: the thrusts that hold the weight at the centre of mass with the least largest share of a
-rotor's thrust, by a linear program.
+Source: a linear program for the thrusts that hold the weight at the centre of mass with the
+smallest largest share of any rotor's thrust.
 """
 
 import math
@@ -24,33 +24,36 @@ def check(
     hover_tilt_above: float = 0.26,
     climbed_below: float = 0.8,
 ) -> Findings:
-    """Report a copter that needs more than its thrust, sinks, tilts or does not climb.
+    """Report a multicopter that lacks thrust, sinks, tilts or does not climb.
 
     Options:
-        hover_effort_above: Share of its greatest thrust that the most loaded rotor may need in a
-            balanced hover; more is an error.
-        hover_sink_above: Metres of height that may be lost in 4 s of hover; more is an error.
+        hover_effort_above: Share of its greatest thrust that the rotor with the highest load may
+            need in a balanced hover; more is an error.
+        hover_sink_above: Metres of height that the robot may lose in 4 s of hover; more is an
+            error.
         hover_tilt_above: Radians between the robot's z axis and the vertical in the last second of
             hover; more is an error.
-        climbed_below: Share of the commanded climb of 1 m that must be reached; less is an error.
+        climbed_below: Share of the commanded climb of 1 m; less is an error.
     """
     value = driven.trial.value
     said = {}
     if (effort := value("hover_effort")) is not None and effort > hover_effort_above:
-        said["hover_effort"] = (
-            f"needs {effort:.0%} of the thrust that its most loaded rotor has to hover"
-        )
+        said["hover_effort"] = f"needs {effort:.0%} of the thrust of its most loaded rotor to hover"
     if (sink := value("hover_sink")) is not None and sink > hover_sink_above:
         said["hover_sink"] = f"sinks by {sink:.2g} m in hover (at most {hover_sink_above:g} m)"
     if (tilt := value("hover_tilt")) is not None and tilt > hover_tilt_above:
         limit = math.degrees(hover_tilt_above)
         said["hover_tilt"] = f"tilts by {math.degrees(tilt):.0f}° in hover (at most {limit:.0f}°)"
     if (climbed := value("climbed")) is not None and climbed < climbed_below:
-        said["climbed"] = f"climbs {climbed:.0%} of what it is told (at least {climbed_below:.0%})"
+        said["climbed"] = (
+            f"climbs {climbed:.0%} of the commanded height (at least {climbed_below:.0%})"
+        )
     if said:
         ratio = value("thrust_to_weight")
         strength = f"; all rotors together lift {ratio:.2f} times its weight" if ratio else ""
-        yield finding(driven.drive, f"it {', '.join(said.values())}{strength}", key=" ".join(said))
+        yield finding(
+            driven.drive, f"the robot {', '.join(said.values())}{strength}", key=" ".join(said)
+        )
 
 
 _ROTOR = """

@@ -1,10 +1,11 @@
-"""A legged robot or an arm that does not hold the pose it starts in.
+"""A legged robot or an arm that does not hold its initial pose.
 
-With its joints held where they start, it sinks, tips or gives way: it is not made to stand like
-this, or its joints start where they cannot stay. Nothing here says that it walks.
+With its joints held in their initial position, the robot sinks, tips or gives way: it cannot stand
+in this pose, or its joints start where they cannot stay. This does not test whether the robot
+walks.
 
-Fix: look at the pose it starts in, at the feet's collisions, and at where its centre of mass is.
-Source: experience; each joint is held by a controller for position and velocity.
+Fix: check the initial pose, the collisions of the feet and the centre of mass.
+Source: experience; a position and velocity controller holds each joint.
 """
 
 import math
@@ -24,10 +25,10 @@ def check(
     """Report joints that give way, and a robot that sinks or tilts.
 
     Options:
-        hold_sag_above: Radians, or metres of a sliding joint, that a joint may have moved from its
-            start by the end of the hold; more is reported.
-        hold_sink_above: Metres that the robot may sink, once settled, while its joints are held for
-            4 s; more is reported.
+        hold_sag_above: Radians (sliding joints: metres) that a joint may move from its start by the
+            end of the hold; more is reported.
+        hold_sink_above: Metres that the robot may sink after settling, while its joints are held
+            for 4 s; more is reported.
         hold_tilt_above: Radians between the robot's z axis and the vertical at the end of the hold;
             more is reported.
     """
@@ -49,7 +50,8 @@ def check(
     if said:
         yield finding(
             driven.robot,
-            f"with its joints held where they start, it {' and '.join(said.values())}",
+            "with its joints held in their initial position, the robot "
+            f"{' and '.join(said.values())}",
             key=" ".join(said),
         )
 

@@ -1,11 +1,11 @@
 """A model that the solver cannot simulate.
 
-Positions or speeds grow without bound within moments. In Gazebo the robot flies off, vanishes or
-takes the whole world with it.
+Positions or speeds grow without limit within moments. In Gazebo the robot flies off, vanishes or
+stops the whole simulation.
 
 Fix: look for inertias that are far too small for the part, joints with extreme stiffness or
 damping, and masses that differ by many orders of magnitude across a joint.
-Source: warnings BADQPOS, BADQVEL and BADQACC of MuJoCo, which remain at half the time step.
+Source: warnings BADQPOS, BADQVEL and BADQACC of MuJoCo that remain at half the time step.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -14,7 +14,7 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("TRI012", "solver-trouble", Severity.ERROR)
 def check(driven: RobotTrial) -> Findings:
-    """Report warnings of the solver, and figures that are none."""
+    """Report warnings of the solver, and figures that are not numbers."""
     for trouble in driven.trial.trouble:
         yield finding(driven.robot, f"the simulation {trouble}", key="trouble")
 

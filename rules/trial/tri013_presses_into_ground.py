@@ -1,11 +1,11 @@
-"""A robot that stands in the ground when it is at rest.
+"""A robot that is partly in the ground when at rest.
 
-What carries it is too light for its load, so the contact is soft: it sinks in, trembles, and
-drives as through mud. Parts that start inside each other are GEO015's.
+The parts that carry the robot are too light for its load, so the contact is soft: the robot sinks
+in, trembles, and drives as if through mud. GEO015 reports parts that start inside each other.
 
 Fix: give the links that touch the ground the mass and inertia of the real parts.
-Source: contact forces are worked out against the inertia of the bodies that touch; accepted robots
-press 0.1 to 0.3 mm into the ground.
+Source: contact forces depend on the inertia of the bodies that touch; accepted robots press 0.1 to
+0.3 mm into the ground.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -19,19 +19,19 @@ def check(
     rest_penetration_above: float = 0.01,
     rest_penetration_up_to: float = 0.05,
 ) -> Findings:
-    """Report a robot that presses into the ground when it is at rest.
+    """Report a robot that presses into the ground when at rest.
 
     Options:
-        rest_penetration_above: Metres that the deepest contact at rest may lie in the ground;
-            deeper is reported.
-        rest_penetration_up_to: Metres beyond which nothing is said here: set it as
-            `rest_penetration_above` of TRI002, which reports what is deeper.
+        rest_penetration_above: Metres that the deepest contact at rest may be in the ground; more
+            is reported.
+        rest_penetration_up_to: Metres above which this rule reports nothing; keep it equal to
+            `rest_penetration_above` of TRI002, which reports larger values.
     """
     deep = driven.trial.value("rest_penetration")
     if deep is not None and rest_penetration_above < deep <= rest_penetration_up_to:
         yield finding(
             driven.robot,
-            f"at rest it presses {deep * 1000:.0f} mm into the ground, expected at most "
+            f"at rest the robot presses {deep * 1000:.0f} mm into the ground, expected at most "
             f"{rest_penetration_above * 1000:g} mm",
             key="rest_penetration",
         )

@@ -1,12 +1,12 @@
-"""A robot that drives faster than its velocity limit, or speeds up faster than it may.
+"""A robot that exceeds its velocity or acceleration limit.
 
-The limits in the drive plugin are those of the real robot. One that exceeds them does what its
-twin cannot; mostly the wheels are larger than `wheel_radius`, or the limit counts for each of
-several plugins.
+The limits in the drive plugin are those of the real robot, which cannot do what a faster simulated
+one does. Usually the wheels are larger than `wheel_radius`, or the limit applies to each of several
+plugins.
 
 Fix: set `wheel_radius` to the radius of the wheels' collisions, and state the limits in all drive
 plugins.
-Source: the plugin's `max_velocity` and `max_acceleration`, against 2 s at full command.
+Source: the plugin's `max_velocity` and `max_acceleration`, compared with 2 s at full command.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -17,23 +17,25 @@ from checker.rule import Findings, Severity, finding, rule
 def check(
     driven: RobotTrial, *, full_speed_above: float = 1.05, full_acceleration_above: float = 1.25
 ) -> Findings:
-    """Report a speed and an acceleration that exceed these multiples of their limits.
+    """Report a speed and an acceleration above these multiples of their limits.
 
     Options:
         full_speed_above: Multiple of the drive plugin's velocity limit; a higher speed at full
             command is reported.
-        full_acceleration_above: Multiple of the drive plugin's acceleration limit; more, on average
+        full_acceleration_above: Multiple of the drive plugin's acceleration limit; more, averaged
             over 0.2 s, is reported.
     """
     value = driven.trial.value
     said = {}
     speed, limit = value("full_speed"), value("full_speed_limit")
     if speed is not None and limit and abs(speed) > full_speed_above * limit:
-        said["full_speed"] = f"it drives at {abs(speed):.3g} m/s, its limit is {limit:g} m/s"
+        said["full_speed"] = (
+            f"the robot drives at {abs(speed):.3g} m/s, but its limit is {limit:g} m/s"
+        )
     gain, most = value("full_acceleration"), value("full_acceleration_limit")
     if gain is not None and most and abs(gain) > full_acceleration_above * most:
         said["full_acceleration"] = (
-            f"it gains {abs(gain):.3g} m/s each second, its limit is {most:g} m/s²"
+            f"the robot accelerates at {abs(gain):.3g} m/s², but its limit is {most:g} m/s²"
         )
     if said:
         yield finding(

@@ -1,9 +1,9 @@
 """Parts that pass through each other when a joint moves through its range.
 
-The real arm would hit its own robot. Gazebo lets it pass, so that a plan which works in the
-simulation breaks the machine.
+The real arm hits its own robot. Gazebo lets the parts pass, so a plan that works in the simulation
+breaks the machine.
 
-Fix: narrow the joint's limits, or shrink the collision shapes.
+Fix: narrow the joint's limits, or shrink the collisions.
 Source: a collision query in steps through the range of each joint, one at a time.
 """
 
@@ -13,20 +13,21 @@ from checker.rule import Findings, Severity, finding, rule, unchecked
 
 @rule("TRI015", "parts-meet-in-motion", Severity.WARNING)
 def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
-    """Report parts that come into each other when a joint moves through its range.
+    """Report parts that overlap when a joint moves through its range.
 
     Options:
-        warning_above: Metres that two parts may come into each other; less than 0.001 m is never
-            measured.
+        warning_above: Metres that two parts may overlap; less than 0.001 m is never measured.
     """
     unswept = driven.trial.value("unswept_joints")
     if unswept:
-        yield unchecked(f"{unswept:g} joints of many shapes were not moved through their range")
+        yield unchecked(
+            f"{unswept:g} joints with too many shapes were not moved through their range"
+        )
     for each in driven.trial.all("sweep_overlap"):
         if each.value > warning_above:
             yield finding(
                 driven.part(each.part),
-                f"{each.part!r} comes {each.value * 1000:.0f} mm into {each.other!r} when their "
+                f"{each.part!r} enters {each.other!r} by {each.value * 1000:.0f} mm when their "
                 "joints move through their ranges",
                 key="sweep_overlap",
                 related=[(driven.part(each.other), f"{each.other!r}")],

@@ -1,11 +1,11 @@
 """A robot that moves differently when the time step is halved.
 
-Its figures are those of the solver, not of the robot: another simulator, or the next release of
-this one, shows another robot. Runs with `--thorough` only.
+The figures then depend on the solver, not on the robot: another simulator, or the next release of
+this one, gives other figures. This rule runs with `--thorough` only.
 
-Fix: look for parts that are very light for what hangs on them, for wheels that hop, and for robots
-that stand on the verge of tipping.
-Source: a sound simulation converges: halving the step changes next to nothing.
+Fix: look for parts that are too light for the load they carry, for wheels that hop, and for robots
+that almost tip over.
+Source: a sound simulation converges: half the step changes almost nothing.
 """
 
 from checker.physics.trial.measures.figures import MEASURES
@@ -27,16 +27,16 @@ _MATTERS = {
     "climbed": 0.2,
     "hold_tilt": 0.05,
 }
-"""How far a figure may move before another rule could think otherwise of it."""
+"""Greatest change of a figure before another rule could judge it differently."""
 
 
 @rule("TRI016", "depends-on-time-step", Severity.WARNING)
 def check(driven: RepeatedTrial, *, factor: float = 1.0) -> Findings:
-    """Report figures that differ by more than what matters.
+    """Report figures that change too much.
 
     Options:
-        factor: Multiple of what each figure may change at half the time step, such as 0.02 m of
-            drop or 0.05 rad of tilt; more is reported.
+        factor: Multiple of the allowed change of each figure at half the time step, such as 0.02 m
+            of drop or 0.05 rad of tilt; more is reported.
     """
     said = []
     for name, matters in _MATTERS.items():
@@ -45,14 +45,13 @@ def check(driven: RepeatedTrial, *, factor: float = 1.0) -> Findings:
             measure = MEASURES[name]
             unit = f" {measure.unit}" if measure.unit else ""
             said.append(
-                f"{measure.label} is {round(once, 3):g}{unit} and then {round(again, 3):g}{unit}"
+                f"{measure.label} changes from {round(once, 3):g}{unit} to "
+                f"{round(again, 3):g}{unit}"
             )
     if driven.trial.trouble != driven.again.trouble:
-        said.append("the solver has trouble with one of the two only")
+        said.append("the solver fails at only one of the two time steps")
     if said:
-        yield finding(
-            driven.robot, f"driven again at half the time step: {'; '.join(said)}", key="again"
-        )
+        yield finding(driven.robot, f"at half the time step: {'; '.join(said)}", key="again")
 
 
 def _sprung(stiffness: float, reference: float, mark: str = "") -> dict[str, object]:

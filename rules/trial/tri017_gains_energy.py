@@ -1,11 +1,12 @@
 """A robot that gains energy while nothing drives it.
 
-Energy comes from nowhere in the simulation only: a joint starts beyond its limits and is pushed
-back, a part starts inside the ground, or a loop of stiff parts fights itself. The robot twitches,
-jumps or creeps.
+Only a simulation creates energy: a joint starts beyond its limits and is pushed back, a part starts
+inside the ground, or stiff parts in a loop work against each other. The robot twitches, jumps or
+creeps.
 
-Fix: let every joint start within its limits, and look at what starts inside something else.
-Source: kinetic and potential energy at rest, in shares of the energy that lifts the robot by 0.1 m.
+Fix: make every joint start within its limits, and check parts that start inside others.
+Source: kinetic and potential energy at rest, as a share of the energy that lifts the robot by 0.1
+m.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -17,15 +18,15 @@ def check(driven: RobotTrial, *, warning_above: float = 0.1) -> Findings:
     """Report a gain of energy while nothing drives the robot.
 
     Options:
-        warning_above: Energy gained, as a share of what lifts the robot by 0.1 m; more is reported
-            (0.1 stands for a lift of 10 mm).
+        warning_above: Energy gained, as a share of the energy that lifts the robot by 0.1 m; more
+            is reported (0.1 means a lift of 10 mm).
     """
     gain = driven.trial.value("energy_gain")
     if gain is not None and gain > warning_above:
         yield finding(
             driven.robot,
-            f"left alone, it gains as much energy as lifts it by {gain * 0.1:.2g} m, expected at "
-            f"most {warning_above * 0.1:g} m",
+            f"without a command the robot gains the energy of a lift by {gain * 0.1:.2g} m, "
+            f"expected at most {warning_above * 0.1:g} m",
             key="energy_gain",
         )
 

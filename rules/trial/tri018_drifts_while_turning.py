@@ -1,12 +1,12 @@
 """A robot that moves away while it turns in place.
 
-Whoever plans its path thinks that it turns where it stands; in a narrow passage it hits the wall.
-A robot with wheels in fixed directions turns about the point where its loads let it: its centre
-of mass should lie in the middle of its wheels.
+Path planners assume that the robot turns in place; in a narrow passage it hits the wall. A robot
+with wheels in fixed directions turns about a point that depends on its loads: its centre of mass
+should be in the middle of its wheels.
 
-Fix: move what is heavy, such as the battery, so that the centre of mass is in the middle of the
-wheels; if the real robot is like this, say so in specifications.md.
-Source: quasi-static balance of Coulomb friction over the contact points with their loads.
+Fix: move heavy parts, such as the battery, so that the centre of mass is in the middle of the
+wheels; if the real robot drifts too, say so in specifications.md.
+Source: quasi-static balance of Coulomb friction at the contact points with their loads.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
@@ -18,16 +18,16 @@ def check(driven: RobotTrial, *, warning_above: float = 0.5) -> Findings:
     """Report a robot that moves away while it turns in place.
 
     Options:
-        warning_above: Metres that the middle of its wheels or tracks may come away from where the
-            turn began; more is reported.
+        warning_above: Metres that the middle of the wheels or tracks may move away from its place
+            at the start of the turn; more is reported.
     """
     drift = driven.trial.value("turn_drift")
     if drift is None or drift <= warning_above:
         return
     yield finding(
         driven.drive,
-        f"drifts {drift:.2g} m while turning in place, expected at most {warning_above:g} m"
-        + _cause(driven, drift),
+        f"the robot drifts {drift:.2g} m while turning in place, expected at most "
+        f"{warning_above:g} m" + _cause(driven, drift),
         key="turn_drift",
     )
 
@@ -38,7 +38,7 @@ def _cause(driven: RobotTrial, drift: float) -> str:
     if explained is None or side is None or front is None:
         return ""
     if explained < _MOST * drift:
-        return f": its centre of mass explains {explained:.2g} m of it, something else the rest"
+        return f": its centre of mass explains {explained:.2g} m of it; the rest has another cause"
     where = [
         f"{abs(offset) * 1000:.0f} mm {ahead if offset > 0 else behind}"
         for offset, ahead, behind in ((side, "left of", "right of"), (front, "before", "behind"))
@@ -50,7 +50,7 @@ def _cause(driven: RobotTrial, drift: float) -> str:
 
 _MOST = 0.5
 _SMALL = 0.005
-"""Metres that nobody would look for."""
+"""Metres that do not matter."""
 
 
 _WHEEL = """

@@ -1,12 +1,13 @@
-"""A URDF or xacro file of which no robot comes about.
+"""A URDF or xacro file that does not produce a robot.
 
-The launch file that loads it ends with an error, or loads a robot whose names still hold the
-expressions of xacro. A file that holds macros alone is none of these, nor one that only needs an
-argument that whoever starts it gives.
+The launch file that loads it ends with an error, or loads a robot whose names still contain xacro
+expressions. Files that contain only macros are not reported, nor files that only need an argument
+at launch.
 
-Fix: correct what the message names; `xacro FILE name:=x` shows the same on the command line.
+Fix: correct the error that the message names; `xacro FILE name:=x` shows the same on the command
+line.
 Source: xacro, "unknown macro name", "Undefined substitution argument"; ROS Noetic and later expand
-no tag without the prefix `xacro:`.
+only tags with the prefix `xacro:`.
 """
 
 import re
@@ -21,14 +22,14 @@ from checker.source.xml import Element
 _BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")
 _WITHOUT_PREFIX = ("include", "insert_block", "macro", "property")
-"""Tags of xacro that no reader of URDF knows; they stand directly in the robot."""
+"""Tags of xacro that no reader of URDF knows; they are directly in the robot."""
 _FOREIGN = ("gazebo",)
-"""Below these stands what URDF does not define, so braces may mean anything."""
+"""Elements with content that URDF does not define, so braces may mean anything."""
 
 
 @rule("URD001", "xacro-does-not-expand", Severity.ERROR)
 def check(files: UrdfFiles) -> Findings:
-    """Report files that xacro refuses, and what it leaves behind."""
+    """Report files that xacro refuses, and expressions that it leaves."""
     for reason in files.unread:
         yield unchecked(reason)
     for fault in files.faults:
@@ -55,7 +56,7 @@ def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
         if child.tag in _WITHOUT_PREFIX:
             yield finding(
                 child.span,
-                f"<{child.tag}> stays as it is: xacro expands <xacro:{child.tag}>",
+                f"<{child.tag}> is not expanded: write <xacro:{child.tag}>",
                 key=f"<{child.tag}>",
             )
         elif child.tag not in _FOREIGN:
@@ -69,7 +70,7 @@ def _unexpanded(element: Element) -> Iterator[Finding]:
         if found := _EXPRESSION.search(value):
             yield finding(
                 element.attribute(name) or element,
-                f"{found.group()} stays as it is: the file is loaded without xacro",
+                f"{found.group()} is not expanded: the file is loaded without xacro",
                 key="without xacro",
             )
         elif found := _BRACES.search(value):

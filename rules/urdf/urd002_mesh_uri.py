@@ -1,7 +1,7 @@
-"""A mesh of a URDF file that RViz or Gazebo cannot find.
+"""RViz or Gazebo cannot find a mesh of a URDF file.
 
-Both look for `package://<package>/<path>`. A path of the machine that it was written on, or one
-relative to the file, leads nowhere elsewhere, and the part is invisible.
+Both look for `package://<package>/<path>`. An absolute path, or a path relative to the file, works
+only on the author's machine; elsewhere the part is invisible.
 
 Fix: write `package://<package>/<path>`.
 Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo
@@ -26,7 +26,7 @@ _FETCHED = ("http://", "https://")
 def check(package: Package, description: UrdfDescription) -> Findings:
     """Report meshes without `package://`; for RViz, also those that do not exist.
 
-    In a URDF package REF002 looks for the files.
+    In a URDF package REF002 reports missing files.
     """
     missing: dict[str, list[Located[str]]] = defaultdict(list)
     for uri in description.robot.file_uris:
@@ -36,8 +36,8 @@ def check(package: Package, description: UrdfDescription) -> Findings:
         if named is None:
             yield finding(
                 uri,
-                f"mesh {uri.value!r} does not begin with package://, so it is found on the machine "
-                "of its author at most",
+                f"mesh {uri.value!r} does not start with package://, so at most the author's "
+                "machine finds it",
                 severity=Severity.WARNING,
                 key="no package",
             )
@@ -52,7 +52,7 @@ def check(package: Package, description: UrdfDescription) -> Findings:
 
 
 def _folder(package: Package, name: str) -> str | None:
-    """Return what leads from a package to the one that a URI names; None when not at hand."""
+    """Return the path from a package to the one in a URI; None if it is not available."""
     sibling = package.workspace.package(name)
     if name.casefold() == package.name.casefold() or sibling is package:
         return ""
@@ -62,14 +62,14 @@ def _folder(package: Package, name: str) -> str | None:
 def _of_another(uri: Located[str], name: str) -> Finding:
     return finding(
         uri,
-        f"meshes of {name} are not at hand, so RViz needs that package as well",
+        f"the meshes of {name} are not available, so RViz needs that package too",
         severity=Severity.INFO,
         key=name,
     )
 
 
 def _missing(uris: dict[str, list[Located[str]]]) -> Iterator[Finding]:
-    """Report files that are not there as one fault: a folder that is left out holds them all."""
+    """Report missing files as one finding: usually one missing folder contains them all."""
     others = len(uris) - 1
     also = f", nor {'does 1 other mesh' if others == 1 else f'do {others} other meshes'}"
     for uri, places in uris.items():

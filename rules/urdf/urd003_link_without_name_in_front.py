@@ -1,7 +1,7 @@
-"""A link for RViz without the robot's name in front.
+"""A link for RViz without the robot's name as a prefix.
 
-Teams run several robots at once, and all of them share one tree of frames. Links that are called
-the same in two robots jump between them; the frames that Gazebo publishes begin with the name.
+Teams run several robots at once, and all robots share one tree of frames. Links with the same name
+in two robots jump between them; the frames that Gazebo publishes start with the name.
 
 Fix: write `${name}/base_link`, in links and in the parents and children of joints.
 Source: Model Migration Guide: "Prefix each link in the xacro file with the robot's namespace".
@@ -14,7 +14,7 @@ from checker.rule import Findings, Severity, finding, rule
 
 @rule("URD003", "link-without-name-in-front", Severity.WARNING)
 def check(description: UrdfDescription) -> Findings:
-    """Report links of a description for RViz whose name the robot's name does not begin."""
+    """Report links of a description for RViz that do not start with the robot's name."""
     if not description.for_rviz:
         return
     prefix = f"{SAMPLE_ARGUMENTS['name']}/"
@@ -23,7 +23,7 @@ def check(description: UrdfDescription) -> Findings:
         others = f" ({len(bare)} links)" if len(bare) > 1 else ""
         yield finding(
             link.name,
-            f"link {link.name.value!r} does not begin with ${{name}}/{others}",
+            f"link {link.name.value!r} does not start with ${{name}}/{others}",
             key="prefix",
         )
 

@@ -1,7 +1,7 @@
-"""A joint or link that the readers of URDF refuse.
+"""A joint or link that URDF readers refuse.
 
-They refuse the whole robot with it: RViz shows nothing, and spawn_model ends with an error. URDF
-asks for a tree of links with one root, and of a joint that moves for limits of effort and velocity.
+URDF readers refuse the whole robot: RViz shows nothing, and spawn_model ends with an error. URDF
+requires a tree of links with one root, and effort and velocity limits for each joint that moves.
 
 In URDF packages, KIN001 to KIN003 report links that do not exist, loops and loose links.
 
@@ -25,7 +25,7 @@ LIMITED = ("prismatic", "revolute")
 
 @rule("URD004", "urdf-refused", Severity.ERROR)
 def check(description: UrdfDescription) -> Findings:
-    """Report what keeps a description from being read as a tree of links."""
+    """Report what prevents a description from being read as a tree of links."""
     robot = description.robot
     for joint in robot.joints:
         yield from _type_and_limit(joint)
@@ -62,7 +62,7 @@ def _repeated(parts: tuple[Link, ...] | tuple[Joint, ...]) -> Iterator[Finding]:
         if counts[name] > 1 and name in seen:
             yield finding(
                 part.name,
-                f"{part.element.tag} {name!r} stands there {counts[name]} times, expected once",
+                f"{part.element.tag} {name!r} occurs {counts[name]} times, expected once",
                 key=f"{part.element.tag} {name}",
                 related=[(seen[name].name, "the first one")],
             )
@@ -74,7 +74,9 @@ def _ends(robot: Robot) -> Iterator[Finding]:
     for joint in robot.joints:
         for role, end in (("parent", joint.parent), ("child", joint.child)):
             if end.value not in robot.links_by_name:
-                said = f"the {role} {end.value!r}, which is no link" if end.value else f"no {role}"
+                said = (
+                    f"the {role} {end.value!r}, which is not a link" if end.value else f"no {role}"
+                )
                 hint = names.hint(end.value)
                 yield finding(end, f"joint {joint.name.value!r} has {said}{hint}")
 
@@ -86,7 +88,7 @@ def _tree(robot: Robot) -> Iterator[Finding]:
         if child in above:
             yield finding(
                 joint,
-                f"link {child!r} hangs on two joints, expected one",
+                f"link {child!r} is the child of two joints, expected one",
                 related=[(above[child], "the other joint")],
             )
         above.setdefault(child, joint)
@@ -94,12 +96,12 @@ def _tree(robot: Robot) -> Iterator[Finding]:
         return
     roots = [link for link in robot.links if link.name.value not in above]
     if not roots:
-        yield finding(robot.links[0], "every link hangs on another: the joints make a loop")
+        yield finding(robot.links[0], "every link is the child of a joint: the joints form a loop")
     for extra in roots[1:]:
         yield finding(
             extra,
-            f"link {extra.name.value!r} hangs on nothing, like {roots[0].name.value!r}: "
-            "a robot has one root",
+            f"link {extra.name.value!r} has no parent, like {roots[0].name.value!r}: a robot has "
+            "only one root",
             related=[(roots[0], "the first root")],
         )
 

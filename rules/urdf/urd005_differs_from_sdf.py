@@ -1,9 +1,9 @@
-"""A description for RViz that shows another robot than the simulation has.
+"""A description for RViz that differs from the simulated robot.
 
-Teams plan with the frames that RViz knows. A link that the simulation has and RViz has not is a
-frame that nobody finds; a mass that differs tells that one of the two files was left behind.
+Teams plan with the frames that RViz knows. A link that only the simulation has is a frame that
+nobody finds. If a mass differs, one of the two files is out of date.
 
-Fix: make the URDF file anew from model.sdf.
+Fix: generate the URDF file again from model.sdf.
 Source: Model Migration Guide: the URDF file is converted from the SDF model, so that both agree.
 """
 
@@ -20,11 +20,11 @@ _SCOPES = str.maketrans({":": "_", "/": "_"})
 
 @rule("URD005", "urdf-differs-from-sdf", Severity.WARNING)
 def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) -> Findings:
-    """Report links that one of both lacks, and masses that differ.
+    """Report links that one of the two lacks, and masses that differ.
 
     Options:
-        share: Share of the larger by which both masses of a link may differ; more is reported
-            unless the rigid body that it is part of agrees.
+        share: Share of the larger mass by which the two masses of a link may differ; more is
+            reported, unless the masses of its rigid body agree.
     """
     if not description.for_rviz:
         return
@@ -47,8 +47,8 @@ def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) ->
         ):
             yield finding(
                 theirs.inertial.mass,
-                f"link {name!r} has a mass of {theirs.mass:g} kg, "
-                f"{ours.mass:g} kg in {robot.document.source.file}",
+                f"link {name!r} has a mass of {theirs.mass:g} kg, but {ours.mass:g} kg in "
+                f"{robot.document.source.file}",
                 key="mass",
                 related=[(ours.inertial.mass, "in the simulation")],
             )
@@ -59,7 +59,7 @@ def _differ(one: float, other: float, share: float) -> bool:
 
 
 class _Bodies:
-    """The links of a robot by their plain names, and what fixed joints tie them to."""
+    """The links of a robot by their plain names, and their fixed joints."""
 
     def __init__(self, robot: Robot) -> None:
         bodies = rigid_bodies(robot)
@@ -70,7 +70,7 @@ class _Bodies:
             self._mass[self._body[name]] = self._mass.get(self._body[name], 0.0) + link.mass
 
     def mass_with(self, name: str) -> float:
-        """Return the mass of a link with all that fixed joints tie to it, kilograms."""
+        """Return the mass of a link with all links fixed to it, kilograms."""
         return self._mass[self._body[name]]
 
     def body_of(self, name: str) -> str:
@@ -79,7 +79,7 @@ class _Bodies:
 
 
 def _plain(name: str) -> str:
-    """Return a link's name without the robot's name in front, nested or not."""
+    """Return a link's name without the robot's name as a prefix, nested or not."""
     return name.rpartition("/")[2].translate(_SCOPES)
 
 
@@ -89,7 +89,9 @@ def _lacking(simulated: _Bodies, shown: _Bodies, description: UrdfDescription) -
         said = f"{len(lacking)} of {len(simulated.links)} links of the model are missing: "
         if len(lacking) == len(simulated.links) and shown.links:
             other = next(iter(shown.links))
-            said = f"no link has its name of the model, {other!r} for one; expected "
+            said = (
+                f"no link has the name that it has in the model, for example {other!r}; expected "
+            )
         yield finding(
             description.document.root,
             said + ", ".join(lacking[:_SHOWN]) + (" …" if len(lacking) > _SHOWN else ""),
@@ -105,7 +107,7 @@ def _extra(simulated: _Bodies, shown: _Bodies) -> Iterator[Finding]:
         if name not in simulated.links and link.mass > 0 and shown.body_of(name) not in merging:
             yield finding(
                 link.name,
-                f"link {name!r} has a mass of {link.mass:g} kg, the model lacks it",
+                f"link {name!r} has a mass of {link.mass:g} kg, but the model lacks it",
                 key="extra",
             )
 

@@ -1,9 +1,9 @@
-"""A `gazebo` tag of a link or joint that does not exist, or one that does nothing.
+"""A `gazebo` tag for a link or joint that does not exist, or one without effect.
 
-Gazebo says nothing about it: the friction, the sensor or the colour is just not there.
+Gazebo prints no message: the friction, the sensor or the colour is missing.
 
-Fix: write the link or joint as the robot spells it; put what is meant for a link under a link, and
-what is meant for a joint under a joint.
+Fix: write the exact name of the link or joint; put elements for links under a link, and elements
+for joints under a joint.
 Source: Gazebo Classic, "Using a URDF in Gazebo": elements for `<robot>`, `<link>` and `<joint>`.
 """
 
@@ -32,7 +32,7 @@ OF_JOINTS = frozenset(
 
 @rule("URD006", "gazebo-tag-in-vain", Severity.ERROR)
 def check(description: UrdfDescription) -> Findings:
-    """Report `<gazebo>` tags that refer to nothing, and what is of no use where it stands."""
+    """Report `<gazebo>` tags that refer to nothing, and elements without effect."""
     if description.for_rviz:
         return
     robot = description.robot
@@ -43,7 +43,7 @@ def check(description: UrdfDescription) -> Findings:
         if tag.reference.stated and not known:
             yield finding(
                 tag.reference,
-                f"<gazebo> refers to {name!r}, which is no link and no joint{names.hint(name)}",
+                f"<gazebo> refers to {name!r}, which is not a link or joint{names.hint(name)}",
                 key=name,
             )
         else:
@@ -52,17 +52,17 @@ def check(description: UrdfDescription) -> Findings:
 
 def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
     if not tag.element.children:
-        yield finding(tag, "<gazebo> holds nothing", severity=Severity.INFO, key="nothing")
+        yield finding(tag, "<gazebo> is empty", severity=Severity.INFO, key="nothing")
         return
     name = tag.reference.value
     for child in tag.element.children:
         if not tag.reference.stated and child.tag in OF_LINKS | OF_JOINTS:
             what = "a link" if child.tag in OF_LINKS else "a joint"
-            said = f"<{child.tag}> is for {what}, and this <gazebo> has no reference to one"
+            said = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"
         elif child.tag in OF_JOINTS and name and name not in robot.joints_by_name:
-            said = f"<{child.tag}> is for a joint, {name!r} is a link"
+            said = f"<{child.tag}> is for a joint, but {name!r} is a link"
         elif child.tag in OF_LINKS and name and name not in robot.links_by_name:
-            said = f"<{child.tag}> is for a link, {name!r} is a joint"
+            said = f"<{child.tag}> is for a link, but {name!r} is a joint"
         else:
             continue
         yield finding(child, said, severity=Severity.WARNING)

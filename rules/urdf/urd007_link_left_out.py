@@ -1,7 +1,8 @@
-"""A link that Gazebo leaves out, or that has weight and touches or shows nothing.
+"""A link that Gazebo drops, or a link with mass but without collision or visual.
 
 Gazebo Classic drops a link without `<inertial>`, with its sensors and all links below it, unless a
-fixed joint merges it into one that has a mass. Frames of sensors are merged, so they need none.
+fixed joint merges it into a link that has a mass. Frames of sensors are merged, so they need no
+inertial.
 
 Fix: give each link that moves an `<inertial>`, a `<collision>` and a `<visual>`.
 Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children links ignored".
@@ -19,11 +20,11 @@ _NO_LINK = "world"
 
 @rule("URD007", "link-left-out", Severity.ERROR)
 def check(description: UrdfDescription, *, share: float = 0.01) -> Findings:
-    """Report links without inertia, and links with weight that lack shapes.
+    """Report links without inertia, and links with mass that lack shapes.
 
     Options:
-        share: Share of the robot's mass from which on a link, with what is merged into it, must
-            have collisions and visuals.
+        share: Share of the robot's mass from which a link, with the links merged into it, must have
+            collisions and visuals.
     """
     if description.for_rviz:
         return
@@ -51,7 +52,7 @@ def _left_out(description: UrdfDescription, link: Link, links: list[Link]) -> Fi
     missed = lost or any(each.collisions or each.visuals for each in links)
     return finding(
         link,
-        f"link {link.name.value!r} has no <inertial>: Gazebo leaves it out{with_it}",
+        f"link {link.name.value!r} has no <inertial>, so Gazebo drops it{with_it}",
         severity=None if missed else Severity.WARNING,
     )
 

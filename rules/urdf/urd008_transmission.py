@@ -1,11 +1,12 @@
-"""A transmission that moves nothing.
+"""A transmission without effect.
 
-gazebo_ros_control registers a joint with the controllers by its transmission. One without a joint,
-without an actuator or without an interface is skipped, and the controller does not find its joint.
+gazebo_ros_control registers a joint with the controllers through its transmission. It skips a
+transmission without a joint, an actuator or an interface, and the controller does not find its
+joint.
 
 Fix: give the transmission one joint of the robot with its hardware interface, and one actuator.
 Source: transmission_interface, TransmissionParser: a transmission without name, type, joint or
-actuator is skipped; gazebo_ros_control, DefaultRobotHWSim: takes the first interface of the joint.
+actuator is skipped; gazebo_ros_control, DefaultRobotHWSim: uses the first interface of the joint.
 """
 
 from collections import Counter
@@ -23,7 +24,7 @@ _PREFIX = "hardware_interface/"
 
 @rule("URD008", "broken-transmission", Severity.ERROR)
 def check(description: UrdfDescription) -> Findings:
-    """Report transmissions without effect, and joints that alone of their kind have none."""
+    """Report transmissions without effect, and joints without one unlike others of their type."""
     if description.for_rviz:
         return
     robot = description.robot
@@ -73,8 +74,8 @@ def _joint(
             if _plain(interface) not in wanted:
                 yield finding(
                     interface,
-                    f"actuator {actuator.name.value!r} has {_plain(interface)}, "
-                    f"joint {name!r} has {', '.join(sorted(wanted))}: expected the same",
+                    f"actuator {actuator.name.value!r} has {_plain(interface)}, but joint "
+                    f"{name!r} has {', '.join(sorted(wanted))}: expected the same",
                     related=[(end.interfaces[0], "the joint's interface")],
                 )
 
@@ -97,7 +98,7 @@ def _twice(description: UrdfDescription) -> Iterator[Finding]:
 
 
 def _left_without(description: UrdfDescription) -> Iterator[Finding]:
-    """Yield joints without transmission where most joints of their type have one."""
+    """Yield joints without transmission if most joints of their type have one."""
     moved = {end.name.value for each in description.transmissions for end in each.joints}
     robot = description.robot
     moved |= {each.text.value for plugin in robot.plugins for each in plugin.element.descendants()}

@@ -1,11 +1,12 @@
-"""A name that Gazebo no longer knows once fixed joints are merged.
+"""A name that Gazebo removes when it merges fixed joints.
 
-Gazebo Classic merges the links that fixed joints tie: the link below is gone, and so is the joint.
-A plugin that asks for them ends with an error or does nothing; a contact sensor that names the old
-collision never reports a contact. Frames of robot_state_publisher stay: it reads the URDF file.
+Gazebo Classic merges links that fixed joints connect: the lower link and the joint no longer exist.
+A plugin that names them ends with an error or does nothing; a contact sensor that names the old
+collision never reports a contact. Frames of robot_state_publisher are not affected: it reads the
+URDF file.
 
-Fix: name the link that it is merged into; or keep the joint by `<preserveFixedJoint>true` below
-`<gazebo reference="joint">` (`<disableFixedJointLumping>` keeps the link alone).
+Fix: name the link into which it is merged; or keep the joint with `<preserveFixedJoint>true` below
+`<gazebo reference="joint">` (`<disableFixedJointLumping>` keeps only the link).
 Source: sdformat 6, parser_urdf.cc, ReduceFixedJoints: collisions become
 `parent_fixed_joint_lump__child_collision`; gazebo_ros_p3d, gazebo_ros_force and
 gazebo_ros_ft_sensor look up `bodyName`, `linkName` and `jointName` in the model.
@@ -26,7 +27,7 @@ _COLLISION = "_collision"
 
 @rule("URD009", "frame-lost-by-lumping", Severity.WARNING)
 def check(description: UrdfDescription) -> Findings:
-    """Report plugins and contact sensors that name what is merged away."""
+    """Report plugins and contact sensors that name merged links, joints or collisions."""
     if description.for_rviz:
         return
     lumping, robot = Lumping(description), description.robot
@@ -42,7 +43,7 @@ def _names_of(plugin: Plugin, lumping: Lumping) -> Iterator[Finding]:
         if name.value in lumping.merged:
             yield finding(
                 name,
-                f"plugin {plugin.name.value!r} asks for link {name.value!r}, which Gazebo merges "
+                f"plugin {plugin.name.value!r} names link {name.value!r}, which Gazebo merges "
                 f"into {lumping.holder(name.value)!r}",
                 key=name.value,
             )
@@ -51,8 +52,8 @@ def _names_of(plugin: Plugin, lumping: Lumping) -> Iterator[Finding]:
         if name.value in joints:
             yield finding(
                 name,
-                f"plugin {plugin.name.value!r} asks for joint {name.value!r}, which is fixed: "
-                "Gazebo merges the links and drops it",
+                f"plugin {plugin.name.value!r} names joint {name.value!r}, which is fixed: Gazebo "
+                "merges its links and removes it",
                 key=name.value,
             )
 
@@ -65,7 +66,7 @@ def _contact(sensor: Sensor, lumping: Lumping) -> Iterator[Finding]:
                 merged = f"{lumping.holder(link)}_fixed_joint_lump__{named.text.value}"
                 yield finding(
                     named.text,
-                    f"contact sensor {sensor.name.value!r} asks for {named.text.value!r}, which "
+                    f"contact sensor {sensor.name.value!r} names {named.text.value!r}, which "
                     f"Gazebo renames when it merges link {link!r}; expected {merged!r}",
                 )
 

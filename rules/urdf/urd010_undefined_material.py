@@ -1,9 +1,9 @@
-"""A material that is named and defined nowhere.
+"""A material that is used, but not defined.
 
-A `<material>` with a name alone takes the colour that the robot defines under this name. There is
-none, so RViz shows the part in its default colour.
+A `<material>` with only a name gets the colour that the robot defines under this name. No such
+definition exists, so RViz shows the part in its default colour.
 
-Fix: add `<material name="…"><color rgba="…"/></material>` to the robot, or spell the name as there.
+Fix: add `<material name="…"><color rgba="…"/></material>` to the robot, or correct the name.
 Source: URDF specification, visual/material.
 """
 
@@ -17,7 +17,7 @@ _DEFINING = ("color", "texture")
 
 @rule("URD010", "undefined-material", Severity.WARNING)
 def check(description: UrdfDescription) -> Findings:
-    """Report names of materials that have no colour and no texture anywhere in the file."""
+    """Report names of materials without a colour or texture in the file."""
     root = description.document.root
     used = [
         material
@@ -34,7 +34,7 @@ def check(description: UrdfDescription) -> Findings:
             continue
         yield finding(
             name,
-            f"material {name.value!r} is defined nowhere{names.hint(name.value)}",
+            f"material {name.value!r} is not defined{names.hint(name.value)}",
             key=name.value,
         )
 

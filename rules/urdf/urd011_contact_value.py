@@ -1,7 +1,7 @@
-"""A friction or contact stiffness in a tag `gazebo` that is negative, zero or no number.
+"""A friction or contact stiffness in a `gazebo` tag that is not a positive number.
 
-A negative friction pushes a sliding part on, and a contact without stiffness lets the part sink
-into the ground. Friction of zero is right for a caster that slides.
+A negative friction accelerates a sliding part, and a contact without stiffness lets the part sink
+into the ground. Zero friction is right for a caster that slides.
 
 Fix: write a positive number: friction has no unit, kp is in N/m and kd in N·s/m.
 Source: Gazebo Classic, "Using a URDF in Gazebo": mu1, mu2, kp, kd; Open Dynamics Engine, contacts.
@@ -14,7 +14,7 @@ from checker.rule import Findings, Severity, finding, rule
 
 UNITS = {"mu1": "", "mu2": "", "kp": " N/m", "kd": " N·s/m"}
 MAY_BE_ZERO = ("mu1", "mu2", "kd")
-"""A part may slide without friction, and a contact may have no damping."""
+"""Tags that may be zero: a part may slide without friction, and a contact may have no damping."""
 
 
 @rule("URD011", "contact-value", Severity.WARNING)

@@ -35,7 +35,7 @@ def test_a_robot_is_judged_by_the_users_devices(tmp_path: Path) -> None:
     settings = settings_from(f'select = ["SEN004", "SEN007"]\n{OWN}', tmp_path)
     (report,) = check_package(package, settings).packages
     assert {finding.message for finding in report.findings} == {
-        "lidar 'acme_l1' has 720 samples a row at 10 Hz, expected 360 (Acme L1)",
+        "lidar 'acme_l1' has 720 samples per row at 10 Hz, expected 360 (Acme L1)",
         "lidar 'acme_l1' has 1 rows, expected 8 (Acme L1)",
     }
     assert {str(finding.severity) for finding in report.findings} == {"warning"}

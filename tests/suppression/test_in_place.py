@@ -94,7 +94,7 @@ def test_a_rule_in_use_and_one_that_is_not(tmp_path: Path) -> None:
     report = checked(axle(f"{ignore('KIN001', 'KIN002')}\n{TYRE}"), tmp_path, "KIN001", "KIN002")
     assert set_aside(report) == ASIDE
     (unused,) = report.findings
-    assert unused.message == "ignore[KIN002] is of no use: KIN002 finds nothing on its line"
+    assert unused.message == "ignore[KIN002] is unused: KIN002 has no finding on its line"
 
 
 def test_two_comments_for_one_finding_are_both_of_use(tmp_path: Path) -> None:

@@ -114,10 +114,12 @@ def message(id: str, **said: Any) -> str:
 
 def test_speed_that_the_wheel_radius_explains() -> None:
     said = message("TRI003", speed_ratio=0.5)
-    assert said.startswith("told to drive at 0.5 m/s, it reaches 0.25 m/s: off by 50%")
+    assert said.startswith(
+        "commanded to drive at 0.5 m/s, the robot reaches 0.25 m/s: a difference of 50%"
+    )
     assert "wheel_radius" not in said
     said = message("TRI003", speed_ratio=0.5, robot=rover(wheel_radius=0.2))
-    assert said.endswith("; wheel_radius is 0.2 m, the wheels' own is 0.1 m")
+    assert said.endswith("; wheel_radius is 0.2 m, but the wheels have a radius of 0.1 m")
 
 
 @pytest.mark.parametrize(
@@ -149,7 +151,7 @@ def test_the_wrong_way_names_its_cause(robot: Any, figures: dict[str, float], wo
             "the centre of mass 55 mm left of the middle of the wheels explains 1.1 m",
         ),
         (1.0, -0.03, 0.02, "30 mm right of and 20 mm before the middle of the wheels"),
-        (0.1, 0.01, 0.0, "its centre of mass explains 0.1 m of it, something else the rest"),
+        (0.1, 0.01, 0.0, "its centre of mass explains 0.1 m of it; the rest has another cause"),
     ],
 )
 def test_drift_says_what_the_centre_of_mass_explains(
