@@ -17,7 +17,7 @@ VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo dev test test-more test-all viewer lint types format bench constraints clean golden
+.PHONY: demo dev test test-more test-all viewer lint types format bench picture constraints clean golden
 
 demo: .venv/installed $(VIEWER)
 	@mkdir -p demo
@@ -101,6 +101,10 @@ viewer: $(VIEWER)
 $(VIEWER): templates/viewer/build templates/viewer/package.json $(wildcard templates/viewer/src/*.js)
 	scripts/require node=nodejs npm=npm
 	templates/viewer/build
+
+# The picture in README.md.
+picture: .venv/tested $(VIEWER)
+	scripts/picture $(BIN)
 
 constraints: .venv/tested
 	@{ head -n 2 constraints.txt; $(BIN)/pip freeze --exclude-editable; } > constraints.new
