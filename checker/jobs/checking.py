@@ -19,7 +19,6 @@ from typing import Any
 from checker.cache import key_of
 from checker.confined import from_json
 from checker.jobs.children import ANSWER_LIMIT, Children, Ended
-from checker.jobs.crowd import let_pass
 from checker.jobs.layout import CACHE, UPLOAD, is_part
 from checker.jobs.limits import StageLimits
 from checker.jobs.outcome import (
@@ -98,7 +97,6 @@ def _checked(
         "stage": stage,
         "limits": asdict(limits),
     }
-    let_pass(store, cancelled)
     content = read_bytes(upload, order.name, UPLOAD_LIMIT)
     if isinstance(content, NotReadable):
         _LOG.error("an upload %s", content.reason)

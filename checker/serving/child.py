@@ -1,7 +1,6 @@
 """A process of the service, which ends with the one that started it.
 
-`python -P -m checker.serving.child PARENT web DESCRIPTOR PROXIES`, `… PARENT clerk DESCRIPTOR` or
-`… PARENT worker NAME`.
+`python -P -m checker.serving.child PARENT web DESCRIPTOR PROXIES` or `… PARENT worker NAME`.
 """
 
 from __future__ import annotations
@@ -37,14 +36,11 @@ def web(descriptor: int, proxies: str) -> None:
     import uvicorn
 
     from checker.serving.connection import Connection, ProxyConnection
-    from checker.web.clerk.process import ProcessClerk
-    from checker.web.main import app_from_environment
+    from checker.web.app import app_from_environment
 
     _allow_open_files()
-    clerk = ProcessClerk((*CHILD, str(os.getpid()), "clerk"))
-    clerk.start()
     config = uvicorn.Config(
-        app_from_environment(clerk),  # it asks the database, which an event loop must not wait for
+        app_from_environment(),  # it asks the database, which an event loop must not wait for
         http=ProxyConnection if proxies else Connection,
         ws="none",
         log_config=None,
@@ -68,15 +64,6 @@ def _allow_open_files() -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (allowed, hard))
 
 
-def clerk(descriptor: int) -> None:
-    """Take uploads until the web process ends; see `checker.web.clerk.child`."""
-    from checker.web.clerk.child import work
-
-    # Meant for the web process, which finishes what it has begun.
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    work(descriptor)
-
-
 def worker(name: str) -> None:
     """Take checks from the queues until SIGTERM; see `checker.jobs.durable.worker`."""
     from checker.jobs.durable.worker import WorkerOptions, work
@@ -97,8 +84,6 @@ def main(arguments: Sequence[str]) -> int:
     try:
         if kind == "web":
             web(int(rest[0]), rest[1])
-        elif kind == "clerk":
-            clerk(int(rest[0]))
         else:
             worker(rest[0])
     except CheckerError as error:

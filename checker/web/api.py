@@ -17,9 +17,9 @@ from checker.web.answers import Problem
 from checker.web.events import HIGHEST, event_stream
 from checker.web.files import KINDS, file_response
 from checker.web.lookup import check_of
-from checker.web.receiving import new_check
 from checker.web.refusal import Refused
 from checker.web.services import Services
+from checker.web.uploads.receiving import new_check
 from checker.web.views import CheckView, Created, address_of, check_view
 
 if TYPE_CHECKING:

@@ -15,10 +15,10 @@ from checker.report.wording import count, plain
 from checker.web import progress, rule_book
 from checker.web.first_findings import glance
 from checker.web.lookup import check_of
-from checker.web.receiving import new_check
 from checker.web.refusal import not_found
 from checker.web.services import Services
 from checker.web.site import FOLDER, html, static_file
+from checker.web.uploads.receiving import new_check
 from checker.web.views import address_of
 
 if TYPE_CHECKING:

@@ -5,17 +5,21 @@ from __future__ import annotations
 from dataclasses import field
 from typing import TYPE_CHECKING
 
+from anyio import CapacityLimiter
+
 from checker.jobs.port import Jobs
 from checker.record import record
 from checker.store.store import Store
-from checker.web.clerk.port import Clerk
 from checker.web.config import Config
 from checker.web.gate import Gate
 from checker.web.metrics import Metrics
-from checker.web.turns import Turns
+from checker.web.uploads.archive_indexes import ArchiveIndexes
 
 if TYPE_CHECKING:
     from starlette.requests import Request
+
+_AT_ONCE = 16
+"""Uploads; most take 10 ms, some archives seconds."""
 
 
 @record()
@@ -25,20 +29,20 @@ class Services:
     Attributes:
         jobs: The engine that checks.
         store: Uploads and results.
-        clerk: Takes uploads that have come whole.
         config: What is allowed here.
         gate: Says who may do what.
         metrics: Counts what they do.
-        turns: Of the uploads that come.
+        indexes: Reads those of archives.
+        takers: Let a few uploads that have come whole be looked at, kept and ordered at once.
     """
 
     jobs: Jobs
     store: Store
-    clerk: Clerk
     config: Config
     gate: Gate
     metrics: Metrics
-    turns: Turns = field(default_factory=Turns)
+    indexes: ArchiveIndexes
+    takers: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
 
     def address(self, request: Request) -> str:
         """Return where people reach the service, without a slash at its end."""

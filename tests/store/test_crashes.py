@@ -67,7 +67,7 @@ def kill(process: subprocess.Popen[bytes]) -> None:
 
 
 def in_progress(store: Store) -> list[Path]:
-    return list((store.folder / "incoming").iterdir())
+    return list(store.folder.glob("incoming/*"))
 
 
 @pytest.mark.parametrize("milliseconds", [1, 7, 20, 45, 80])

@@ -13,9 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.store.store import Store, TooLarge
-from checker.web.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm
 from checker.web.refusal import Refused
-from checker.web.sniffing import misfit
+from checker.web.uploads.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm, misfit
 from tests.web.server import BOUNDARY, form, left_behind
 
 TYPE = f"multipart/form-data; boundary={BOUNDARY}"

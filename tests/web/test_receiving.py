@@ -8,7 +8,10 @@ import socket
 import tarfile
 import zipfile
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
+from threading import Event, Thread
+from time import monotonic, sleep
 
 import httpx
 import pytest
@@ -18,7 +21,7 @@ from checker.jobs.port import JobsUnreachable, Order
 from checker.store.store import Store
 from checker.web.app import create_app
 from checker.web.config import Config
-from checker.web.receiving import AT_ONCE
+from checker.web.uploads.receiving import AT_ONCE
 from tests.web.board import ID, BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
 
@@ -230,3 +233,32 @@ def test_an_upload_that_is_cut_off_leaves_nothing(store: Store, sent: int) -> No
         answer = httpx.get(f"http://localhost:{port}/healthz")
         assert answer.status_code == 200
     assert not jobs.states
+
+
+def trickle(port: int, stop: Event) -> None:
+    """Send an upload that never stands still and never ends."""
+    with socket.create_connection(("127.0.0.1", port)) as connection:
+        connection.sendall(request_head(10_000_000) + form("slow.sdf", b"<sdf/>")[:200])
+        while not stop.is_set():
+            connection.sendall(b" " * 100)
+            sleep(0.004)
+
+
+def test_slow_senders_keep_nobody_waiting(store: Store) -> None:
+    stop = Event()
+    with served(create_app(BoardJobs(), store, Config())) as port, ExitStack() as stack:
+        stack.callback(stop.set)
+        for _ in range(10):
+            Thread(target=trickle, args=(port, stop), daemon=True).start()
+        assert eventually(lambda: len([*store.folder.glob("incoming/*")]) == 10)
+        begun = monotonic()
+        answer = httpx.post(
+            f"http://localhost:{port}/api/checks",
+            content=form("quick.sdf", b"<sdf/>"),
+            headers={"Content-Type": f"multipart/form-data; boundary={BOUNDARY}"},
+            timeout=30,
+        )
+        assert answer.status_code == 201
+        # Theirs would have lasted for minutes; this is for a machine that does much else.
+        assert monotonic() - begun < 15
+        assert len([*store.folder.glob("incoming/*")]) >= 10

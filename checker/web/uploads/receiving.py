@@ -7,23 +7,26 @@ import errno
 import os
 import shutil
 from collections.abc import AsyncIterator, MutableMapping
-from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from time import monotonic
 from typing import Any
 
+from anyio import to_thread
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
+from checker.errors import UnreadableInput
+from checker.jobs.port import Order
+from checker.package.archive import ARCHIVE_SUFFIXES
 from checker.profiles import profile_names
+from checker.report.wording import plain
 from checker.store.incoming import Incoming, TooLarge
 from checker.store.store import Store
-from checker.web.clerk.port import Slip
 from checker.web.config import Config
-from checker.web.form import ROOM, UploadForm
-from checker.web.refusal import Refused
+from checker.web.refusal import Refused, sentence
 from checker.web.services import Services
-from checker.web.turns import Turn
+from checker.web.uploads.form import ROOM, UploadForm
 
 AT_ONCE = 1_048_576
 """Bytes of each upload that the event loop writes itself. The system takes them into its memory in
@@ -51,7 +54,7 @@ async def new_check(request: Request, services: Services) -> str:
         _refuse_announced(request, config)
         try:
             _refuse_without_room(services.store, config)
-            # Unless the clerk has taken it by then, nothing of it is left behind this.
+            # Unless the store has it by then, nothing of it is left behind this.
             with services.store.incoming(config.upload_limit) as incoming:
                 id = await _received(request, services, incoming)
         except TooLarge:
@@ -66,16 +69,26 @@ async def _received(request: Request, services: Services, incoming: Incoming) ->
     """Read the form, and have a check of its file ordered; see `new_check`."""
     admit = services.gate.needs_token(request)
     form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
-    async with services.turns.one() as turn:
-        async for piece in _pieces(request, services.config, turn):
-            if incoming.size < AT_ONCE:
-                form.feed(piece)
-            else:
-                turn.end()
-                await run_in_threadpool(form.feed, piece)
+    async for piece in _pieces(request, services.config):
+        if incoming.size < AT_ONCE:
+            form.feed(piece)
+        else:
+            await run_in_threadpool(form.feed, piece)
     form.end()
     profile = _profile(form.fields.get("profile", ""))
-    return await services.clerk.take(Slip(str(incoming.path), form.name, profile))
+    take = partial(_ordered, services, incoming, form.name, profile)
+    return await to_thread.run_sync(take, limiter=services.takers)
+
+
+def _ordered(services: Services, incoming: Incoming, name: str, profile: str) -> str:
+    """Look at an upload that has come whole, keep it, order its check, and return its id."""
+    if name.lower().endswith(ARCHIVE_SUFFIXES):
+        try:
+            services.indexes.check(incoming.path, name)
+        except UnreadableInput as error:
+            reason = plain(f"{name} {error.reason}.")
+            raise Refused(422, reason, sentence(error.advice), "archive") from None
+    return services.jobs.submit(Order(incoming.finish(), name, profile))
 
 
 def too_large(limit: int) -> Refused:
@@ -126,8 +139,8 @@ class _Patience:
         return min(bought, config.upload_seconds) - passed
 
 
-async def _pieces(request: Request, config: Config, turn: Turn) -> AsyncIterator[bytes]:
-    """Yield the body of a request piece by piece; a sender that does not keep up has no turn.
+async def _pieces(request: Request, config: Config) -> AsyncIterator[bytes]:
+    """Yield the body of a request piece by piece.
 
     Raises:
         Refused: It comes too slowly, is longer than any form, or ends early.
@@ -135,7 +148,7 @@ async def _pieces(request: Request, config: Config, turn: Turn) -> AsyncIterator
     patience = _Patience(config, monotonic())
     more = True
     while more:
-        message = await _message(request, config, patience, turn)
+        message = await _message(request, config, patience)
         if message["type"] == "http.disconnect":
             raise Refused(400, "The upload was cut off.", "Send it again.", "cut")
         piece: bytes = message.get("body", b"")
@@ -148,13 +161,8 @@ async def _pieces(request: Request, config: Config, turn: Turn) -> AsyncIterator
 
 
 async def _message(
-    request: Request, config: Config, patience: _Patience, turn: Turn
+    request: Request, config: Config, patience: _Patience
 ) -> MutableMapping[str, Any]:
-    if turn.lasts:
-        with suppress(TimeoutError):
-            async with asyncio.timeout_at(turn.until):
-                return await request.receive()
-        turn.end()
     try:
         async with asyncio.timeout(min(config.idle_seconds, max(patience.left, 0.0))):
             return await request.receive()

@@ -13,8 +13,8 @@ from time import sleep
 import pytest
 
 from checker.errors import UnreadableInput
-from checker.web.clerk import indexes
-from checker.web.clerk.indexes import Indexes
+from checker.web.uploads import archive_indexes
+from checker.web.uploads.archive_indexes import ArchiveIndexes
 from tests.jobs.launched import is_alive, launchers, tasks
 from tests.web.server import eventually
 
@@ -29,7 +29,7 @@ def archive(folder: Path, *names: str) -> Path:
 
 
 def test_what_an_index_holds(tmp_path: Path) -> None:
-    looked = Indexes()
+    looked = ArchiveIndexes()
     looked.check(archive(tmp_path, "p/package.xml"), "a.zip")
     with pytest.raises(UnreadableInput, match="leads out of the archive"):
         looked.check(archive(tmp_path, "../p/package.xml"), "a.zip")
@@ -41,7 +41,7 @@ def test_what_an_index_holds(tmp_path: Path) -> None:
 
 
 def test_many_at_once(tmp_path: Path) -> None:
-    looked, path = Indexes(), archive(tmp_path, "p/package.xml")
+    looked, path = ArchiveIndexes(), archive(tmp_path, "p/package.xml")
     with ThreadPoolExecutor(8) as threads:
         assert list(threads.map(lambda _: looked.check(path, "a.zip"), range(100))) == [None] * 100
 
@@ -50,13 +50,13 @@ def read_by(module: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Have a hostile module read the indexes."""
     (folder / "hostile_reader.py").write_text(module)
     monkeypatch.setenv("PYTHONPATH", str(folder))
-    monkeypatch.setattr(indexes, "_MODULE", "hostile_reader")
+    monkeypatch.setattr(archive_indexes, "_MODULE", "hostile_reader")
 
 
 @needs_proc
 def test_one_that_dies_is_replaced(tmp_path: Path) -> None:
     before = {*tasks(), *launchers()}
-    looked, path = Indexes(), archive(tmp_path, "p/package.xml")
+    looked, path = ArchiveIndexes(), archive(tmp_path, "p/package.xml")
     looked.check(path, "a.zip")
     waiting = {*tasks()} - before
     for each in waiting:
@@ -87,7 +87,7 @@ def test_many_that_die_at_once_take_nothing_with_them(
 ) -> None:
     """What ends by itself just when it is let go is met twice by its launcher."""
     read_by(DEADLY, tmp_path, monkeypatch)
-    looked, path = Indexes(), archive(tmp_path, "p/package.xml")
+    looked, path = ArchiveIndexes(), archive(tmp_path, "p/package.xml")
     looked.start()
     launcher = looked._launcher
 
@@ -125,7 +125,7 @@ def test_one_that_was_taken_over_sees_one_archive_and_changes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     read_by(TELLING, tmp_path, monkeypatch)
-    looked = Indexes()
+    looked = ArchiveIndexes()
     for name in ("first", "second", "third", "fourth", "fifth", "sixth"):
         (tmp_path / name).write_text(f"the {name} archive")
         (tmp_path / name).chmod(0o600)
@@ -150,6 +150,6 @@ def test_one_that_was_taken_over_says_nonsense(
     said: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     read_by(HOSTILE.format(said=said), tmp_path, monkeypatch)
-    monkeypatch.setattr(indexes, "_SECONDS", 2.0)
+    monkeypatch.setattr(archive_indexes, "_SECONDS", 2.0)
     with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
-        Indexes().check(archive(tmp_path, "p/package.xml"), "a.zip")
+        ArchiveIndexes().check(archive(tmp_path, "p/package.xml"), "a.zip")

@@ -45,7 +45,7 @@ class _Body:
 
 
 @record()
-class Courtesy:
+class UnreadBodies:
     """Ends an answer only after the request has been read, within limits."""
 
     app: ASGIApp

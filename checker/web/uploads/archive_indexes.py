@@ -71,7 +71,7 @@ class _Reader:
             os.close(descriptor)
 
 
-class Indexes:
+class ArchiveIndexes:
     """Looks at archives, many at once if need be: each process at one, and then no more."""
 
     def __init__(self) -> None:

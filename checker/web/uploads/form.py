@@ -8,7 +8,6 @@ from multipart import MultipartError, MultipartSegment, PushMultipartParser, par
 
 from checker.store.naming import UnknownKind, safe_name
 from checker.web.refusal import Refused, sentence
-from checker.web.sniffing import HEAD, misfit
 
 FILE = "file"
 FIELD_LIMIT = 1_000
@@ -16,6 +15,12 @@ FIELD_LIMIT = 1_000
 PARTS_LIMIT = 8
 ROOM = 65_536
 """Bytes of a form around its file."""
+HEAD = 512
+"""Bytes of a file that are enough to tell whether they fit its name."""
+_ZIP = (b"PK\x03\x04", b"PK\x05\x06")
+_GZIP = b"\x1f\x8b"
+_UTF8_MARK = b"\xef\xbb\xbf"
+_UTF16_TAG = (b"\xff\xfe<\0", b"\xfe\xff\0<")
 _WHAT_TO_SEND = "Send a .zip or .tar.gz archive of the package folder, or a model file."
 _HOW_TO_SEND = "Send a multipart form with one field 'file' that holds the file."
 
@@ -149,3 +154,23 @@ def _parser(content_type: str) -> PushMultipartParser:
 def _damaged(why: str) -> Refused:
     shown = why[:1].lower() + why[1:]
     return Refused(400, f"The upload form cannot be read: {shown}.", _HOW_TO_SEND, "form")
+
+
+def misfit(name: str, head: bytes) -> str:
+    """Return what the file should begin with and does not; empty if it does.
+
+    Args:
+        name: Of the file, with an ending that is known.
+        head: Its first `HEAD` bytes, or all of them.
+    """
+    lower = name.lower()
+    if lower.endswith(".zip"):
+        return "" if head.startswith(_ZIP) else "a zip archive"
+    if lower.endswith((".gz", ".tgz")):
+        return "" if head.startswith(_GZIP) else "a gzipped tar archive"
+    return "" if _is_xml(head) else "an XML text"
+
+
+def _is_xml(head: bytes) -> bool:
+    """Whether a tag, a comment or a declaration comes first."""
+    return head.removeprefix(_UTF8_MARK).lstrip().startswith(b"<") or head.startswith(_UTF16_TAG)
