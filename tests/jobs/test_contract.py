@@ -168,6 +168,20 @@ class TestAKilledWorker:
         assert site.end(id).stage is Stage.DONE
         assert site.begun()[f"trial {site.state(id).order.name}"] == 2
 
+    def test_that_was_only_asleep_finds_its_check_with_another(self, site: Site) -> None:
+        asleep = site.worker("asleep", silence_seconds=3)
+        id = site.submit("static:1")
+        site.in_hand(id, Stage.STATIC)
+        asleep.send_signal(signal.SIGSTOP)
+        site.worker("awake", silence_seconds=3)
+        again = site.until(id, lambda state: state.result != "")
+        asleep.send_signal(signal.SIGCONT)
+        assert site.end(id).stage is Stage.DONE
+        assert again.stage is Stage.TRIAL
+        told = [event for event in site.jobs.events(id) if "begins again" not in event.words]
+        assert [event.stage.value for event in told] == [stage for _, stage in WHOLE]
+        assert site.end(site.submit()).stage is Stage.DONE
+
     def test_is_not_replaced_for_ever(self, site: Site) -> None:
         id = site.submit("kill:trial")
         for _ in range(3):

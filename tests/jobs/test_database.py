@@ -12,7 +12,7 @@ import sqlalchemy as sa
 
 from checker.jobs.durable.client import durable_jobs
 from checker.jobs.durable.database import now, open_database, prepare
-from checker.jobs.durable.roll import Roll
+from checker.jobs.durable.workers import Workers
 from checker.jobs.place import database_url
 from checker.jobs.port import JobsUnreachable, Order, Stage
 from checker.store.store import Store
@@ -46,20 +46,20 @@ def test_its_clock_is_about_right(url: str) -> None:
     engine.dispose()
 
 
-def test_the_roll_knows_who_lives(url: str) -> None:
+def test_it_knows_who_lives(url: str) -> None:
     engine = open_database(url)
     prepare(engine)
-    roll = Roll(engine)
+    workers = Workers(engine)
     for name in ("one", "two", "one"):
-        roll.beat(name)
-    assert roll.living(60.0) == {"one", "two"}
-    assert roll.living(-1.0) == set()
-    roll.strike("one")
-    assert roll.living(60.0) == {"two"}
-    roll.strike_silent(60.0)
-    assert roll.living(60.0) == {"two"}
-    roll.strike_silent(-1.0)
-    assert roll.living(60.0) == set()
+        workers.beat(name)
+    assert workers.living(60.0) == {"one", "two"}
+    assert workers.living(-1.0) == set()
+    workers.strike("one")
+    assert workers.living(60.0) == {"two"}
+    workers.strike_silent(60.0)
+    assert workers.living(60.0) == {"two"}
+    workers.strike_silent(-1.0)
+    assert workers.living(60.0) == set()
     engine.dispose()
 
 

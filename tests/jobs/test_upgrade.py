@@ -13,7 +13,7 @@ import sqlalchemy as sa
 from checker.jobs.durable.client import durable_jobs
 from checker.jobs.durable.database import open_database, prepare
 from checker.jobs.durable.keys import key_of_check
-from checker.jobs.durable.queues import queues_of
+from checker.jobs.durable.workflows import queues_of
 from checker.jobs.port import Stage
 from checker.store.store import Store
 from tests.jobs.quick_worker import WORDS

@@ -17,7 +17,7 @@ from schemathesis import checks
 
 from checker.jobs.checking import result_key
 from checker.jobs.durable.client import DurableJobs, durable_jobs
-from checker.jobs.durable.roll import Roll
+from checker.jobs.durable.workers import Workers
 from checker.jobs.port import Order, Stage
 from checker.store.store import SUMMARY, Store
 from checker.web.app import create_app
@@ -70,7 +70,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     folder = tmp_path_factory.mktemp("api")
     store = Store(folder / "data")
     jobs = durable_jobs(f"sqlite:///{folder}/jobs.sqlite", store)
-    Roll(jobs.engine).beat("worker")
+    Workers(jobs.engine).beat("worker")
     app = create_app(jobs, store, Config())
     cancelled = jobs.submit(Order("a" * 64, "a.zip"))
     assert jobs.cancel(cancelled)

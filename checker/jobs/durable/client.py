@@ -10,11 +10,11 @@ from functools import cached_property
 import sqlalchemy as sa
 
 from checker.jobs.checking import stored_result
+from checker.jobs.durable.checks import Checks, Step
 from checker.jobs.durable.database import open_database, prepare, reachable
 from checker.jobs.durable.keys import key_of_check
-from checker.jobs.durable.ledger import Ledger, Step
-from checker.jobs.durable.queues import WAITS, Queues, queues_of
-from checker.jobs.durable.readings import alive, events_of, state_of
+from checker.jobs.durable.workers import Workers
+from checker.jobs.durable.workflows import WAITS, Queues, queues_of
 from checker.jobs.outcome import Checked
 from checker.jobs.port import RETENTION_DAYS, Alive, Event, Order, Stage, State
 from checker.record import record
@@ -42,9 +42,9 @@ class DurableJobs:
     retention_days: float = RETENTION_DAYS
 
     @cached_property
-    def ledger(self) -> Ledger:
-        """The book of checks."""
-        return Ledger(self.engine)
+    def checks(self) -> Checks:
+        """The table of checks."""
+        return Checks(self.engine)
 
     def submit(self, order: Order) -> str:
         """Take an order and return the id of its check; once it returns, the order is not lost.
@@ -62,24 +62,28 @@ class DurableJobs:
                 self.queues.put(connection, key, Stage.STATIC)
 
         with reachable():
-            self.ledger.enter(key, order, self.retention_days * _DAY, step, then)
+            self.checks.enter(key, order, self.retention_days * _DAY, step, then)
         return id
 
     def status(self, id: str) -> State | None:
         """Return where a check stands; None for an id that was never given or is forgotten."""
-        with reachable(), self.engine.connect() as connection:
-            state = state_of(connection, key_of_check(id))
+        with reachable():
+            state = self.checks.state(key_of_check(id))
         return state and replace(state, id=id)
 
     def events(self, id: str, after: int = 0) -> Sequence[Event]:
         """Return what has happened so far after event number `after`, in order."""
-        with reachable(), self.engine.connect() as connection:
-            return events_of(connection, key_of_check(id), after)
+        with reachable():
+            return self.checks.events(key_of_check(id), after)
 
     def cancel(self, id: str) -> bool:
         """End a check; False if there was nothing to end."""
+        key = key_of_check(id)
         with reachable():
-            return self.ledger.cancel(key_of_check(id))
+            was_open = self.checks.cancel(key)
+            if was_open:
+                self.queues.cancel(key)
+        return was_open
 
     def result(self, id: str) -> str:
         """Return the key of the final report in the store; empty while there is none."""
@@ -88,8 +92,10 @@ class DurableJobs:
 
     def alive(self) -> Alive:
         """Return what is known of the engine."""
-        with reachable(), self.engine.connect() as connection:
-            return alive(self.engine, connection)
+        with reachable():
+            silence, layers = Workers(self.engine).known()
+            waiting, running = self.checks.waiting()
+        return Alive(silence, waiting, running, layers)
 
 
 def durable_jobs(

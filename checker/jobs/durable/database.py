@@ -86,7 +86,7 @@ def reachable() -> Iterator[None]:
 
 
 def prepare(engine: sa.Engine) -> None:
-    """Make the tables that are missing, DBOS's own and the ledger's, and upgrade older ones.
+    """Make the tables that are missing, DBOS's and our own, and upgrade older ones.
 
     Many may do so at once.
 

@@ -6,10 +6,10 @@ import time
 
 import sqlalchemy as sa
 
+from checker.jobs.durable.checks import forget
 from checker.jobs.durable.database import now
-from checker.jobs.durable.ledger import forget
-from checker.jobs.durable.queues import Queues
 from checker.jobs.durable.tables import CHECKS
+from checker.jobs.durable.workflows import Queues
 from checker.record import record
 from checker.store.store import Store
 

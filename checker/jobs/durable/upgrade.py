@@ -13,8 +13,8 @@ from typing import Any
 import sqlalchemy as sa
 
 from checker.jobs.durable.keys import LENGTH, key_of_check
-from checker.jobs.durable.queues import WAITS, Queues, queues_of
 from checker.jobs.durable.tables import CHECKS, EVENTS
+from checker.jobs.durable.workflows import WAITS, Queues, queues_of
 from checker.jobs.port import Stage
 
 _AT_ONCE = 200

@@ -1,8 +1,8 @@
-"""The roll of workers: who has lately shown a sign of life."""
+"""The table of workers: who has lately shown a sign of life."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 
 import sqlalchemy as sa
@@ -14,8 +14,8 @@ from checker.sandbox.layers import Layer
 
 
 @record()
-class Roll:
-    """The roll of workers.
+class Workers:
+    """The table of workers.
 
     Attributes:
         engine: Of the database.
@@ -40,12 +40,20 @@ class Roll:
             return set(connection.execute(sa.select(WORKERS.c.name).where(fresh)).scalars())
 
     def strike(self, worker: str) -> None:
-        """Take a worker off the roll, which is not one any more."""
+        """Strike a worker out, which is not one any more."""
         with self.engine.begin() as connection:
             connection.execute(sa.delete(WORKERS).where(WORKERS.c.name == worker))
 
     def strike_silent(self, silence: float) -> None:
-        """Take those off the roll that have been silent for `silence` seconds."""
+        """Strike those out that have been silent for `silence` seconds."""
         silent = WORKERS.c.beat <= now(self.engine) - silence
         with self.engine.begin() as connection:
             connection.execute(sa.delete(WORKERS).where(silent))
+
+    def known(self) -> tuple[Mapping[str, float], Mapping[str, Sequence[Layer]]]:
+        """Return for how many seconds each worker has been silent, and its layers."""
+        silence = (now(self.engine) - WORKERS.c.beat).label("silence")
+        with self.engine.connect() as connection:
+            rows = connection.execute(sa.select(WORKERS.c.name, silence, WORKERS.c.layers)).all()
+        layers = {each.name: [Layer(**said) for said in each.layers or ()] for each in rows}
+        return {each.name: max(0.0, each.silence) for each in rows}, layers

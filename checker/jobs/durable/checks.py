@@ -1,49 +1,54 @@
-"""What is known of each check, and who has it in hand.
+"""What DBOS cannot know of a check: what was asked for, how far it is, and what was told of it.
 
-Every change is one transaction that holds only if the check is where it was thought to be. A worker
-that was taken for dead and comes back finds that it has lost its turn, and what it says is not
-written. Checks go by their keys here and in all that follows (`checker.jobs.durable.keys`): who has
-a copy of the book opens no report by it.
+Every change is one transaction that holds only if the check is where it was thought to be: what a
+worker says that was taken for dead and comes back is not written. Checks go by their keys here and
+in all that follows (`checker.jobs.durable.keys`): a copy of the table opens no report.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
+from threading import Lock
 from typing import Any
 
 import sqlalchemy as sa
 
 from checker.jobs.durable.database import now
-from checker.jobs.durable.queues import WAITS
 from checker.jobs.durable.tables import CHECKS, EVENTS
-from checker.jobs.durable.together import Change, Together
+from checker.jobs.durable.workflows import WAITS
 from checker.jobs.outcome import UNFINISHED
-from checker.jobs.port import Order, Stage
+from checker.jobs.port import Event, Order, Stage, State
 from checker.record import record
 from checker.report.wording import plain, shortened
 
 WORKERS_LOST = 3
 """A check that so many workers died of is not given to another one."""
 GIVEN_UP = f"{UNFINISHED}: its worker died three times"
+EVENTS_AT_ONCE = 100
 _WORDS_LIMIT = 2000
 _FINAL = [stage.value for stage in Stage if stage.is_final]
+_BEFORE_TRIAL = (Stage.QUEUED.value, Stage.STATIC.value)
+Change = Callable[[sa.Connection], None]
+"""What holds as a part of a transaction, or not at all."""
 
 
 @record()
-class Turn:
-    """A check in the hands of a worker.
+class Held:
+    """A stage of a check in the hands of a worker.
 
     Attributes:
         id: Key of the check.
-        number: Goes up whenever the check changes hands.
+        worker: Its name.
+        stage: What it does.
         order: What was asked for.
     """
 
     id: str
-    number: int
+    worker: str
+    stage: Stage
     order: Order
 
 
@@ -69,13 +74,14 @@ class Step:
 
 
 @record()
-class Ledger:
-    """The book of checks."""
+class Checks:
+    """The table of checks, and that of their events."""
 
     engine: sa.Engine
+    _writing: Lock = field(default_factory=Lock)
 
     def enter(self, id: str, order: Order, keep_seconds: float, step: Step, then: Change) -> None:
-        """Write a new check into the book.
+        """Write down a new check.
 
         Args:
             id: Key of a new one.
@@ -92,18 +98,16 @@ class Ledger:
             "keep_seconds": keep_seconds,
             **_values(step),
         }
-
-        def enter(connection: sa.Connection) -> None:
+        # SQLite has writers ask again after a while; among many, some would wait for seconds.
+        with self._writing, self.engine.begin() as connection:
             connection.execute(self._entering, entry)
             self._tell(connection, id, step)
             then(connection)
 
-        self._together.make(enter)
+    def begin(self, id: str, worker: str, step: Step) -> Held | None:
+        """Write down that a worker begins a stage of a check.
 
-    def take(self, id: str, worker: str, step: Step) -> Turn | None:
-        """Give a check to a worker.
-
-        A worker that has it in hand still is dead: only then the queue gives a check out again.
+        A worker that has it in hand still is dead: only then its workflow is run again.
 
         Args:
             id: Key of the check.
@@ -111,7 +115,7 @@ class Ledger:
             step: What it does now; its stage says what the check must have come to.
 
         Returns:
-            None if there is nothing to do any more: it is over, further on, or with another one.
+            None if there is nothing to do any more: the check is over or further on.
         """
         before = (Stage.QUEUED, step.stage) if step.stage is Stage.STATIC else (step.stage,)
         with self.engine.begin() as connection:
@@ -123,61 +127,100 @@ class Ledger:
             losses = [*found.losses, *_loss(found)]
             if len(losses) >= WORKERS_LOST:
                 given_up = Step("end", Stage.FAILED, GIVEN_UP, data={"losses": losses})
-                self._move(connection, id, found.turn, given_up, losses=losses)
+                self._move(connection, id, given_up, losses=losses)
                 return None
-            if not self._move(connection, id, found.turn, step, worker=worker, losses=losses):
-                return None
+            self._move(connection, id, step, worker=worker, losses=losses)
             if len(losses) > len(found.losses):
                 again = f"begins again: its worker died ({len(losses)} of {WORKERS_LOST} times)"
                 self._tell(connection, id, Step(f"lost{len(losses)}", step.stage, again))
         order = Order(found.upload, found.name, found.profile)
-        return Turn(id, found.turn + 1, order)
+        return Held(id, worker, step.stage, order)
 
-    def settle(self, turn: Turn, step: Step, then: Change | None = None) -> bool:
-        """Write what became of a turn, which is over; False if it was lost before.
+    def settle(self, held: Held, step: Step, then: Change | None = None) -> bool:
+        """Write down what a stage has come to; False if the worker has lost it before.
 
         Args:
-            turn: Of the worker that asks.
-            step: What became of it.
+            held: By the worker that asks.
+            step: What the stage has come to.
             then: What else is to hold, or nothing does.
         """
         with self.engine.begin() as connection:
-            moved = self._move(connection, turn.id, turn.number, step)
+            moved = self._move(connection, held.id, step, *_is(held))
             if moved and then is not None:
                 then(connection)
         return moved
 
-    def release(self, turn: Turn) -> bool:
-        """Let a check go unfinished, through no fault of its own; False if it was lost before."""
+    def release(self, held: Held) -> bool:
+        """Let a stage go unfinished, through no fault of its own; False if it was lost before."""
         with self.engine.begin() as connection:
-            there = (CHECKS.c.id == turn.id, CHECKS.c.turn == turn.number)
-            done = connection.execute(
-                sa.update(CHECKS).where(*there).values(_next_hand("") | {"words": WAITS})
-            )
-        return done.rowcount == 1
+            waits = sa.update(CHECKS).where(*_is(held)).values(worker="", words=WAITS)
+            return connection.execute(waits).rowcount == 1
 
-    def wanted(self, turn: Turn) -> bool:
-        """Whether a worker still has its turn: not cancelled, not taken by another one."""
+    def holds(self, held: Held) -> bool:
+        """Whether a worker still has a stage: not cancelled, not in the hands of another one."""
         with self.engine.connect() as connection:
-            number = connection.execute(
-                sa.select(CHECKS.c.turn).where(CHECKS.c.id == turn.id)
-            ).scalar()
-        return number == turn.number
+            return connection.execute(sa.select(CHECKS.c.id).where(*_is(held))).first() is not None
 
     def cancel(self, id: str) -> bool:
         """End a check; False if it is over or unknown."""
         step = Step("end", Stage.CANCELLED, "cancelled")
         with self.engine.begin() as connection:
-            return self._move(connection, id, None, step)
+            return self._move(connection, id, step)
+
+    def state(self, id: str) -> State | None:
+        """Return where a check stands, with its key for an id; None if it is not known."""
+        with self.engine.connect() as connection:
+            found = connection.execute(sa.select(CHECKS).where(CHECKS.c.id == id)).one_or_none()
+            if found is None:
+                return None
+            stage = Stage(found.stage)
+            waits = not stage.is_final and not found.worker
+            return State(
+                id=id,
+                order=Order(found.upload, found.name, found.profile),
+                stage=stage,
+                words=found.words,
+                ahead=_ahead(connection, found) if waits else 0,
+                created=found.created,
+                result=found.result,
+                packages=tuple(found.packages),
+                expires=found.expires,
+            )
+
+    def events(self, id: str, after: int) -> Sequence[Event]:
+        """Return what was told of a check after an event, in order."""
+        told = sa.select(EVENTS).where(EVENTS.c.check_id == id, EVENTS.c.number > after)
+        with self.engine.connect() as connection:
+            rows = connection.execute(told.order_by(EVENTS.c.number).limit(EVENTS_AT_ONCE))
+            return [
+                Event(row.number, Stage(row.stage), row.words, row.time, row.data) for row in rows
+            ]
+
+    def waiting(self) -> tuple[Mapping[str, int], int]:
+        """Return how many checks wait, by queue, and how many are in hand."""
+        in_hand = CHECKS.c.worker != ""
+        with self.engine.connect() as connection:
+            counted = connection.execute(
+                sa.select(CHECKS.c.stage, in_hand, sa.func.count())
+                .where(CHECKS.c.stage.not_in(_FINAL))
+                .group_by(CHECKS.c.stage, in_hand)
+            ).all()
+        waiting = {"static": 0, "trial": 0}
+        for stage, held, number in counted:
+            waiting["static" if stage in _BEFORE_TRIAL else "trial"] += 0 if held else number
+        return waiting, sum(number for _, held, number in counted if held)
 
     def _move(
-        self, connection: sa.Connection, id: str, turn: int | None, step: Step, **hand: Any
+        self,
+        connection: sa.Connection,
+        id: str,
+        step: Step,
+        *conditions: sa.ColumnElement[bool],
+        **hand: Any,
     ) -> bool:
-        """Take a step, unless the check is over or has changed hands; at any turn if None."""
-        there = [CHECKS.c.id == id, CHECKS.c.stage.not_in(_FINAL)]
-        if turn is not None:
-            there.append(CHECKS.c.turn == turn)
-        values = _next_hand("") | hand | _values(step)
+        """Take a step, unless the check is over or one of the conditions does not hold."""
+        there = (CHECKS.c.id == id, CHECKS.c.stage.not_in(_FINAL), *conditions)
+        values = {"worker": ""} | hand | _values(step)
         moved = connection.execute(sa.update(CHECKS).where(*there).values(values)).rowcount == 1
         if moved:
             self._tell(connection, id, step)
@@ -193,10 +236,6 @@ class Ledger:
             "its_data": dict(step.data),
         }
         connection.execute(self._telling, event)
-
-    @cached_property
-    def _together(self) -> Together:
-        return Together(self.engine)
 
     @cached_property
     def _entering(self) -> sa.Insert:
@@ -225,6 +264,14 @@ class Ledger:
         return sa.insert(EVENTS).from_select(list(event), chosen)
 
 
+def _ahead(connection: sa.Connection, found: sa.Row[Any]) -> int:
+    """Return how many checks wait in the same queue for longer."""
+    stages = _BEFORE_TRIAL if found.stage in _BEFORE_TRIAL else (Stage.TRIAL.value,)
+    longer = (CHECKS.c.stage.in_(stages), CHECKS.c.worker == "", CHECKS.c.created < found.created)
+    question = sa.select(sa.func.count()).select_from(CHECKS).where(*longer)
+    return int(connection.execute(question).scalar_one())
+
+
 def forget(connection: sa.Connection, ids: Collection[str]) -> None:
     """Delete checks and all that was told of them."""
     connection.execute(sa.delete(EVENTS).where(EVENTS.c.check_id.in_(ids)))
@@ -238,8 +285,9 @@ def _values(step: Step) -> dict[str, Any]:
     return values
 
 
-def _next_hand(worker: str) -> dict[str, Any]:
-    return {"worker": worker, "turn": CHECKS.c.turn + 1}
+def _is(held: Held) -> Sequence[sa.ColumnElement[bool]]:
+    """Return the conditions under which a stage is in hand as it was."""
+    return CHECKS.c.id == held.id, CHECKS.c.worker == held.worker, CHECKS.c.stage == held.stage
 
 
 def _loss(found: sa.Row[Any]) -> list[dict[str, Any]]:

@@ -1,12 +1,15 @@
-"""The two queues of DBOS, as seen from outside of its workflows.
+"""The two workflows of DBOS, and their queues: by its public interface alone.
 
 Static rules and trials wait in queues of their own, so that a new upload shows its first findings
-before the trials of older ones are through.
+before the trials of older ones are through. DBOS gives each workflow to one worker, and takes up at
+the launch of a worker what one of the same name had in hand. It knows no sign of life of the others
+(that is for its paid Conductor): `recover` tells it whom to hold for dead.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import logging
+from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING
 
 import sqlalchemy as sa
@@ -17,6 +20,8 @@ from checker.record import record
 if TYPE_CHECKING:
     from dbos import DBOSClient
 
+Run = Callable[[str, Stage], None]
+"""Does a stage of a check, told by its key; it may be called again after a crash."""
 APPLICATION = "subt-check"
 VERSION = "1"
 """Of the workflows, by hand: a worker leaves those of other versions in the queue. It only changes
@@ -26,6 +31,7 @@ WAITS = "waits for its turn"
 """Said of a check that is in a queue."""
 _POLLING_SECONDS = {Stage.STATIC: 0.1, Stage.TRIAL: 0.3}
 """Between two looks into a queue; people wait for the first findings, and looks cost time."""
+_LOG = logging.getLogger(__name__)
 
 
 def workflow_of(id: str, stage: Stage) -> str:
@@ -72,6 +78,10 @@ class Queues:
         """Queue a stage that is being worked on, where it stood before."""
         self.client.resume_workflow(workflow_of(id, stage), queue_name=stage.value)
 
+    def cancel(self, id: str) -> None:
+        """Take a check out of the queues."""
+        self.client.cancel_workflows([workflow_of(id, stage) for stage in STAGES])
+
     def forget(self, ids: Collection[str]) -> None:
         """Delete all that DBOS knows of checks."""
         self.client.delete_workflows([workflow_of(id, stage) for id in ids for stage in STAGES])
@@ -90,3 +100,66 @@ def queues_of(engine: sa.Engine) -> Queues:
         retry_connection_errors=False,
     )
     return Queues(client)
+
+
+def launch(engine: sa.Engine, worker: str, run: Run) -> None:
+    """Begin to take checks from the queues, with those that this worker had in hand before.
+
+    Args:
+        engine: Of a database that is prepared.
+        worker: Name of this process; no other one has it.
+        run: Does a stage.
+    """
+    from dbos import DBOS, DBOSPortableJSONSerializer
+
+    DBOS(
+        config={
+            "name": APPLICATION,
+            "system_database_engine": engine,
+            "application_version": VERSION,
+            "executor_id": worker,
+            "serializer": DBOSPortableJSONSerializer(),
+            "use_listen_notify": engine.dialect.name != "sqlite",
+            "run_migrations": False,
+            "log_level": "WARNING",
+        }
+    )
+
+    # The table of checks counts how often one is begun, and says so on its page.
+    @DBOS.workflow(name=Stage.STATIC.value, max_recovery_attempts=None)
+    def static(id: str) -> None:
+        run(id, Stage.STATIC)
+
+    @DBOS.workflow(name=Stage.TRIAL.value, max_recovery_attempts=None)
+    def trial(id: str) -> None:
+        run(id, Stage.TRIAL)
+
+    DBOS.launch()
+
+
+def land(seconds: float) -> None:
+    """Take nothing more from the queues, and wait for what is in hand.
+
+    Args:
+        seconds: At most; at least one passes.
+    """
+    from dbos import DBOS
+
+    DBOS.destroy(workflow_completion_timeout_sec=max(1, round(seconds)))
+
+
+def recover(worker: str, living: Callable[[], Collection[str]]) -> None:
+    """Put back into the queues what dead workers have in hand; one of the living does so for all.
+
+    Args:
+        worker: Name of this process.
+        living: Return the names of all that live; asked last, since some may have come just now.
+    """
+    from dbos import DBOS
+
+    pending = DBOS.list_workflows(status="PENDING", load_input=False, load_output=False)
+    alive = living()
+    for workflow in pending if worker == min(alive) else ():
+        if workflow.executor_id not in alive:
+            _LOG.warning("%s died; what it had in hand waits again", workflow.executor_id)
+            DBOS.resume_workflow(workflow.workflow_id, queue_name=workflow.queue_name)

@@ -1,4 +1,4 @@
-"""The roll of workers says which layers each of them has."""
+"""The table of workers says which layers each of them has."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import sqlalchemy as sa
 
 from checker.jobs.durable.client import durable_jobs
 from checker.jobs.durable.database import open_database, prepare
-from checker.jobs.durable.roll import Roll
+from checker.jobs.durable.workers import Workers
 from checker.sandbox.layers import Layer
 from checker.store.store import Store
 from tests.postgres import fresh_database
@@ -28,10 +28,10 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
 
 def test_it_knows_the_sandbox_of_each_worker(url: str, tmp_path: Path) -> None:
     jobs = durable_jobs(url, Store(tmp_path))
-    Roll(jobs.engine, LAYERS).beat("walled")
-    Roll(jobs.engine).beat("bare")
-    Roll(jobs.engine, LAYERS).beat("again")
-    Roll(jobs.engine).beat("again")
+    Workers(jobs.engine, LAYERS).beat("walled")
+    Workers(jobs.engine).beat("bare")
+    Workers(jobs.engine, LAYERS).beat("again")
+    Workers(jobs.engine).beat("again")
     alive = jobs.alive()
     assert alive.layers == {"walled": list(LAYERS), "bare": [], "again": []}
     assert alive.living == alive.layers
@@ -49,7 +49,7 @@ def test_workers_of_version_0_1_0_go_on_and_name_no_layers(url: str, tmp_path: P
         list(pool.map(prepare, engines))
     with engine.begin() as connection:
         connection.execute(sa.text("UPDATE subt_workers SET beat = 2e9 WHERE name = 'old'"))
-    Roll(engine, LAYERS).beat("new")
+    Workers(engine, LAYERS).beat("new")
     jobs = durable_jobs(url, Store(tmp_path))
     assert jobs.alive().layers == {"old": [], "new": list(LAYERS)}
     for each in (*engines, jobs.engine):
