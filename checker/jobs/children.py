@@ -17,7 +17,7 @@ from checker.sandbox.files import NO_FILES, Content, Files
 from checker.sandbox.launcher import OwnLauncher
 from checker.store.store import Store
 
-MODULE = "checker.jobs.checking_child"
+MODULE = "checker.jobs.check_child"
 ANSWER_LIMIT = 5_000_000
 """Bytes of the answer, besides the files of the result."""
 _LOOK = 0.2
@@ -94,7 +94,7 @@ class Children:
         """Have a process check an upload; at the end none of its processes is left.
 
         Args:
-            request: See `checker.jobs.checking_child`.
+            request: See `checker.jobs.check_child`.
             contents: The files that go with it.
             seconds: By the clock, before it is stopped.
             cancelled: Whether it is no longer wanted; asked a few times a second.

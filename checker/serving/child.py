@@ -66,8 +66,8 @@ def _allow_open_files() -> None:
 
 def worker(name: str) -> None:
     """Take checks from the queues until SIGTERM; see `checker.jobs.durable.worker`."""
+    from checker.jobs.durable.database import database_url
     from checker.jobs.durable.worker import WorkerOptions, work
-    from checker.jobs.place import database_url
     from checker.store.place import data_folder
     from checker.store.store import Store
 

@@ -6,21 +6,23 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from checker.jobs.durable.client import durable_jobs
-from checker.jobs.place import database_url
+from checker.jobs.durable.database import database_url
 from checker.jobs.port import Jobs
 from checker.recall import program_parts
 from checker.store.place import data_folder
 from checker.store.store import Store
 from checker.versions import version_of
-from checker.web import api, health, pages
-from checker.web.answers import say_no_by
+from checker.web import health
+from checker.web.access_log import AccessLog
+from checker.web.answers.headers import SecurityHeaders
+from checker.web.answers.problems import say_no_by
+from checker.web.api import routes as api
 from checker.web.config import Config, config_from
-from checker.web.gate import Gate
-from checker.web.headers import SecurityHeaders
+from checker.web.limits.admission import Admission
+from checker.web.limits.origin import OwnOrigin
 from checker.web.logs import log_to_stderr
 from checker.web.metrics import Metrics
-from checker.web.observing import Observing
-from checker.web.origin import OwnOrigin
+from checker.web.pages import routes as pages
 from checker.web.services import Services
 from checker.web.uploads.archive_indexes import ArchiveIndexes
 from checker.web.uploads.unread_bodies import UnreadBodies
@@ -77,7 +79,9 @@ def create_app(
     from fastapi import FastAPI
 
     metrics = Metrics()
-    services = Services(jobs, store, config, Gate(config), metrics, indexes or ArchiveIndexes())
+    services = Services(
+        jobs, store, config, Admission(config), metrics, indexes or ArchiveIndexes()
+    )
     app = FastAPI(
         title="subt-check",
         version=version_of("subt-check"),
@@ -95,6 +99,6 @@ def create_app(
     # The last added stands outermost.
     app.add_middleware(OwnOrigin, config=config)
     app.add_middleware(UnreadBodies)
-    app.add_middleware(Observing, metrics=metrics)
+    app.add_middleware(AccessLog, metrics=metrics)
     app.add_middleware(SecurityHeaders)
     return app

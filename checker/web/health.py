@@ -15,9 +15,9 @@ from checker.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
 from checker.loopback import is_loopback
 from checker.record import record
 from checker.sandbox.layers import hides_files
-from checker.web.answers import Problem
-from checker.web.gate import bearer
-from checker.web.refusal import Refused, not_found
+from checker.web.answers.problems import Problem
+from checker.web.answers.refusal import Refused, not_found
+from checker.web.limits.admission import bearer
 from checker.web.services import Services
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ class Health:
         is_forwarded = "x-forwarded-for" in request.headers or "forwarded" in request.headers
         if is_loopback(host) and not is_forwarded:
             return True
-        return self.services.gate.knows(bearer(request))
+        return self.services.admission.knows(bearer(request))
 
     def _alive(self) -> Alive | None:
         try:

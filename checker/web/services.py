@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import field
 from typing import TYPE_CHECKING
 
 from anyio import CapacityLimiter
 
-from checker.jobs.port import Jobs
+from checker.jobs.port import Jobs, State
 from checker.record import record
 from checker.store.store import Store
+from checker.web.answers.refusal import not_found
 from checker.web.config import Config
-from checker.web.gate import Gate
+from checker.web.limits.admission import Admission
 from checker.web.metrics import Metrics
 from checker.web.uploads.archive_indexes import ArchiveIndexes
 
 if TYPE_CHECKING:
     from starlette.requests import Request
 
+_ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
+"""What can be an id at all; the rest is not asked of the database."""
 _AT_ONCE = 16
 """Uploads; most take 10 ms, some archives seconds."""
 
@@ -30,19 +34,34 @@ class Services:
         jobs: The engine that checks.
         store: Uploads and results.
         config: What is allowed here.
-        gate: Says who may do what.
+        admission: Says who may do what.
         metrics: Counts what they do.
         indexes: Reads those of archives.
-        takers: Let a few uploads that have come whole be looked at, kept and ordered at once.
+        threads: For uploads that have come whole, to be looked at, kept and ordered.
     """
 
     jobs: Jobs
     store: Store
     config: Config
-    gate: Gate
+    admission: Admission
     metrics: Metrics
     indexes: ArchiveIndexes
-    takers: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
+    threads: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
+
+    def check(self, id: str) -> State:
+        """Return where a check stands.
+
+        Args:
+            id: As a client sends it.
+
+        Raises:
+            Refused: There is none; the answer is one and the same for all ids.
+            JobsUnreachable: The database does not answer.
+        """
+        state = self.jobs.status(id) if _ID.fullmatch(id) else None
+        if state is None:
+            raise not_found()
+        return state
 
     def address(self, request: Request) -> str:
         """Return where people reach the service, without a slash at its end."""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.jobs.checking import LIMITS
+from checker.jobs.check import LIMITS
 from checker.jobs.port import Stage
 from checker.package.archive_index import ArchiveLimits
 from checker.web.config import Config

@@ -17,7 +17,7 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from checker.jobs.checking import result_key
+from checker.jobs.check import result_key
 from checker.jobs.children import Children
 from checker.jobs.durable import stages
 from checker.jobs.durable.worker import WorkerOptions, work

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.jobs.checking import check_upload
+from checker.jobs.check import check_upload
 from checker.jobs.children import Children
 from checker.jobs.limits import NICENESS
 from checker.jobs.outcome import Checked, Outcome

@@ -12,7 +12,7 @@ from time import sleep
 import pytest
 import sqlalchemy as sa
 
-from checker.jobs.checking import result_key
+from checker.jobs.check import result_key
 from checker.jobs.durable.keys import key_of_check
 from checker.jobs.durable.tables import CHECKS
 from checker.jobs.port import Stage, State

@@ -11,9 +11,8 @@ import pytest
 import sqlalchemy as sa
 
 from checker.jobs.durable.client import durable_jobs
-from checker.jobs.durable.database import now, open_database, prepare
+from checker.jobs.durable.database import database_url, now, open_database, prepare
 from checker.jobs.durable.workers import Workers
-from checker.jobs.place import database_url
 from checker.jobs.port import JobsUnreachable, Order, Stage
 from checker.store.store import Store
 from tests.jobs.site import Site, site_in

@@ -1,4 +1,4 @@
-"""Stands for `checker.jobs.checking_child` where an upload says what to do: `hostile_checker`.
+"""Stands for `checker.jobs.check_child` where an upload says what to do: `hostile_checker`.
 
 Such an upload holds `HOSTILE`, then JSON with a `deed` and what it needs. All others are checked.
 """
@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 
 from attempts import ATTEMPTS, tried
 
-from checker.jobs import checking_child
+from checker.jobs import check_child
 from checker.sandbox.files import Files
 from checker.sandbox.task import Answer
 
@@ -35,7 +35,7 @@ def answer(request: bytes, files: Files) -> Answer:
     upload = files.read("upload")
     said = _SAID.search(upload) if isinstance(upload, bytes) else None
     if said is None:
-        return checking_child.answer(request, files)
+        return check_child.answer(request, files)
     asked = json.loads(said[1])
     return DEEDS[asked["deed"]](asked, files)  # type: ignore[no-any-return]
 

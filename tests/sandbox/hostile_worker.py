@@ -6,8 +6,8 @@ The rest is in the environment, as for `subt-check worker`.
 from __future__ import annotations
 
 from checker.jobs import children
+from checker.jobs.durable.database import database_url
 from checker.jobs.durable.worker import WorkerOptions, work
-from checker.jobs.place import database_url
 from checker.store.place import data_folder
 from checker.store.store import Store
 

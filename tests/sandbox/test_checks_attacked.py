@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from checker.jobs import children
-from checker.jobs.checking import check_upload
+from checker.jobs.check import check_upload
 from checker.jobs.children import Children
 from checker.jobs.outcome import Checked, Died, Outcome
 from checker.jobs.port import Order, Stage

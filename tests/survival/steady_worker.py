@@ -12,12 +12,12 @@ from functools import partial
 from pathlib import Path
 from time import sleep
 
-from checker.jobs.checking import result_key
+from checker.jobs.check import result_key
 from checker.jobs.children import Children
 from checker.jobs.durable import stages
+from checker.jobs.durable.database import database_url
 from checker.jobs.durable.worker import WorkerOptions, work
 from checker.jobs.outcome import Checked, Outcome
-from checker.jobs.place import database_url
 from checker.jobs.port import Order, Stage
 from checker.store.place import data_folder
 from checker.store.store import Store

@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 
 from checker.jobs.port import Alive, Event, JobsUnreachable, Stage, State
 from checker.store.store import SUMMARY, Store
+from checker.web.answers.files import file_response
 from checker.web.app import create_app
 from checker.web.config import Config
-from checker.web.files import file_response
 from tests.web.board import DONE, ID, QUEUED, ROVER, BoardJobs, keep_result
 from tests.web.server import eventually, served
 

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.store.store import Store, TooLarge
-from checker.web.refusal import Refused
+from checker.web.answers.refusal import Refused
 from checker.web.uploads.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm, misfit
 from tests.web.server import BOUNDARY, form, left_behind
 

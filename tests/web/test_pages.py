@@ -22,8 +22,8 @@ from checker.settings import Settings
 from checker.store.store import Store
 from checker.web.app import create_app
 from checker.web.config import Config
-from checker.web.first_findings import SHOWN, glance
-from checker.web.progress import headline, package_lines, steps_of
+from checker.web.pages.first_findings import SHOWN, glance
+from checker.web.pages.progress import headline, package_lines, steps_of
 from tests.conftest import SAMPLES
 from tests.report.any_report import HOSTILE, PACKAGES
 from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, BoardJobs, Client, keep_result

@@ -15,7 +15,7 @@ from fastapi.testclient import TestClient
 from hypothesis import HealthCheck, settings
 from schemathesis import checks
 
-from checker.jobs.checking import result_key
+from checker.jobs.check import result_key
 from checker.jobs.durable.client import DurableJobs, durable_jobs
 from checker.jobs.durable.workers import Workers
 from checker.jobs.port import Order, Stage

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import sqlalchemy as sa
 
-from checker.jobs.checking import stored_result
+from checker.jobs.check import stored_result
 from checker.jobs.durable.checks import Checks, Step
 from checker.jobs.durable.database import open_database, prepare, reachable
 from checker.jobs.durable.keys import key_of_check

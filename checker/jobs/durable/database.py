@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import sqlalchemy as sa
 
@@ -15,6 +16,7 @@ from checker.jobs.durable.upgrade import hash_clear_ids
 from checker.jobs.port import JobsUnreachable
 from checker.private import tighten
 from checker.report.wording import plain, shortened
+from checker.store.place import DATABASE, data_folder
 
 CONNECT_SECONDS = 5
 """After which a server that does not answer counts as unreachable."""
@@ -40,6 +42,13 @@ AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
 _MIGRATION_LOCK = 7_302_815_601
 """Of PostgreSQL's advisory locks; any number that others do not use."""
+
+
+def database_url() -> str:
+    """Return the address of the database: `SUBT_CHECK_DATABASE_URL`, else a file with the data."""
+    own = os.environ.get("SUBT_CHECK_DATABASE_URL", "")
+    # SQLAlchemy takes what follows a `?` for options.
+    return own or f"sqlite:///{quote(str(data_folder() / DATABASE))}"
 
 
 def open_database(url: str) -> sa.Engine:

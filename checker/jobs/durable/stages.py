@@ -15,7 +15,7 @@ from typing import TypeVar
 
 import sqlalchemy as sa
 
-from checker.jobs.checking import check_upload
+from checker.jobs.check import check_upload
 from checker.jobs.children import Children
 from checker.jobs.durable.checks import Change, Checks, Held, Step
 from checker.jobs.durable.client import finished

@@ -43,7 +43,7 @@ class WorkerOptions:
     """How a worker works.
 
     Attributes:
-        database_url: As `checker.jobs.place.database_url` says it.
+        database_url: As `checker.jobs.durable.database.database_url` says it.
         store: Uploads and results.
         name: Of this worker, of letters, digits and `-`; no other one has it at the same time. One
             that is started again under its old name takes up at once what it had in hand.

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 
 from multipart import MultipartError, MultipartSegment, PushMultipartParser, parse_options_header
 
-from checker.store.naming import UnknownKind, safe_name
-from checker.web.refusal import Refused, sentence
+from checker.store.file_names import UnknownKind, safe_name
+from checker.web.answers.refusal import Refused, sentence
 
 FILE = "file"
 FIELD_LIMIT = 1_000

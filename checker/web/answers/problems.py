@@ -13,9 +13,9 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from checker.jobs.port import JobsUnreachable
-from checker.web import pages
+from checker.web.answers.refusal import Refused, not_found
 from checker.web.logs import LOGGER
-from checker.web.refusal import Refused, not_found
+from checker.web.pages.site import html
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -46,7 +46,8 @@ def refusal_answer(request: Request, refused: Refused) -> Response:
         problem = Problem(error=refused.error, advice=refused.advice)
         answer = JSONResponse(problem.model_dump(), refused.status)
     else:
-        answer = pages.error_page(refused.status, refused.error, refused.advice)
+        status, error, advice = refused.status, refused.error, refused.advice
+        answer = html("error.html.j2", status=status, sentence=error, advice=advice)
     answer.headers.update(refused.headers)
     return answer
 

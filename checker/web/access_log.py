@@ -10,7 +10,7 @@ from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from checker.record import record
-from checker.web.answers import CAUSE, Problem
+from checker.web.answers.problems import CAUSE, Problem
 from checker.web.logs import FIELDS, LOGGER, short
 from checker.web.metrics import Metrics
 
@@ -27,7 +27,7 @@ _LOG = logging.getLogger(LOGGER)
 
 
 @record()
-class Observing:
+class AccessLog:
     """Counts and logs each request by the template of its route: addresses hold ids."""
 
     app: ASGIApp

@@ -10,9 +10,9 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from checker.loopback import is_loopback
 from checker.record import record
-from checker.web.answers import refusal_answer
+from checker.web.answers.problems import refusal_answer
+from checker.web.answers.refusal import Refused
 from checker.web.config import Config
-from checker.web.refusal import Refused
 
 _READING = ("GET", "HEAD", "OPTIONS")
 _HOST = re.compile(r"(\[[0-9A-Fa-f:.]{2,45}\]|[A-Za-z0-9._-]{1,253})(?::\d{1,5})?")

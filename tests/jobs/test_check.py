@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.jobs.checking import check_upload, stored_result
+from checker.jobs.check import check_upload, stored_result
 from checker.jobs.children import Children
 from checker.jobs.limits import StageLimits
 from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused

@@ -9,15 +9,15 @@ from math import ceil
 
 from starlette.requests import HTTPConnection
 
+from checker.web.answers.refusal import Refused
 from checker.web.config import Config
-from checker.web.rate import Rate, Slots, client_of
-from checker.web.refusal import Refused
+from checker.web.limits.rates import Rate, Slots, client_of
 
 _SHARE = 2
 """One client has one of so many places, rounded up."""
 
 
-class Gate:
+class Admission:
     """Lets requests pass or refuses them; used by the event loop alone."""
 
     def __init__(self, config: Config) -> None:

@@ -13,14 +13,13 @@ from starlette.responses import RedirectResponse, Response
 
 from checker.jobs.port import State
 from checker.record import record
-from checker.web.answers import Problem
-from checker.web.events import HIGHEST, event_stream
-from checker.web.files import KINDS, file_response
-from checker.web.lookup import check_of
-from checker.web.refusal import Refused
+from checker.web.answers.files import KINDS, file_response
+from checker.web.answers.problems import Problem
+from checker.web.answers.refusal import Refused
+from checker.web.api.events import HIGHEST, event_stream
+from checker.web.api.views import CheckView, Created, address_of, check_view
 from checker.web.services import Services
-from checker.web.uploads.receiving import new_check
-from checker.web.views import CheckView, Created, address_of, check_view
+from checker.web.uploads.transfer import new_check
 
 if TYPE_CHECKING:
     from fastapi import APIRouter
@@ -139,17 +138,17 @@ class Api:
 
     def show(self, request: Request, id: str) -> CheckView:
         """Tell where a check stands."""
-        return self._view(request, check_of(self.services, id))
+        return self._view(request, self.services.check(id))
 
     def cancel(self, request: Request, id: str) -> CheckView:
         """End a check, and tell where it stands; one that has ended stays as it is."""
-        check_of(self.services, id)
+        self.services.check(id)
         self.services.jobs.cancel(id)
-        return self._view(request, check_of(self.services, id))
+        return self._view(request, self.services.check(id))
 
     async def events(self, request: Request, id: str, after: int) -> Response:
         """Send the events of a check."""
-        await run_in_threadpool(check_of, self.services, id)
+        await run_in_threadpool(self.services.check, id)
         return await event_stream(request, self.services, id, after)
 
     def index(self, id: str) -> Response:
@@ -176,7 +175,7 @@ class Api:
         return send
 
     def _file(self, id: str, name: str) -> Response:
-        state = check_of(self.services, id)
+        state = self.services.check(id)
         path = self.services.store.file(state.result, name) if state.result else None
         if path is not None:
             with suppress(FileNotFoundError):  # it is deleted just now

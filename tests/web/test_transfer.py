@@ -21,7 +21,7 @@ from checker.jobs.port import JobsUnreachable, Order
 from checker.store.store import Store
 from checker.web.app import create_app
 from checker.web.config import Config
-from checker.web.uploads.receiving import AT_ONCE
+from checker.web.uploads.transfer import AT_ONCE
 from tests.web.board import ID, BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from checker.check import check_paths
-from checker.jobs.neutral import without_folder
+from checker.jobs.report_paths import without_folder
 from checker.report.report import NotOpened, Report
 
 PLACE = Path("/data/incoming/4f2a")

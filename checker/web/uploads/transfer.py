@@ -23,8 +23,8 @@ from checker.profiles import profile_names
 from checker.report.wording import plain
 from checker.store.incoming import Incoming, TooLarge
 from checker.store.store import Store
+from checker.web.answers.refusal import Refused, sentence
 from checker.web.config import Config
-from checker.web.refusal import Refused, sentence
 from checker.web.services import Services
 from checker.web.uploads.form import ROOM, UploadForm
 
@@ -50,7 +50,7 @@ async def new_check(request: Request, services: Services) -> str:
         JobsUnreachable: The order cannot be taken now.
     """
     config = services.config
-    with services.gate.upload(request):
+    with services.admission.upload(request):
         _refuse_announced(request, config)
         try:
             _refuse_without_room(services.store, config)
@@ -67,7 +67,7 @@ async def new_check(request: Request, services: Services) -> str:
 
 async def _received(request: Request, services: Services, incoming: Incoming) -> str:
     """Read the form, and have a check of its file ordered; see `new_check`."""
-    admit = services.gate.needs_token(request)
+    admit = services.admission.needs_token(request)
     form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
     async for piece in _pieces(request, services.config):
         if incoming.size < AT_ONCE:
@@ -77,7 +77,7 @@ async def _received(request: Request, services: Services, incoming: Incoming) ->
     form.end()
     profile = _profile(form.fields.get("profile", ""))
     take = partial(_ordered, services, incoming, form.name, profile)
-    return await to_thread.run_sync(take, limiter=services.takers)
+    return await to_thread.run_sync(take, limiter=services.threads)
 
 
 def _ordered(services: Services, incoming: Incoming, name: str, profile: str) -> str:

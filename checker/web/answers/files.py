@@ -10,7 +10,7 @@ from typing import BinaryIO
 
 from starlette.responses import Response, StreamingResponse
 
-from checker.web.headers import POLICY
+from checker.web.answers.headers import POLICY
 
 KINDS = {
     "report.json": "application/json",

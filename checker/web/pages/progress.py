@@ -9,7 +9,7 @@ from typing import Any
 from checker.jobs.port import Event, Stage, State
 from checker.record import record
 from checker.report.wording import count, plain, shortened
-from checker.web.views import address_of
+from checker.web.api.views import address_of
 
 STEPS = {
     Stage.QUEUED: "Waiting",

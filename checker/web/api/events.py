@@ -54,7 +54,7 @@ async def event_stream(request: Request, services: Services, id: str, after: int
     if await _is_over(services.jobs, id, after):
         return Response(status_code=204)
     place = ExitStack()
-    place.enter_context(services.gate.stream(request))
+    place.enter_context(services.admission.stream(request))
     return EventStream(services.jobs, id, after, place)
 
 

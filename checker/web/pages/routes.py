@@ -12,14 +12,13 @@ from checker.package.opening import SINGLE_FILE_SUFFIXES
 from checker.profiles import profile, profile_names
 from checker.record import record
 from checker.report.wording import count, plain
-from checker.web import progress, rule_book
-from checker.web.first_findings import glance
-from checker.web.lookup import check_of
-from checker.web.refusal import not_found
+from checker.web.answers.refusal import not_found
+from checker.web.api.views import address_of
+from checker.web.pages import progress, rule_book
+from checker.web.pages.first_findings import glance
+from checker.web.pages.site import FOLDER, html, static_file
 from checker.web.services import Services
-from checker.web.site import FOLDER, html, static_file
-from checker.web.uploads.receiving import new_check
-from checker.web.views import address_of
+from checker.web.uploads.transfer import new_check
 
 if TYPE_CHECKING:
     from fastapi import APIRouter
@@ -56,17 +55,6 @@ def router(services: Services) -> APIRouter:
     return made
 
 
-def error_page(status: int, sentence: str, advice: str) -> Response:
-    """Return the page that says no.
-
-    Args:
-        status: Of HTTP.
-        sentence: What is wrong.
-        advice: What to do about it.
-    """
-    return html("error.html.j2", status=status, sentence=sentence, advice=advice)
-
-
 @record()
 class _Pages:
     """The pages that need what the service works with.
@@ -101,7 +89,7 @@ class _Pages:
 
     def check(self, request: Request) -> Response:
         """Show a check: its steps, the first findings, in the end its results."""
-        state = check_of(self.services, request.path_params["id"])
+        state = self.services.check(request.path_params["id"])
         found = glance(self.services.store, state.result)
         names = self.services.store.names(state.result) if state.result else ()
         done = state.stage is Stage.DONE
@@ -126,7 +114,7 @@ class _Pages:
 
     def cancel(self, request: Request) -> Response:
         """End a check and go back to its page."""
-        state = check_of(self.services, request.path_params["id"])
+        state = self.services.check(request.path_params["id"])
         self.services.jobs.cancel(state.id)
         return _see_other(f"/checks/{state.id}")
 

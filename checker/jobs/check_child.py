@@ -90,7 +90,7 @@ def _checked(
     """Return the answer, and the files of the result."""
     from checker.check import check_paths
     from checker.errors import InvalidSettings, UnreadableInput
-    from checker.jobs.neutral import without_folder
+    from checker.jobs.report_paths import without_folder
     from checker.jobs.summary import summary
     from checker.profiles import profile_names
     from checker.report.wording import shortened
@@ -99,14 +99,14 @@ def _checked(
         known = ", ".join(profile_names())
         return _refused(f"there is no profile {asked['profile']!r}; choose one of {known}")
     stage, name = Stage(asked["stage"]), str(asked["name"])
-    wishes = {
+    options = {
         "profile": asked["profile"] or None,
         "trial": False if stage is Stage.STATIC else None,
         "display": stage is not Stage.STATIC,
     }
     try:
         # Relative, so that no report shows where this machine keeps it.
-        report = without_folder(check_paths([Path(name)], wishes, mesh_child=_meshes), place)
+        report = without_folder(check_paths([Path(name)], options, mesh_child=_meshes), place)
     except (InvalidSettings, UnreadableInput) as error:
         return _refused(shortened(str(error), 1_000))
     if not report.packages:

@@ -15,12 +15,12 @@ from starlette.requests import HTTPConnection
 from checker.errors import InvalidSettings
 from checker.report.html.page import text_of
 from checker.store.store import Store
+from checker.web.answers.files import file_response
+from checker.web.answers.headers import NOTHING, PAGE, POLICY
 from checker.web.app import create_app
 from checker.web.config import Config, config_from
-from checker.web.files import file_response
-from checker.web.gate import Gate
-from checker.web.headers import NOTHING, PAGE, POLICY
-from checker.web.rate import CLIENTS, Rate, Slots, client_of
+from checker.web.limits.admission import Admission
+from checker.web.limits.rates import CLIENTS, Rate, Slots, client_of
 from tests.web.board import DONE, ID, BoardJobs, keep_result
 
 MODEL = {"file": ("a.sdf", b"<sdf/>")}
@@ -70,7 +70,7 @@ def test_tokens_are_compared_in_constant_time(guess: str, monkeypatch: pytest.Mo
         return hmac.compare_digest(one, other)
 
     monkeypatch.setattr(secrets, "compare_digest", compare)
-    known = Gate(Config(tokens=(TOKEN, "other"))).knows(guess)
+    known = Admission(Config(tokens=(TOKEN, "other"))).knows(guess)
     assert known is (guess in (TOKEN, "other"))
     # Each is compared, also behind the one that fits, and by nothing else than this.
     assert compared == [(guess.encode(), TOKEN.encode()), (guess.encode(), b"other")]
