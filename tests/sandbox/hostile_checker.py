@@ -1,4 +1,4 @@
-"""Stands for `checker.jobs.check_child` where an upload says what to do: `hostile_checker`.
+"""Stands for `checker.service.jobs.check_child` where an upload says what to do: `hostile_checker`.
 
 Such an upload holds `HOSTILE`, then JSON with a `deed` and what it needs. All others are checked.
 """
@@ -15,9 +15,9 @@ from typing import Any, NoReturn
 
 from attempts import ATTEMPTS, tried
 
-from checker.jobs import check_child
-from checker.sandbox.files import Files
-from checker.sandbox.task import Answer
+from checker.base.sandbox.files import Files
+from checker.base.sandbox.task import Answer
+from checker.service.jobs import check_child
 
 _SAID = re.compile(rb"HOSTILE(.*)HOSTILE", re.DOTALL)
 _PACKAGE = {

@@ -12,9 +12,9 @@ from time import sleep
 
 import pytest
 
-from checker.errors import UnreadableInput
-from checker.web.uploads import archive_indexes
-from checker.web.uploads.archive_indexes import ArchiveIndexes
+from checker.base.errors import UnreadableInput
+from checker.service.web.uploads import archive_indexes
+from checker.service.web.uploads.archive_indexes import ArchiveIndexes
 from tests.jobs.launched import is_alive, launchers, tasks
 from tests.web.server import eventually
 

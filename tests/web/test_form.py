@@ -12,9 +12,9 @@ from blake3 import blake3
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.store.store import Store, TooLarge
-from checker.web.answers.refusal import Refused
-from checker.web.uploads.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm, misfit
+from checker.service.store.store import Store, TooLarge
+from checker.service.web.answers.refusal import Refused
+from checker.service.web.uploads.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm, misfit
 from tests.web.server import BOUNDARY, form, left_behind
 
 TYPE = f"multipart/form-data; boundary={BOUNDARY}"
