@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from anyio import CapacityLimiter
+from msgspec import field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.port import Jobs, State
 from checker.service.store.store import Store
 from checker.service.web.answers.refusal import not_found
@@ -26,8 +26,7 @@ _AT_ONCE = 16
 """Uploads; most take 10 ms, some archives seconds."""
 
 
-@record()
-class Services:
+class Services(Record):
     """What the routes of the service work with.
 
     Attributes:

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import field
 from functools import cached_property
 from threading import Lock
 from typing import Any
 
 import sqlalchemy as sa
+from msgspec import field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.service.jobs.durable.database import now
 from checker.service.jobs.durable.tables import CHECKS, EVENTS
@@ -35,8 +35,7 @@ Change = Callable[[sa.Connection], None]
 """What holds as a part of a transaction, or not at all."""
 
 
-@record()
-class Held:
+class Held(Record):
     """A stage of a check in the hands of a worker.
 
     Attributes:
@@ -52,8 +51,7 @@ class Held:
     order: Order
 
 
-@record()
-class Step:
+class Step(Record):
     """What a check comes to.
 
     Attributes:
@@ -73,8 +71,7 @@ class Step:
     data: Mapping[str, Any] = field(default_factory=dict)
 
 
-@record()
-class Checks:
+class Checks(Record, dict=True):
     """The table of checks, and that of their events."""
 
     engine: sa.Engine

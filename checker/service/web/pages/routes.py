@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, plain
 from checker.package.archives.archive import ARCHIVE_SUFFIXES
 from checker.package.archives.index import ArchiveLimits
@@ -55,8 +55,7 @@ def router(services: Services) -> APIRouter:
     return made
 
 
-@record()
-class _Pages:
+class _Pages(Record):
     """The pages that need what the service works with.
 
     What is no coroutine runs in a thread: the engine and the disk may take their time.
