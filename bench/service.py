@@ -136,12 +136,10 @@ class Memory:
         all: The most that all processes below this one had at once; pages that they share count
             for each of them.
         web: The most that the web process ever had.
-        clerk: The most that its clerk ever had.
     """
 
     all: float = 0.0
     web: float = 0.0
-    clerk: float = 0.0
     _over: threading.Event = field(default_factory=threading.Event)
 
     def look(self) -> None:
@@ -150,7 +148,6 @@ class Memory:
             pids = below(os.getpid())
             self.all = max(self.all, sum(_status(pid, "VmRSS") for pid in pids))
             self.web = max(self.web, _most(pids, b"\0web\0"))
-            self.clerk = max(self.clerk, _most(pids, b"\0clerk\0"))
 
     def stop(self) -> None:
         """Look no more."""

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from checker.package.archives.index import ArchiveLimits
-from checker.service.jobs.checking import LIMITS
+from checker.service.jobs.check import LIMITS
 from checker.service.jobs.port import Stage
 from checker.service.web.config import Config
 from tests.deployment.image import ROOT

@@ -17,7 +17,7 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from checker.service.jobs.checking import result_key
+from checker.service.jobs.check import result_key
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable import stages
 from checker.service.jobs.durable.worker import WorkerOptions, work

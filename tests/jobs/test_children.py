@@ -14,7 +14,7 @@ import pytest
 
 from checker.base.sandbox.launcher import OwnLauncher
 from checker.base.sandbox.layers import NAMESPACES
-from checker.service.jobs.checking import check_upload
+from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
 from checker.service.jobs.limits import NICENESS
 from checker.service.jobs.outcome import Checked, Outcome

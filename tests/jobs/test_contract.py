@@ -12,7 +12,7 @@ import pytest
 import sqlalchemy as sa
 from msgspec.structs import replace
 
-from checker.service.jobs.checking import result_key
+from checker.service.jobs.check import result_key
 from checker.service.jobs.durable.keys import key_of_check
 from checker.service.jobs.durable.tables import CHECKS
 from checker.service.jobs.port import Stage, State
@@ -167,6 +167,20 @@ class TestAKilledWorker:
         site.worker("also-found", silence_seconds=3)
         assert site.end(id).stage is Stage.DONE
         assert site.begun()[f"trial {site.state(id).order.name}"] == 2
+
+    def test_that_was_only_asleep_finds_its_check_with_another(self, site: Site) -> None:
+        asleep = site.worker("asleep", silence_seconds=3)
+        id = site.submit("static:1")
+        site.in_hand(id, Stage.STATIC)
+        asleep.send_signal(signal.SIGSTOP)
+        site.worker("awake", silence_seconds=3)
+        again = site.until(id, lambda state: state.result != "")
+        asleep.send_signal(signal.SIGCONT)
+        assert site.end(id).stage is Stage.DONE
+        assert again.stage is Stage.TRIAL
+        told = [event for event in site.jobs.events(id) if "begins again" not in event.words]
+        assert [event.stage.value for event in told] == [stage for _, stage in WHOLE]
+        assert site.end(site.submit()).stage is Stage.DONE
 
     def test_is_not_replaced_for_ever(self, site: Site) -> None:
         id = site.submit("kill:trial")

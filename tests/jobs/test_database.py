@@ -11,9 +11,13 @@ import pytest
 import sqlalchemy as sa
 
 from checker.service.jobs.durable.client import durable_jobs
-from checker.service.jobs.durable.database import now, open_database, prepare
-from checker.service.jobs.durable.roll import Roll
-from checker.service.jobs.place import database_url
+from checker.service.jobs.durable.database import (
+    database_url,
+    now,
+    open_database,
+    prepare,
+)
+from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import JobsUnreachable, Order, Stage
 from checker.service.store.store import Store
 from tests.jobs.site import Site, site_in
@@ -46,20 +50,20 @@ def test_its_clock_is_about_right(url: str) -> None:
     engine.dispose()
 
 
-def test_the_roll_knows_who_lives(url: str) -> None:
+def test_it_knows_who_lives(url: str) -> None:
     engine = open_database(url)
     prepare(engine)
-    roll = Roll(engine)
+    workers = Workers(engine)
     for name in ("one", "two", "one"):
-        roll.beat(name)
-    assert roll.living(60.0) == {"one", "two"}
-    assert roll.living(-1.0) == set()
-    roll.strike("one")
-    assert roll.living(60.0) == {"two"}
-    roll.strike_silent(60.0)
-    assert roll.living(60.0) == {"two"}
-    roll.strike_silent(-1.0)
-    assert roll.living(60.0) == set()
+        workers.beat(name)
+    assert workers.living(60.0) == {"one", "two"}
+    assert workers.living(-1.0) == set()
+    workers.strike("one")
+    assert workers.living(60.0) == {"two"}
+    workers.strike_silent(60.0)
+    assert workers.living(60.0) == {"two"}
+    workers.strike_silent(-1.0)
+    assert workers.living(60.0) == set()
     engine.dispose()
 
 

@@ -1,4 +1,4 @@
-"""Stands for `service.jobs.checking_child` where an upload says what to do.
+"""Stands for `checker.service.jobs.check_child` where an upload says what to do: `hostile_checker`.
 
 Such an upload holds `HOSTILE`, then JSON with a `deed` and what it needs. All others are checked.
 """
@@ -17,7 +17,7 @@ from attempts import ATTEMPTS, tried
 
 from checker.base.sandbox.files import Files
 from checker.base.sandbox.task import Answer
-from checker.service.jobs import checking_child
+from checker.service.jobs import check_child
 
 _SAID = re.compile(rb"HOSTILE(.*)HOSTILE", re.DOTALL)
 _PACKAGE = {
@@ -35,7 +35,7 @@ def answer(request: bytes, files: Files) -> Answer:
     upload = files.read("upload")
     said = _SAID.search(upload) if isinstance(upload, bytes) else None
     if said is None:
-        return checking_child.answer(request, files)
+        return check_child.answer(request, files)
     asked = json.loads(said[1])
     return DEEDS[asked["deed"]](asked, files)  # type: ignore[no-any-return]
 

@@ -6,8 +6,8 @@ The rest is in the environment, as for `subt-check worker`.
 from __future__ import annotations
 
 from checker.service.jobs import children
+from checker.service.jobs.durable.database import database_url
 from checker.service.jobs.durable.worker import WorkerOptions, work
-from checker.service.jobs.place import database_url
 from checker.service.store.place import data_folder
 from checker.service.store.store import Store
 

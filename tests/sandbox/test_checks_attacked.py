@@ -17,7 +17,7 @@ import pytest
 from checker.base.sandbox import layers, namespaces
 from checker.base.sandbox.launcher import OwnLauncher
 from checker.service.jobs import children
-from checker.service.jobs.checking import check_upload
+from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
 from checker.service.jobs.outcome import Checked, Died, Outcome
 from checker.service.jobs.port import Order, Stage

@@ -1,4 +1,4 @@
-"""Connections that stand still or come in crowds: they end, and everybody else is served."""
+"""Connections that stand still, or too many of one client: they end, and all others are served."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ async def app(scope: Scope, receive: Receive, send: Send) -> None:
 class Quick(Connection):
     head_seconds = 0.5
     reading_seconds = 1.5
-    crowd = 5
+    per_client = 5
 
 
 class QuickFromProxy(ProxyConnection):
@@ -126,11 +126,11 @@ def test_a_client_that_takes_its_time_gets_all() -> None:
         assert received_from(connection, pause=0.05) > SIZE
 
 
-def test_a_crowd_leaves_room_for_nobody_of_its_own() -> None:
+def test_one_client_leaves_room_for_nobody_of_its_own() -> None:
     with server(Quick) as port, ExitStack() as stack:
-        crowd = [stack.enter_context(connected(port)) for _ in range(Quick.crowd)]
+        many = [stack.enter_context(connected(port)) for _ in range(Quick.per_client)]
         assert not is_served(port)
-        for each in crowd:
+        for each in many:
             assert is_closed(each)
         assert is_served(port)
 
@@ -139,7 +139,7 @@ def test_the_service_has_such_connections(serve: Serve) -> None:
     port = urlsplit(serve("--workers", 0).url).port
     assert port
     with ExitStack() as stack:
-        halves = [stack.enter_context(connected(port)) for _ in range(Connection.crowd)]
+        halves = [stack.enter_context(connected(port)) for _ in range(Connection.per_client)]
         for each in halves:
             each.sendall(HELLO[:-2])
         with connected(port) as one_more:
@@ -151,6 +151,6 @@ def test_the_service_has_such_connections(serve: Serve) -> None:
 
 def test_a_proxy_brings_many() -> None:
     with server(QuickFromProxy) as port, ExitStack() as stack:
-        for _ in range(3 * Quick.crowd):
+        for _ in range(3 * Quick.per_client):
             stack.enter_context(connected(port))
         assert is_served(port)

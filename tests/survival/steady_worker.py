@@ -12,12 +12,12 @@ from functools import partial
 from pathlib import Path
 from time import sleep
 
-from checker.service.jobs.checking import result_key
+from checker.service.jobs.check import result_key
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable import stages
+from checker.service.jobs.durable.database import database_url
 from checker.service.jobs.durable.worker import WorkerOptions, work
 from checker.service.jobs.outcome import Checked, Outcome
-from checker.service.jobs.place import database_url
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.place import data_folder
 from checker.service.store.store import Store

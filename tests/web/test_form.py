@@ -13,9 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.service.store.store import Store, TooLarge
-from checker.service.web.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm
-from checker.service.web.refusal import Refused
-from checker.service.web.sniffing import misfit
+from checker.service.web.answers.refusal import Refused
+from checker.service.web.uploads.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm, misfit
 from tests.web.server import BOUNDARY, form, left_behind
 
 TYPE = f"multipart/form-data; boundary={BOUNDARY}"

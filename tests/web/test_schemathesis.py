@@ -15,9 +15,9 @@ from fastapi.testclient import TestClient
 from hypothesis import HealthCheck, settings
 from schemathesis import checks
 
-from checker.service.jobs.checking import result_key
+from checker.service.jobs.check import result_key
 from checker.service.jobs.durable.client import DurableJobs, durable_jobs
-from checker.service.jobs.durable.roll import Roll
+from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import SUMMARY, Store
 from checker.service.web.app import create_app
@@ -74,7 +74,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     folder = tmp_path_factory.mktemp("api")
     store = Store(folder / "data")
     jobs = durable_jobs(f"sqlite:///{folder}/jobs.sqlite", store)
-    Roll(jobs.engine).beat("worker")
+    Workers(jobs.engine).beat("worker")
     app = create_app(jobs, store, Config())
     cancelled = jobs.submit(Order("a" * 64, "a.zip"))
     assert jobs.cancel(cancelled)

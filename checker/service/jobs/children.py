@@ -17,7 +17,7 @@ from checker.base.sandbox.launcher import OwnLauncher
 from checker.service.jobs.limits import NICENESS, StageLimits
 from checker.service.store.store import Store
 
-MODULE = "checker.service.jobs.checking_child"
+MODULE = "checker.service.jobs.check_child"
 ANSWER_LIMIT = 5_000_000
 """Bytes of the answer, besides the files of the result."""
 _LOOK = 0.2
@@ -93,7 +93,7 @@ class Children:
         """Have a process check an upload; at the end none of its processes is left.
 
         Args:
-            request: See `checker.service.jobs.checking_child`.
+            request: See `checker.service.jobs.check_child`.
             contents: The files that go with it.
             seconds: By the clock, before it is stopped.
             cancelled: Whether it is no longer wanted; asked a few times a second.

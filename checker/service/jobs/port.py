@@ -38,7 +38,8 @@ class Order(Record):
 
     Attributes:
         upload: Hash (BLAKE3, hexadecimal) of the uploaded content in the store.
-        name: Of the uploaded file, made safe by `service.store.naming`; its ending says what it is.
+        name: Of the uploaded file, made safe by `service.store.file_names`; its ending tells its
+            kind.
         profile: Of the check; empty for what suits.
     """
 

@@ -1,7 +1,7 @@
 """A process of the service, which ends with the one that started it.
 
-`python -P -m checker.service.processes.child PARENT web DESCRIPTOR PROXIES`,
-`… PARENT clerk DESCRIPTOR` or `… PARENT worker NAME`.
+`python -P -m checker.service.processes.child PARENT web DESCRIPTOR PROXIES`, or
+`… PARENT worker NAME`.
 """
 
 from __future__ import annotations
@@ -37,14 +37,11 @@ def web(descriptor: int, proxies: str) -> None:
     import uvicorn
 
     from checker.service.processes.connection import Connection, ProxyConnection
-    from checker.service.web.clerk.process import ProcessClerk
-    from checker.service.web.main import app_from_environment
+    from checker.service.web.app import app_from_environment
 
     _allow_open_files()
-    clerk = ProcessClerk((*CHILD, str(os.getpid()), "clerk"))
-    clerk.start()
     config = uvicorn.Config(
-        app_from_environment(clerk),  # it asks the database, which an event loop must not wait for
+        app_from_environment(),  # it asks the database, which an event loop must not wait for
         http=ProxyConnection if proxies else Connection,
         ws="none",
         log_config=None,
@@ -68,19 +65,10 @@ def _allow_open_files() -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (allowed, hard))
 
 
-def clerk(descriptor: int) -> None:
-    """Take uploads until the web process ends; see `checker.service.web.clerk.child`."""
-    from checker.service.web.clerk.child import work
-
-    # Meant for the web process, which finishes what it has begun.
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    work(descriptor)
-
-
 def worker(name: str) -> None:
     """Take checks from the queues until SIGTERM; see `checker.service.jobs.durable.worker`."""
+    from checker.service.jobs.durable.database import database_url
     from checker.service.jobs.durable.worker import WorkerOptions, work
-    from checker.service.jobs.place import database_url
     from checker.service.store.place import data_folder
     from checker.service.store.store import Store
 
@@ -97,8 +85,6 @@ def main(arguments: Sequence[str]) -> int:
     try:
         if kind == "web":
             web(int(rest[0]), rest[1])
-        elif kind == "clerk":
-            clerk(int(rest[0]))
         else:
             worker(rest[0])
     except CheckerError as error:

@@ -63,8 +63,8 @@ def worker(options: argparse.Namespace) -> int:
         CheckerError: The service is not installed, or its database does not answer.
     """
     _refuse_without_extra()
+    from checker.service.jobs.durable.database import database_url
     from checker.service.jobs.durable.worker import WorkerOptions, work
-    from checker.service.jobs.place import database_url
     from checker.service.jobs.port import JobsUnreachable
 
     os.umask(UMASK)  # for its children and their libraries, too
@@ -87,8 +87,7 @@ def _refuse_without_extra() -> None:
 
 def _refuse_without_database() -> None:
     """Say once what each of the processes would say."""
-    from checker.service.jobs.durable.database import open_database, reachable
-    from checker.service.jobs.place import database_url
+    from checker.service.jobs.durable.database import database_url, open_database, reachable
     from checker.service.jobs.port import JobsUnreachable
 
     shown = ""

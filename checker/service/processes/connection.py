@@ -1,4 +1,4 @@
-"""Connections as the web server has them: who stands still, or comes in crowds, is sent away."""
+"""Connections as the web server has them: who stands still, or has too many, is sent away."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from checker.service.web.rate import network_of
+from checker.service.web.limits.rates import network_of
 
 
 @dataclass
@@ -44,13 +44,13 @@ class Connection(H11Protocol):
         head_seconds: That the head of a request may take.
         reading_seconds: That a client may take nothing of an answer that waits for it. Systems
             buffer hundreds of kilobytes before they ask for more, and modems need as long for them.
-        crowd: Connections of one address or IPv6 network; 0 for any number.
-        network: Whence it comes, as `checker.service.web.rate.network_of` says it.
+        per_client: Connections of one address or IPv6 network; 0 for any number.
+        network: Whence it comes, as `checker.service.web.limits.rates.network_of` says it.
     """
 
     head_seconds = 10.0
     reading_seconds = 120.0
-    crowd = 500
+    per_client = 500
     network = ""
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -58,7 +58,7 @@ class Connection(H11Protocol):
         super().connection_made(transport)
         self.network = network_of(self.client[0]) if self.client else ""
         self._head, self._reader = Deadline(self._give_up), Deadline(self._look_at_reader)
-        if self.crowd and self._is_one_too_many():
+        if self.per_client and self._is_one_too_many():
             transport.abort()
         else:
             self._head.set(self.head_seconds)
@@ -105,10 +105,10 @@ class Connection(H11Protocol):
 
     def _is_one_too_many(self) -> bool:
         peers = (each for each in self.connections if isinstance(each, Connection))
-        return sum(each.network == self.network for each in peers) > self.crowd
+        return sum(each.network == self.network for each in peers) > self.per_client
 
 
 class ProxyConnection(Connection):
     """The same from a proxy, which speaks for many."""
 
-    crowd = 0
+    per_client = 0

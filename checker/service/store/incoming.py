@@ -6,9 +6,6 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-_PIECE = 262_144
-"""Bytes that are read at a time."""
-
 
 class TooLarge(Exception):
     """More bytes than an upload may have.
@@ -41,7 +38,9 @@ class Incoming:
             limit: Bytes.
             admit: Takes the finished file and its hash.
         """
-        self.path, self.size = path, 0
+        from blake3 import blake3
+
+        self.path, self.size, self._hash = path, 0, blake3()
         self._descriptor, self._limit, self._admit = descriptor, limit, admit
 
     def write(self, chunk: bytes) -> None:
@@ -53,27 +52,17 @@ class Incoming:
         if self.size + len(chunk) > self._limit:
             raise TooLarge(self._limit)
         self.size += len(chunk)
+        self._hash.update(chunk)
         left = memoryview(chunk)
         while left:  # a disk that is nearly full takes a part of it
             left = left[os.write(self._descriptor, left) :]
 
     def finish(self) -> str:
-        """Put the upload into the store, and return its hash; see `Store.admit`."""
-        hash = content_hash(self.path)
+        """Put the upload into the store, and return its hash; see `Store.admit`.
+
+        The hash is BLAKE3, 256 bits in hexadecimal: of a megabyte it takes 0.3 ms, where SHA-256
+        takes 4.6 on processors without instructions for it.
+        """
+        hash = self._hash.hexdigest()
         self._admit(self.path, hash)
         return hash
-
-
-def content_hash(file: Path) -> str:
-    """Return the BLAKE3 of a file's content: 256 bits, hexadecimal.
-
-    Each upload waits for it: 0.3 ms for a megabyte, and SHA-256 takes 4.6 where processors have no
-    instructions for it.
-    """
-    from blake3 import blake3
-
-    digest = blake3()
-    with file.open("rb", buffering=0) as opened:
-        while piece := opened.read(_PIECE):
-            digest.update(piece)
-    return digest.hexdigest()

@@ -25,7 +25,7 @@ from checker.report.files import ARTEFACT_NAME
 from checker.service.store.durable import move, rename, settle, settle_below, settle_name
 from checker.service.store.incoming import Incoming, TooLarge
 from checker.service.store.place import DATABASE
-from checker.service.store.workplace import number_of_files, sweep, work_file, workplace
+from checker.service.store.workplace import sweep, work_file, workplace
 
 __all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge"]
 
@@ -58,16 +58,12 @@ class Store(Record):
         with work_file(self.folder / "incoming") as (path, descriptor):
             yield Incoming(path, descriptor, limit, self.admit)
 
-    def coming(self) -> int:
-        """Return how many uploads are coming in."""
-        return number_of_files(self.folder / "incoming")
-
     def admit(self, file: Path, hash: str) -> None:
         """Keep an upload that has come whole, safe from a power failure.
 
         Args:
             file: Of `Incoming`; it is gone after.
-            hash: As `content_hash` says it.
+            hash: Of its content, as `Incoming.finish` says it.
         """
         settle(file)
         place = self.folder / "uploads" / hash[:2] / hash

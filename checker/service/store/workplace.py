@@ -45,11 +45,6 @@ def work_file(home: Path) -> Iterator[tuple[Path, int]]:
         os.close(descriptor)
 
 
-def number_of_files(home: Path) -> int:
-    """Return how many files of `work_file` there are below `home`."""
-    return sum(1 for _ in home.glob(f"*{_FILE}"))
-
-
 def _claimed(home: Path, suffix: str) -> tuple[Path, int]:
     """Return a new file and the descriptor that holds its lock."""
     home.mkdir(mode=0o700, parents=True, exist_ok=True)

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from checker.base.resources import version_of
+from checker.engine.report_cache import program_parts
+from checker.service.jobs.durable.client import durable_jobs
+from checker.service.jobs.durable.database import database_url
 from checker.service.jobs.port import Jobs
+from checker.service.store.place import data_folder
 from checker.service.store.store import Store
-from checker.service.web import api, health, pages
-from checker.service.web.answers import say_no_by
-from checker.service.web.clerk.port import Clerk
-from checker.service.web.clerk.threads import ThreadClerk
-from checker.service.web.config import Config
-from checker.service.web.courtesy import Courtesy
-from checker.service.web.gate import Gate
-from checker.service.web.headers import SecurityHeaders
+from checker.service.web import health
+from checker.service.web.access_log import AccessLog
+from checker.service.web.answers.headers import SecurityHeaders
+from checker.service.web.answers.problems import say_no_by
+from checker.service.web.api import routes as api
+from checker.service.web.config import Config, config_from
+from checker.service.web.limits.admission import Admission
+from checker.service.web.limits.origin import OwnOrigin
+from checker.service.web.logs import log_to_stderr
 from checker.service.web.metrics import Metrics
-from checker.service.web.observing import Observing
-from checker.service.web.origin import OwnOrigin
+from checker.service.web.pages import routes as pages
 from checker.service.web.services import Services
+from checker.service.web.uploads.archive_indexes import ArchiveIndexes
+from checker.service.web.uploads.unread_bodies import UnreadBodies
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -34,20 +41,47 @@ _NO_TELEMETRY: TelemetryConfig = {
 """The framework's own would send addresses, which hold ids, to whom the environment names."""
 
 
-def create_app(jobs: Jobs, store: Store, config: Config, clerk: Clerk | None = None) -> FastAPI:
+def app_from_environment() -> FastAPI:
+    """Return the application as the environment wants it, with all loaded that an upload needs.
+
+    Raises:
+        CheckerError: A variable has a value that makes no sense, or there is no place for data.
+    """
+    config = config_from()
+    log_to_stderr()
+    store = Store(data_folder())
+    store.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    store.sweep()
+    indexes = ArchiveIndexes()
+    with suppress(OSError):  # who uploads is told
+        indexes.start()
+    # Each result is that of a program; to look through all of this one takes as long as 20 uploads.
+    program_parts()
+    jobs = durable_jobs(database_url(), store, config.retention_days)
+    app = create_app(jobs, store, config, indexes)
+    # The framework works its routes out when they are first needed, which takes as long as several
+    # uploads: now nobody waits for it.
+    app.openapi()
+    return app
+
+
+def create_app(
+    jobs: Jobs, store: Store, config: Config, indexes: ArchiveIndexes | None = None
+) -> FastAPI:
     """Return the application.
 
     Args:
         jobs: The engine that checks.
         store: Uploads and results.
         config: What is allowed.
-        clerk: Takes uploads that have come whole; None for one within this process.
+        indexes: Reads those of archives; None for one of its own.
     """
     from fastapi import FastAPI
 
     metrics = Metrics()
-    clerk = clerk or ThreadClerk(store, jobs)
-    services = Services(jobs, store, clerk, config, Gate(config), metrics)
+    services = Services(
+        jobs, store, config, Admission(config), metrics, indexes or ArchiveIndexes()
+    )
     app = FastAPI(
         title="subt-check",
         version=version_of("subt-check"),
@@ -64,7 +98,7 @@ def create_app(jobs: Jobs, store: Store, config: Config, clerk: Clerk | None = N
     app.include_router(pages.router(services))
     # The last added stands outermost.
     app.add_middleware(OwnOrigin, config=config)
-    app.add_middleware(Courtesy)
-    app.add_middleware(Observing, metrics=metrics)
+    app.add_middleware(UnreadBodies)
+    app.add_middleware(AccessLog, metrics=metrics)
     app.add_middleware(SecurityHeaders)
     return app

@@ -16,9 +16,9 @@ from checker.base.record import Record
 from checker.base.sandbox.layers import hides_files
 from checker.service.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
 from checker.service.loopback import is_loopback
-from checker.service.web.answers import Problem
-from checker.service.web.gate import bearer
-from checker.service.web.refusal import Refused, not_found
+from checker.service.web.answers.problems import Problem
+from checker.service.web.answers.refusal import Refused, not_found
+from checker.service.web.limits.admission import bearer
 from checker.service.web.services import Services
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ class Health(Record):
         is_forwarded = "x-forwarded-for" in request.headers or "forwarded" in request.headers
         if is_loopback(host) and not is_forwarded:
             return True
-        return self.services.gate.knows(bearer(request))
+        return self.services.admission.knows(bearer(request))
 
     def _alive(self) -> Alive | None:
         try:

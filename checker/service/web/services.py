@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
+from anyio import CapacityLimiter
 from msgspec import field
 
 from checker.base.record import Record
-from checker.service.jobs.port import Jobs
+from checker.service.jobs.port import Jobs, State
 from checker.service.store.store import Store
-from checker.service.web.clerk.port import Clerk
+from checker.service.web.answers.refusal import not_found
 from checker.service.web.config import Config
-from checker.service.web.gate import Gate
+from checker.service.web.limits.admission import Admission
 from checker.service.web.metrics import Metrics
-from checker.service.web.turns import Turns
+from checker.service.web.uploads.archive_indexes import ArchiveIndexes
 
 if TYPE_CHECKING:
     from starlette.requests import Request
+
+_ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
+"""What can be an id at all; the rest is not asked of the database."""
+_AT_ONCE = 16
+"""Uploads; most take 10 ms, some archives seconds."""
 
 
 class Services(Record):
@@ -25,20 +32,35 @@ class Services(Record):
     Attributes:
         jobs: The engine that checks.
         store: Uploads and results.
-        clerk: Takes uploads that have come whole.
         config: What is allowed here.
-        gate: Says who may do what.
+        admission: Says who may do what.
         metrics: Counts what they do.
-        turns: Of the uploads that come.
+        indexes: Reads those of archives.
+        threads: For uploads that have come whole, to be looked at, kept and ordered.
     """
 
     jobs: Jobs
     store: Store
-    clerk: Clerk
     config: Config
-    gate: Gate
+    admission: Admission
     metrics: Metrics
-    turns: Turns = field(default_factory=Turns)
+    indexes: ArchiveIndexes
+    threads: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(_AT_ONCE))
+
+    def check(self, id: str) -> State:
+        """Return where a check stands.
+
+        Args:
+            id: As a client sends it.
+
+        Raises:
+            Refused: There is none; the answer is one and the same for all ids.
+            JobsUnreachable: The database does not answer.
+        """
+        state = self.jobs.status(id) if _ID.fullmatch(id) else None
+        if state is None:
+            raise not_found()
+        return state
 
     def address(self, request: Request) -> str:
         """Return where people reach the service, without a slash at its end."""

@@ -1,1 +1,1 @@
-"""The engine: a queue and its recovery by DBOS Transact, and a ledger of what is known."""
+"""The engine: queues and recovery by DBOS Transact, and tables of what it cannot know."""

@@ -10,12 +10,12 @@ import sqlalchemy as sa
 from msgspec.structs import replace
 
 from checker.base.record import Record
-from checker.service.jobs.checking import stored_result
+from checker.service.jobs.check import stored_result
+from checker.service.jobs.durable.checks import Checks, Step
 from checker.service.jobs.durable.database import open_database, prepare, reachable
 from checker.service.jobs.durable.keys import key_of_check
-from checker.service.jobs.durable.ledger import Ledger, Step
-from checker.service.jobs.durable.queues import WAITS, Queues, queues_of
-from checker.service.jobs.durable.readings import alive, events_of, state_of
+from checker.service.jobs.durable.workers import Workers
+from checker.service.jobs.durable.workflows import WAITS, Queues, queues_of
 from checker.service.jobs.outcome import Checked
 from checker.service.jobs.port import RETENTION_DAYS, Alive, Event, Order, Stage, State
 from checker.service.store.store import Store
@@ -41,9 +41,9 @@ class DurableJobs(Record, dict=True):
     retention_days: float = RETENTION_DAYS
 
     @cached_property
-    def ledger(self) -> Ledger:
-        """The book of checks."""
-        return Ledger(self.engine)
+    def checks(self) -> Checks:
+        """The table of checks."""
+        return Checks(self.engine)
 
     def submit(self, order: Order) -> str:
         """Take an order and return the id of its check; once it returns, the order is not lost.
@@ -61,24 +61,28 @@ class DurableJobs(Record, dict=True):
                 self.queues.put(connection, key, Stage.STATIC)
 
         with reachable():
-            self.ledger.enter(key, order, self.retention_days * _DAY, step, then)
+            self.checks.enter(key, order, self.retention_days * _DAY, step, then)
         return id
 
     def status(self, id: str) -> State | None:
         """Return where a check stands; None for an id that was never given or is forgotten."""
-        with reachable(), self.engine.connect() as connection:
-            state = state_of(connection, key_of_check(id))
+        with reachable():
+            state = self.checks.state(key_of_check(id))
         return state and replace(state, id=id)
 
     def events(self, id: str, after: int = 0) -> Sequence[Event]:
         """Return what has happened so far after event number `after`, in order."""
-        with reachable(), self.engine.connect() as connection:
-            return events_of(connection, key_of_check(id), after)
+        with reachable():
+            return self.checks.events(key_of_check(id), after)
 
     def cancel(self, id: str) -> bool:
         """End a check; False if there was nothing to end."""
+        key = key_of_check(id)
         with reachable():
-            return self.ledger.cancel(key_of_check(id))
+            was_open = self.checks.cancel(key)
+            if was_open:
+                self.queues.cancel(key)
+        return was_open
 
     def result(self, id: str) -> str:
         """Return the key of the final report in the store; empty while there is none."""
@@ -87,8 +91,10 @@ class DurableJobs(Record, dict=True):
 
     def alive(self) -> Alive:
         """Return what is known of the engine."""
-        with reachable(), self.engine.connect() as connection:
-            return alive(self.engine, connection)
+        with reachable():
+            silence, layers = Workers(self.engine).known()
+            waiting, running = self.checks.waiting()
+        return Alive(silence, waiting, running, layers)
 
 
 def durable_jobs(

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import sqlalchemy as sa
 
@@ -15,6 +16,7 @@ from checker.base.words import plain, shortened
 from checker.service.jobs.durable.tables import make_tables
 from checker.service.jobs.durable.upgrade import hash_clear_ids
 from checker.service.jobs.port import JobsUnreachable
+from checker.service.store.place import DATABASE, data_folder
 
 CONNECT_SECONDS = 5
 """After which a server that does not answer counts as unreachable."""
@@ -40,6 +42,13 @@ AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 _SHOWN = 200
 _MIGRATION_LOCK = 7_302_815_601
 """Of PostgreSQL's advisory locks; any number that others do not use."""
+
+
+def database_url() -> str:
+    """Return the address of the database: `SUBT_CHECK_DATABASE_URL`, else a file with the data."""
+    own = os.environ.get("SUBT_CHECK_DATABASE_URL", "")
+    # SQLAlchemy takes what follows a `?` for options.
+    return own or f"sqlite:///{quote(str(data_folder() / DATABASE))}"
 
 
 def open_database(url: str) -> sa.Engine:
@@ -86,7 +95,7 @@ def reachable() -> Iterator[None]:
 
 
 def prepare(engine: sa.Engine) -> None:
-    """Make the tables that are missing, DBOS's own and the ledger's, and upgrade older ones.
+    """Make the tables that are missing, DBOS's and our own, and upgrade older ones.
 
     Many may do so at once.
 

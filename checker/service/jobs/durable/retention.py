@@ -7,10 +7,10 @@ import time
 import sqlalchemy as sa
 
 from checker.base.record import Record
+from checker.service.jobs.durable.checks import forget
 from checker.service.jobs.durable.database import now
-from checker.service.jobs.durable.ledger import forget
-from checker.service.jobs.durable.queues import Queues
 from checker.service.jobs.durable.tables import CHECKS
+from checker.service.jobs.durable.workflows import Queues
 from checker.service.store.store import Store
 
 _AT_ONCE = 200

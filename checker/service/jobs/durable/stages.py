@@ -1,7 +1,7 @@
 """What a worker does with a stage of a check that the queue gives it.
 
 A workflow is one stage. It may begin again at any point, after a crash, in another process: a
-result that is in the store already is found there, and the ledger takes each step once.
+result that is in the store already is found there, and each step is written down once.
 """
 
 from __future__ import annotations
@@ -16,13 +16,12 @@ import sqlalchemy as sa
 from msgspec import field
 
 from checker.base.record import Record
-from checker.service.jobs.checking import check_upload
+from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
+from checker.service.jobs.durable.checks import Change, Checks, Held, Step
 from checker.service.jobs.durable.client import finished
 from checker.service.jobs.durable.database import reachable
-from checker.service.jobs.durable.ledger import Ledger, Step, Turn
-from checker.service.jobs.durable.queues import Queues
-from checker.service.jobs.durable.together import Change
+from checker.service.jobs.durable.workflows import Queues
 from checker.service.jobs.outcome import FAILED_INSIDE, Cancelled, Checked, Died, Refused
 from checker.service.jobs.port import JobsUnreachable, Stage
 from checker.service.store.store import Store
@@ -41,7 +40,7 @@ class Stages(Record):
     """Does stages of checks.
 
     Attributes:
-        ledger: The book of checks.
+        checks: The table of checks.
         queues: Of the same database.
         store: Uploads and results.
         worker: Name of this process.
@@ -49,7 +48,7 @@ class Stages(Record):
         hand_back: Set when there is no more time to finish what is in hand.
     """
 
-    ledger: Ledger
+    checks: Checks
     queues: Queues
     store: Store
     worker: str
@@ -58,41 +57,41 @@ class Stages(Record):
 
     def run(self, id: str, stage: Stage) -> None:
         """Do a stage of a check, and write down what came of it."""
-        turn = _patiently(lambda: self.ledger.take(id, self.worker, _BEGINS[stage]))
-        if turn is None:
+        held = _patiently(lambda: self.checks.begin(id, self.worker, _BEGINS[stage]))
+        if held is None:
             return
         try:
-            self._do(turn, stage)
+            self._do(held)
         except Exception:  # noqa: BLE001 - whatever it is
             # Left alone, the check would stay in hand for ever.
             _LOG.exception("a check fails in its stage %s", stage)
-            _patiently(lambda: self.ledger.settle(turn, Step("end", Stage.FAILED, FAILED_INSIDE)))
+            _patiently(lambda: self.checks.settle(held, Step("end", Stage.FAILED, FAILED_INSIDE)))
 
-    def _do(self, turn: Turn, stage: Stage) -> None:
+    def _do(self, held: Held) -> None:
         outcome = check_upload(
-            self.store, self.children, turn.order, stage, lambda: self._unwanted(turn)
+            self.store, self.children, held.order, held.stage, lambda: self._unwanted(held)
         )
         if isinstance(outcome, Cancelled):
-            if self.hand_back.is_set() and _patiently(lambda: self.ledger.release(turn)):
-                _patiently(lambda: self.queues.put_back(turn.id, stage))
+            if self.hand_back.is_set() and _patiently(lambda: self.checks.release(held)):
+                _patiently(lambda: self.queues.put_back(held.id, held.stage))
             return
-        step = _conclusion(outcome, stage)
-        _patiently(lambda: self.ledger.settle(turn, step, self._next(turn, step)))
+        step = _conclusion(outcome, held.stage)
+        _patiently(lambda: self.checks.settle(held, step, self._next(held, step)))
 
-    def _unwanted(self, turn: Turn) -> bool:
+    def _unwanted(self, held: Held) -> bool:
         """Whether to stop: no time is left, somebody cancelled it, or another worker has it."""
         try:
             with reachable():
-                return self.hand_back.is_set() or not self.ledger.wanted(turn)
+                return self.hand_back.is_set() or not self.checks.holds(held)
         except JobsUnreachable:
             return False
 
-    def _next(self, turn: Turn, step: Step) -> Change:
+    def _next(self, held: Held, step: Step) -> Change:
         """Return what follows a step, in the same transaction: the trial, or nothing."""
 
         def then(connection: sa.Connection) -> None:
             if step.stage is Stage.TRIAL:
-                self.queues.put(connection, turn.id, Stage.TRIAL)
+                self.queues.put(connection, held.id, Stage.TRIAL)
 
         return then
 

@@ -1,4 +1,4 @@
-"""The ledger's tables, beside those of DBOS in the same database."""
+"""Our tables, beside those of DBOS in the same database."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ CHECKS = sa.Table(
     sa.Column("losses", sa.JSON, nullable=False, default=list),
 )
 """Each check. `id` is its key, which opens nothing (`keys.py`). `worker` has it
-in hand; empty while it waits or when it is over. `turn` goes up whenever it changes hands: who
-holds an older one has lost it. `losses` are the workers that died with it in hand."""
+in hand; empty while it waits or when it is over. `losses` are the workers that died with it in
+hand. `turn` is for workers of version 0.1.0: who knows an older one has lost the check."""
 
 EVENTS = sa.Table(
     "subt_events",

@@ -13,8 +13,8 @@ from typing import Any
 import sqlalchemy as sa
 
 from checker.service.jobs.durable.keys import LENGTH, key_of_check
-from checker.service.jobs.durable.queues import WAITS, Queues, queues_of
 from checker.service.jobs.durable.tables import CHECKS, EVENTS
+from checker.service.jobs.durable.workflows import WAITS, Queues, queues_of
 from checker.service.jobs.port import Stage
 
 _AT_ONCE = 200

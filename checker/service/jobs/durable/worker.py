@@ -18,19 +18,19 @@ from checker.base.sandbox.layers import Layer, hides_files
 from checker.base.signals import on_requests_to_end
 from checker.engine.report_cache import program_parts
 from checker.service.jobs.children import Children
+from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import open_database, prepare, reachable
-from checker.service.jobs.durable.engine import land, launch
-from checker.service.jobs.durable.ledger import Ledger
-from checker.service.jobs.durable.queues import queues_of
 from checker.service.jobs.durable.retention import Retention
-from checker.service.jobs.durable.roll import Roll
 from checker.service.jobs.durable.stages import Stages
-from checker.service.jobs.durable.watchdog import Watchdog
+from checker.service.jobs.durable.workers import Workers
+from checker.service.jobs.durable.workflows import land, launch, queues_of, recover
 from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable
 from checker.service.jobs.sandbox import layers_of_checks
 from checker.service.store.store import Store
 
 _LOG = logging.getLogger(__name__)
+_KNOWN_SILENCES = 60
+"""A dead worker stays known for so many times the silence, for those who look at it."""
 _LANDING_SECONDS = 10.0
 """For the children of what is handed back to end, and for the database to hear of it."""
 
@@ -43,7 +43,7 @@ class WorkerOptions(Record):
     """How a worker works.
 
     Attributes:
-        database_url: As `checker.service.jobs.place.database_url` says it.
+        database_url: As `checker.service.jobs.durable.database.database_url` says it.
         store: Uploads and results.
         name: Of this worker, of letters, digits and `-`; no other one has it at the same time. One
             that is started again under its old name takes up at once what it had in hand.
@@ -81,20 +81,25 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     prepare(engine)
     layers = layers_of_checks(options.store)
     _tell_of(layers)
-    queues, roll = queues_of(engine), Roll(engine, layers)
+    queues, workers = queues_of(engine), Workers(engine, layers)
     children = Children(options.store, options.ahead)
-    stages = Stages(Ledger(engine), queues, options.store, options.name, children)
-    watchdog = Watchdog(roll, options.name, options.silence_seconds)
+    stages = Stages(Checks(engine), queues, options.store, options.name, children)
     retention = Retention(engine, queues, options.store, options.unused_seconds)
     # What every result depends on takes 0.1 s to look through: now no upload waits for it.
     program_parts()
     with reachable():
         queues.declare(options.trials)
-        roll.beat(options.name)
+        workers.beat(options.name)
         launch(engine, options.name, stages.run)
     children.get_ready()
+
+    def show_life() -> None:
+        workers.beat(options.name)
+        recover(options.name, lambda: workers.living(options.silence_seconds))
+        workers.strike_silent(_KNOWN_SILENCES * options.silence_seconds)
+
     landed = threading.Event()
-    _in_background(watchdog.look, options.beat_seconds, landed)
+    _in_background(show_life, options.beat_seconds, landed)
     _in_background(retention.delete, options.cleaning_seconds, stop)
     _LOG.info("%s waits for checks", options.name)
     stop.wait()
@@ -103,7 +108,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     children.close()
     landed.set()
     with suppress(JobsUnreachable), reachable():
-        roll.strike(options.name)
+        workers.strike(options.name)
 
 
 def _tell_of(layers: Sequence[Layer]) -> None:
@@ -154,7 +159,7 @@ def _in_background(do: Callable[[], None], every_seconds: float, stop: threading
                     do()
             except JobsUnreachable as error:
                 _LOG.warning("%s", error)
-            except Exception:  # noqa: BLE001 - a worker without its watchdog is taken for dead
+            except Exception:  # noqa: BLE001 - a worker that shows no sign of life is taken for dead
                 _LOG.exception("%s fails", do.__qualname__)
             if stop.wait(every_seconds):
                 return

@@ -1,0 +1,1 @@
+"""Answers: refusals, files of results, and the headers of all of them."""

@@ -1,1 +1,0 @@
-"""Who takes an upload that has come whole: looks at it, keeps it, and orders its check."""

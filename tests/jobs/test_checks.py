@@ -1,0 +1,182 @@
+"""The table of checks: whatever order things happen in, it tells one story."""
+
+from __future__ import annotations
+
+import secrets
+import tempfile
+from pathlib import Path
+
+import pytest
+import sqlalchemy as sa
+from hypothesis import settings
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+
+from checker.service.jobs.durable.checks import GIVEN_UP, Checks, Held, Step, forget
+from checker.service.jobs.durable.database import open_database
+from checker.service.jobs.durable.tables import METADATA
+from checker.service.jobs.port import Event, Order, Stage, State
+from tests.effort import examples
+
+ORDER = Order("0" * 64, "robot.zip", "subt")
+QUEUED = Step("queued", Stage.QUEUED, "waits")
+STATIC = Step("static", Stage.STATIC, "looks")
+READ = Step("read", Stage.TRIAL, "has looked", "a" * 64)
+TRIAL = Step("trial", Stage.TRIAL, "drives")
+DONE = Step("end", Stage.DONE, "ready", "b" * 64)
+
+
+def checks_in(folder: Path) -> Checks:
+    engine = open_database(f"sqlite:///{folder}/jobs.sqlite")
+    METADATA.create_all(engine)
+    return Checks(engine)
+
+
+def entered(checks: Checks, step: Step = QUEUED) -> str:
+    id = secrets.token_urlsafe(16)
+    checks.enter(id, ORDER, 60.0, step, lambda _: None)
+    return id
+
+
+def state(checks: Checks, id: str) -> State:
+    found = checks.state(id)
+    assert found is not None
+    return found
+
+
+def told(checks: Checks, id: str) -> list[Event]:
+    return list(checks.events(id, 0))
+
+
+@pytest.fixture
+def checks(tmp_path: Path) -> Checks:
+    return checks_in(tmp_path)
+
+
+class AnyStory(RuleBasedStateMachine):
+    """A check under workers that take it, finish, hand it back and die, and a user who cancels."""
+
+    @initialize()
+    def submit(self) -> None:
+        self.folder = tempfile.TemporaryDirectory()
+        self.checks = checks_in(Path(self.folder.name))
+        self.id = entered(self.checks)
+        self.held: list[Held] = []
+        self.before = state(self.checks, self.id)
+
+    @property
+    def stage(self) -> Stage:
+        return state(self.checks, self.id).stage
+
+    @rule()
+    def take(self) -> None:
+        """A queue gives it out: what had it in hand before is dead, or only thought to be."""
+        step = TRIAL if self.stage is Stage.TRIAL else STATIC
+        held = self.checks.begin(self.id, f"w{len(self.held)}", step)
+        if held is not None:
+            self.held.append(held)
+
+    @rule()
+    def take_again_what_is_through(self) -> None:
+        if self.stage not in (Stage.QUEUED, Stage.STATIC):
+            assert self.checks.begin(self.id, "late", STATIC) is None
+
+    @precondition(lambda self: self.held)
+    @rule()
+    def settle(self) -> None:
+        step = DONE if self.stage is Stage.TRIAL else READ
+        self.checks.settle(self.held[-1], step)
+
+    @precondition(lambda self: len(self.held) > 1)
+    @rule()
+    def settle_late(self) -> None:
+        """A worker that was taken for dead comes back with a result."""
+        assert not self.checks.settle(self.held[-2], DONE)
+        assert not self.checks.release(self.held[-2])
+        assert not self.checks.holds(self.held[-2])
+
+    @precondition(lambda self: self.held)
+    @rule()
+    def release(self) -> None:
+        self.checks.release(self.held[-1])
+
+    @rule()
+    def cancel(self) -> None:
+        open_before = not self.stage.is_final
+        assert self.checks.cancel(self.id) is open_before
+        assert self.stage.is_final
+
+    @invariant()
+    def events_are_numbered_and_none_is_told_twice(self) -> None:
+        events = told(self.checks, self.id)
+        assert [event.number for event in events] == list(range(1, len(events) + 1))
+        assert len({event.words for event in events}) == len(events)
+
+    @invariant()
+    def nothing_follows_the_end(self) -> None:
+        events = told(self.checks, self.id)
+        stages = [event.stage for event in events]
+        assert not any(stage.is_final for stage in stages[:-1])
+        assert stages[-1].is_final is self.stage.is_final
+        order = list(Stage)
+        assert stages == sorted(stages, key=order.index)
+
+    @invariant()
+    def only_one_holds_it(self) -> None:
+        assert sum(self.checks.holds(held) for held in self.held) <= 1
+
+    @invariant()
+    def the_end_stays_as_it_is(self) -> None:
+        now = state(self.checks, self.id)
+        assert not self.before.stage.is_final or now == self.before
+        self.before = now
+
+    def teardown(self) -> None:
+        self.checks.engine.dispose()
+        self.folder.cleanup()
+
+
+TestAnyStory = AnyStory.TestCase
+TestAnyStory.settings = settings(max_examples=examples(25), stateful_step_count=15, deadline=None)
+
+
+def test_a_check_is_given_up_after_its_third_worker(checks: Checks) -> None:
+    id = entered(checks)
+    assert all(checks.begin(id, f"w{n}", STATIC) for n in range(3))
+    assert checks.begin(id, "w3", STATIC) is None
+    assert (state(checks, id).stage, state(checks, id).words) == (Stage.FAILED, GIVEN_UP)
+    losses = told(checks, id)[-1].data["losses"]
+    assert [loss["worker"] for loss in losses] == ["w0", "w1", "w2"]
+
+
+def test_what_belongs_together_holds_together_or_not_at_all(checks: Checks) -> None:
+    def fail(_connection: sa.Connection) -> None:
+        raise RuntimeError("no queue")
+
+    with pytest.raises(RuntimeError):
+        checks.enter("one", ORDER, 60.0, QUEUED, fail)
+    assert checks.state("one") is None
+    assert told(checks, "one") == []
+    id = entered(checks)
+    held = checks.begin(id, "w", STATIC)
+    assert held is not None
+    with pytest.raises(RuntimeError):
+        checks.settle(held, READ, fail)
+    assert (state(checks, id).stage, state(checks, id).result) == (Stage.STATIC, "")
+    assert checks.holds(held)
+
+
+def test_words_are_kept_as_every_database_takes_them(checks: Checks) -> None:
+    id = entered(checks, Step("queued", Stage.QUEUED, "a\0b\udcff\N{RIGHT-TO-LEFT OVERRIDE}" * 999))
+    words = state(checks, id).words
+    assert words == told(checks, id)[0].words
+    assert words.startswith("a\ufffdb\ufffd\ufffda")
+    assert len(words) == 2000
+
+
+def test_what_is_forgotten_leaves_nothing(checks: Checks) -> None:
+    gone, kept = entered(checks), entered(checks)
+    with checks.engine.begin() as connection:
+        forget(connection, [gone])
+    assert checks.state(gone) is None
+    assert told(checks, gone) == []
+    assert told(checks, kept)

@@ -1,0 +1,270 @@
+"""Uploads: those that are taken lie in the store, all others leave nothing behind."""
+
+from __future__ import annotations
+
+import io
+import json
+import socket
+import tarfile
+import zipfile
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+from threading import Event, Thread
+from time import monotonic, sleep
+
+import httpx
+import pytest
+from fastapi.testclient import TestClient
+
+from checker.service.jobs.port import JobsUnreachable, Order
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
+from checker.service.web.uploads.transfer import AT_ONCE
+from tests.web.board import ID, BoardJobs
+from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
+
+LIMIT = 600_000
+CUT = 'refused_total{cause="cut"} 1.0'
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Store:
+    return Store(tmp_path / "data")
+
+
+@pytest.fixture
+def jobs() -> BoardJobs:
+    return BoardJobs()
+
+
+@pytest.fixture
+def client(jobs: BoardJobs, store: Store) -> TestClient:
+    app = create_app(jobs, store, Config(upload_limit=LIMIT))
+    return TestClient(app, base_url="http://localhost")
+
+
+def zipped(*entries: tuple[str, bytes]) -> bytes:
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in entries:
+            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
+    return file.getvalue()
+
+
+def linked() -> bytes:
+    file = io.BytesIO()
+    with tarfile.open(fileobj=file, mode="w:gz") as archive:
+        info = tarfile.TarInfo("rover/model.sdf")
+        info.type, info.linkname = tarfile.SYMTYPE, "/etc/passwd"
+        archive.addfile(info)
+    return file.getvalue()
+
+
+GOOD = zipped(("rover/model.sdf", b"<sdf/>"))
+
+
+def test_an_upload_is_kept_and_its_check_ordered(
+    client: TestClient, jobs: BoardJobs, store: Store
+) -> None:
+    answer = client.post("/api/checks", files={"file": ("my rover.zip", GOOD)})
+    assert answer.status_code == 201
+    assert answer.json() == {"id": ID, "url": f"http://localhost/checks/{ID}"}
+    assert answer.headers["location"] == f"/api/checks/{ID}"
+    order = jobs.states[ID].order
+    assert order.name == "my_rover.zip"
+    kept = store.upload(order.upload)
+    assert kept is not None
+    assert kept.read_bytes() == GOOD
+    assert left_behind(store) == [kept]
+
+
+MANY = [(f"rover/{number}", b"") for number in range(5_001)]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("bomb.zip", zipped(("rover/mesh.dae", bytes(60_000_000))), "200 times the size"),
+        ("escape.zip", zipped(("../../etc/cron.d/x", b"x")), "leads out of the archive"),
+        ("absolute.zip", zipped(("/etc/x", b"x")), "is an absolute path"),
+        ("control.zip", zipped(("rover/a\nb", b"x")), "control characters"),
+        ("case.zip", zipped(("rover/a", b"x"), ("rover/A", b"x")), "upper and lower case"),
+        ("many.zip", zipped(*MANY), "5000 entries"),
+        ("link.tar.gz", linked(), "is a symbolic link"),
+        ("empty.zip", zipped(), "holds no files"),
+        ("cut.zip", GOOD[:40], "no zip archive, or a truncated one"),
+    ],
+)
+def test_an_archive_that_may_do_harm_is_refused_with_its_reason(
+    client: TestClient, jobs: BoardJobs, store: Store, name: str, content: bytes, said: str
+) -> None:
+    answer = client.post("/api/checks", files={"file": (name, content)})
+    assert answer.status_code == 422
+    assert name in answer.json()["error"]
+    assert said in answer.json()["error"]
+    assert answer.json()["advice"]
+    assert not jobs.states
+    assert not left_behind(store)
+
+
+def test_a_file_at_the_limit_is_taken_and_one_byte_more_is_not(
+    client: TestClient, store: Store
+) -> None:
+    model = b"<sdf>".ljust(LIMIT)
+    assert client.post("/api/checks", files={"file": ("a.sdf", model)}).status_code == 201
+    (kept,) = left_behind(store)
+    answer = client.post("/api/checks", files={"file": ("a.sdf", model + b" ")})
+    assert answer.status_code == 413
+    assert "0.6 MB" in answer.json()["error"]
+    assert left_behind(store) == [kept]
+
+
+def test_a_profile_that_is_none_is_refused(client: TestClient, store: Store) -> None:
+    answer = client.post("/api/checks", data={"profile": "moon"}, files={"file": ("a.zip", GOOD)})
+    assert answer.status_code == 422
+    assert "gazebo-harmonic" in answer.json()["advice"]
+    assert not left_behind(store)
+
+
+def test_an_order_that_the_engine_cannot_take_is_said(store: Store) -> None:
+    class Away(BoardJobs):
+        def submit(self, order: Order) -> str:
+            raise JobsUnreachable(order.name)
+
+    client = TestClient(create_app(Away(), store, Config()), base_url="http://localhost")
+    answer = client.post("/api/checks", files={"file": ("a.zip", GOOD)})
+    assert answer.status_code == 503
+    assert int(answer.headers["retry-after"]) > 0
+
+
+def test_a_full_disk_is_said(client: TestClient, store: Store) -> None:
+    store.folder.write_bytes(b"")  # where a folder is expected
+    answer = client.post("/api/checks", files={"file": ("a.zip", GOOD)})
+    assert answer.status_code == 503
+    assert "cannot keep the upload" in answer.json()["error"]
+
+
+Talk = Callable[[socket.socket], None]
+
+
+def answer_to(store: Store, config: Config, talk: Talk) -> tuple[int, dict[str, str]]:
+    """Return status and words of what a server answers to bytes that a test sends."""
+    with served(create_app(BoardJobs(), store, config)) as port:
+        with socket.create_connection(("127.0.0.1", port), timeout=30) as connection:
+            talk(connection)
+            received = b""
+            while piece := connection.recv(65_536):
+                received += piece
+        head, _, body = received.partition(b"\r\n\r\n")
+        assert eventually(lambda: not left_behind(store))
+        return int(head.split()[1]), json.loads(body)
+
+
+@pytest.mark.service
+def test_a_slow_upload_is_refused(store: Store) -> None:
+    def talk(connection: socket.socket) -> None:
+        connection.sendall(request_head(100_000) + form("a.zip", GOOD)[:80])
+
+    status, words = answer_to(store, Config(idle_seconds=0.3), talk)
+    assert status == 408
+    assert "too slow" in words["error"]
+
+
+@pytest.mark.service
+def test_an_upload_that_trickles_is_refused(store: Store) -> None:
+    def talk(connection: socket.socket) -> None:
+        connection.sendall(request_head(100_000))
+        connection.settimeout(0.05)
+        for byte in form("a.zip", GOOD) * 10:
+            connection.sendall(bytes([byte]))
+            try:
+                if connection.recv(1, socket.MSG_PEEK):
+                    break
+            except TimeoutError:
+                continue
+        connection.settimeout(30)
+
+    status, _ = answer_to(store, Config(idle_seconds=1, slowest=10_000), talk)
+    assert status == 408
+
+
+@pytest.mark.service
+def test_an_upload_that_is_announced_too_large_is_refused_before_it_comes(store: Store) -> None:
+    def talk(connection: socket.socket) -> None:
+        connection.sendall(request_head(200_000_000))
+
+    status, words = answer_to(store, Config(), talk)
+    assert status == 413
+    assert "100 MB" in words["error"]
+
+
+@pytest.mark.service
+def test_a_client_that_sends_all_the_same_gets_to_know_why_not(store: Store) -> None:
+    def talk(connection: socket.socket) -> None:
+        connection.sendall(request_head(20_000_000))
+        for _ in range(20):
+            connection.sendall(bytes(1_000_000))
+
+    status, _ = answer_to(store, Config(upload_limit=LIMIT), talk)
+    assert status == 413
+
+
+@pytest.mark.service
+def test_an_upload_of_unknown_length_is_cut_at_the_limit(store: Store) -> None:
+    config = Config(upload_limit=LIMIT)
+    whole = form("a.sdf", b"<sdf>".ljust(LIMIT + 1))
+    with served(create_app(BoardJobs(), store, config)) as port:
+        answer = httpx.post(
+            f"http://localhost:{port}/api/checks",
+            content=(whole[at : at + 10_000] for at in range(0, len(whole), 10_000)),
+            headers={"Content-Type": f"multipart/form-data; boundary={BOUNDARY}"},
+        )
+        assert answer.status_code == 413
+        assert eventually(lambda: not left_behind(store))
+
+
+@pytest.mark.service
+@pytest.mark.parametrize("sent", [0, 60, 200, 40_000, 3 * AT_ONCE])
+def test_an_upload_that_is_cut_off_leaves_nothing(store: Store, sent: int) -> None:
+    whole = form("a.sdf", b"<sdf>".ljust(4 * AT_ONCE))
+    jobs = BoardJobs()
+    with served(create_app(jobs, store, Config())) as port:
+        with socket.create_connection(("127.0.0.1", port)) as connection:
+            connection.sendall(request_head(len(whole)) + whole[:sent])
+            assert eventually(lambda: bool(left_behind(store)))
+        assert eventually(lambda: CUT in httpx.get(f"http://localhost:{port}/metrics").text)
+        assert not left_behind(store)
+        answer = httpx.get(f"http://localhost:{port}/healthz")
+        assert answer.status_code == 200
+    assert not jobs.states
+
+
+def trickle(port: int, stop: Event) -> None:
+    """Send an upload that never stands still and never ends."""
+    with socket.create_connection(("127.0.0.1", port)) as connection:
+        connection.sendall(request_head(10_000_000) + form("slow.sdf", b"<sdf/>")[:200])
+        while not stop.is_set():
+            connection.sendall(b" " * 100)
+            sleep(0.004)
+
+
+def test_slow_senders_keep_nobody_waiting(store: Store) -> None:
+    stop = Event()
+    with served(create_app(BoardJobs(), store, Config())) as port, ExitStack() as stack:
+        stack.callback(stop.set)
+        for _ in range(10):
+            Thread(target=trickle, args=(port, stop), daemon=True).start()
+        assert eventually(lambda: len([*store.folder.glob("incoming/*")]) == 10)
+        begun = monotonic()
+        answer = httpx.post(
+            f"http://localhost:{port}/api/checks",
+            content=form("quick.sdf", b"<sdf/>"),
+            headers={"Content-Type": f"multipart/form-data; boundary={BOUNDARY}"},
+            timeout=30,
+        )
+        assert answer.status_code == 201
+        # Theirs would have lasted for minutes; this is for a machine that does much else.
+        assert monotonic() - begun < 15
+        assert len([*store.folder.glob("incoming/*")]) >= 10
