@@ -70,7 +70,10 @@ class Driving:
     def obstacle(self) -> NotAtHand | None:
         """Why these robots cannot be driven at all."""
         if len(self.robots) > ROBOTS_LIMIT:
-            reason = f"the file holds {len(self.robots)} robots, at most {ROBOTS_LIMIT} are driven"
+            reason = (
+                f"the file contains {len(self.robots)} robots, but at most {ROBOTS_LIMIT} are "
+                "driven"
+            )
             return NotAtHand(reason)
         reasons = (_obstacle(robot) for robot in self.robots)
         return next((reason for reason in reasons if reason is not None), None)

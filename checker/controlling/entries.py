@@ -56,7 +56,7 @@ def launch_entries(package: Package) -> LaunchEntries:
         graphs[document.source.file] = graph
         parts += len(graph.nodes) + len(graph.params) + len(graph.includes)
         if parts > MAX_PARTS or any(f.kind is LaunchFaultKind.LIMIT for f in graph.faults):
-            unread.append(f"{document.source.file} and what follows is too much to read")
+            unread.append(f"{document.source.file} and the following files are too large to read")
             break
     included = {each.file for graph in graphs.values() for each in graph.includes}
     first = [file for file in graphs if file not in included] or list(graphs)

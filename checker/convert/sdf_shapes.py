@@ -77,7 +77,7 @@ class ShapeWriter:
         """Return what a shape consists of in SDF 1.6; nothing, with a note, for what it lacks."""
         found = shapes_of(shape.geometry, _PRIMITIVES)
         if not found:
-            kind = shape.geometry.shape or "shape that is missing or not known"
+            kind = shape.geometry.shape or "missing or unknown shape"
             self.notes.say(shape, f"a {shape.element.tag} that is a {kind} is left out")
         return found
 

@@ -13,7 +13,7 @@ from checker.sandbox.layers import ACCOUNT, LANDLOCK, NAMESPACES, SECCOMP, Layer
 from checker.sandbox.namespaces import bubblewrap
 
 _ADVICE = {
-    ACCOUNT: "a service that root starts has it, a command for oneself can do without",
+    ACCOUNT: "a service started by root has it; a command for your own packages does not need it",
     LANDLOCK: "use Linux 5.13 or newer with `landlock` among the names in "
     "/sys/kernel/security/lsm, and in a container rules that allow its system calls",
     SECCOMP: "use Linux on x86-64 or arm64 with CONFIG_SECCOMP_FILTER",
@@ -25,7 +25,7 @@ def sandbox() -> Iterator[Result]:
     with closing(OwnLauncher()) as starter:
         layers = starter.layers
     if not layers:
-        yield Result(State.PROBLEM, "sandbox: its first process ends at once", INSTALL_AGAIN)
+        yield Result(State.PROBLEM, "sandbox: its first process ends immediately", INSTALL_AGAIN)
     yield from map(result, layers)
 
 
@@ -34,7 +34,7 @@ def result(layer: Layer) -> Result:
     words = plain(shortened(layer.words, 200))
     if layer.held and (layer.hides or layer.name == SECCOMP):
         return Result(State.OK, f"sandbox: {layer.name} ({words})")
-    part = f"{layer.name} in part" if layer.held else f"no {layer.name}"
+    part = f"{layer.name} partly" if layer.held else f"no {layer.name}"
     advice = _namespaces_advice() if layer.name == NAMESPACES else _ADVICE[layer.name]
     return Result(State.NOTE, f"sandbox: {part} ({words})", advice)
 
@@ -43,4 +43,7 @@ def _namespaces_advice() -> str:
     if shutil.which("bwrap") is None:
         return "apt install bubblewrap"
     reason = plain(shortened(bubblewrap(), 200))
-    return f"let this user make namespaces, in a container by its rules ({reason})"
+    return (
+        "allow this user to create namespaces; in a container, change the container's rules "
+        f"({reason})"
+    )

@@ -33,8 +33,8 @@ def _cache(folder: Path) -> Result:
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        what = f"{place} cannot be written to ({error.strerror}), so nothing is remembered"
-        return Result(State.NOTE, what, "let SUBT_CHECK_CACHE name a folder that can")
+        what = f"{place} cannot be written to ({error.strerror}), so the cache is not used"
+        return Result(State.NOTE, what, "set SUBT_CHECK_CACHE to a writable folder")
     sizes = [_size(path) for path in islice(folder.glob("*/??/*.json"), _ENTRIES_LIMIT)]
     used = f"{len(sizes)} entries, {sum(sizes) / 1e6:.1f} of {SIZE_LIMIT / 1e6:.0f} MB"
     return Result(State.OK, f"{place}: {used}")
@@ -50,8 +50,8 @@ def _size(path: Path) -> int:
 def _drawing() -> Result:
     said = ask("checker.doctor.drawing", b"", _LIMITS)
     if not isinstance(said, Died) and said != b"none":
-        return Result(State.OK, f"pictures: MuJoCo draws by {said.decode()}")
-    reason = f"the child that draws {said.reason}" if isinstance(said, Died) else "no OpenGL"
+        return Result(State.OK, f"pictures: MuJoCo draws with {said.decode()}")
+    reason = f"the process that draws {said.reason}" if isinstance(said, Died) else "no OpenGL"
     packages = "libegl1, libopengl0 and libgl1-mesa-dri, or libosmesa6"
     advice = f"install EGL or OSMesa (Debian: {packages}) for reports with pictures"
     return Result(State.NOTE, f"pictures: {reason}", advice)

@@ -63,10 +63,13 @@ def _summary(package: FixedPackage) -> Iterator[str]:
         edits = [edit for each in fixed.elsewhere if each.fix for edit in each.fix.edits]
         files = sorted({plain(edit.place.file) for edit in edits})
         said = count(len(fixed.elsewhere), "finding")
-        yield f"{said} to fix in {listed(files)}, with the package that holds it"
+        yield f"{said} to fix in {listed(files)}: check the package that contains it"
     if fixed.withheld:
         said = count(len(fixed.withheld), "finding")
-        yield f"{said} left whose fix changes behaviour ({_rules(fixed.withheld)}): --diff --unsafe"
+        yield (
+            f"{said} not fixed, because the fix changes behaviour ({_rules(fixed.withheld)}): see "
+            "--diff --unsafe"
+        )
 
 
 def _rules(findings: Sequence[ReportedFinding]) -> str:

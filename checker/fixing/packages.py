@@ -61,7 +61,7 @@ def _refuse_archives(path: Path) -> None:
     """Raise for what cannot be fixed, before anything is."""
     with open_input(path) as opened:
         if path.is_file() and any(not package.only for package in opened.packages):
-            raise UnreadableInput(path, "is an archive, which is not changed", _ARCHIVES_STAY)
+            raise UnreadableInput(path, "is an archive; archives are not changed", _ARCHIVES_STAY)
 
 
 def _fix_input(task: Task, allowed: Collection[Safety], write: bool) -> Iterator[FixedPackage]:

@@ -52,12 +52,12 @@ def read_surface(data: bytes, path: str) -> Surface:
     suffix = path.rpartition(".")[2].lower()
     reader = _READERS.get(suffix)
     if reader is None:
-        reason = f"is of a format that is not read: .{suffix}"
+        reason = f"has a format that the checker does not read: .{suffix}"
         raise NoSurface(reason, MeshTrouble.UNSUPPORTED)
     if not data.strip():
         raise NoSurface("is empty")
     if data.startswith(_POINTER):
-        raise NoSurface("is a pointer of Git LFS, not the mesh")
+        raise NoSurface("is a Git LFS pointer, not the mesh")
     return _surface(reader, data)
 
 

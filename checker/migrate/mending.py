@@ -33,4 +33,4 @@ def mend_model(staging: Staging) -> list[str]:
 def _notes(findings: tuple[ReportedFinding, ...]) -> Iterator[str]:
     for finding in findings:
         more = f" (and {len(finding.places) - 1} more)" if len(finding.places) > 1 else ""
-        yield f"{finding.rule} is mended: {finding.message}{more}"
+        yield f"{finding.rule} is fixed: {finding.message}{more}"

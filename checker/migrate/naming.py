@@ -58,6 +58,6 @@ def _word(name: str, option: str) -> str:
     word = _UNFIT.sub("_", name.lower()).strip("_")[:_LENGTH_LIMIT].strip("_")
     if not word:
         raise NotMigrated(
-            f"{name!r} is no name for a package; give {option} of lower-case letters and digits"
+            f"{name!r} is not a package name; give {option} with lower-case letters and digits"
         )
     return word

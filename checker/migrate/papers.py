@@ -33,9 +33,9 @@ def papers_of(source: Source) -> Papers:
     license = next((each.value for each in manifest.licenses if each.value), "") if manifest else ""
     open_points = []
     if person is None:
-        open_points.append("maintainer, with e-mail (package.xml, model.config)")
+        open_points.append("the maintainer, with email (package.xml, model.config)")
     if not license or license.upper() == NO_LICENSE:
-        open_points.append("license (package.xml)")
+        open_points.append("the license (package.xml)")
     return Papers(
         _one_line(person.name.value) if person else NO_NAME,
         _one_line(person.email.value) if person else NO_EMAIL,

@@ -25,6 +25,6 @@ def check_names(tree: etree._Element) -> None:
             name = element.get("name") or ""
             if _SAFE.fullmatch(name) is None:
                 raise NotMigrated(
-                    f"{tag} {name[:80]!r} has a name that launch files cannot hold; expected "
-                    "1 to 200 letters, digits and _ . : + -"
+                    f"{tag} {name[:80]!r} is a name that launch files cannot contain; expected 1 "
+                    "to 200 letters, digits and _ . : + -"
                 )

@@ -99,7 +99,7 @@ def _checked_index(
         index = ArchiveIndex(archive, size, limits or ArchiveLimits())
         read_index(source, index)
         if all(member.is_folder for member in index.members):
-            raise UnreadableInput(archive, "holds no files", "pack the package folder itself")
+            raise UnreadableInput(archive, "contains no files", "pack the package folder itself")
         yield index, contents
 
 
@@ -115,7 +115,7 @@ def _write(path: Path, member: Member, content: _Readable) -> None:
                 break
             file.write(piece)
     if left:
-        raise DamagedArchive(f"says that '{member.path}' has {member.size} bytes, which is not so")
+        raise DamagedArchive(f"says that '{member.path}' has {member.size} bytes, but it has not")
 
 
 @contextmanager
@@ -125,7 +125,7 @@ def _damage_reported(archive: Path, form: str) -> Iterator[None]:
     except DamagedArchive as error:
         raise _damaged(archive, f"is a damaged {form} archive: it {error}") from None
     except _DAMAGE as error:
-        raise _damaged(archive, f"is no {form} archive, or a truncated one ({error})") from None
+        raise _damaged(archive, f"is not a {form} archive, or is cut off ({error})") from None
     except OSError as error:
         reason = f"cannot be unpacked: {error.strerror or error}"
         raise UnreadableInput(archive, reason, "check the file and the free disk space") from None

@@ -43,7 +43,7 @@ def _check(info: zipfile.ZipInfo, index: ArchiveIndex) -> None:
     if info.flag_bits & _ENCRYPTED:
         raise index.refusal(name, "is encrypted")
     if info.compress_type not in _METHODS:
-        raise index.refusal(name, "is packed by another method than deflate")
+        raise index.refusal(name, "is compressed with another method than deflate")
     if stat.S_IFMT(info.external_attr >> 16) not in _UNIX_KINDS:
         raise index.refusal(name, "is a link or a device")
     if _is_folder(info) and info.file_size:

@@ -51,7 +51,7 @@ def report_from_json(text: str) -> Report:
     try:
         said = json.loads(text)
     except (ValueError, RecursionError):
-        raise NoReport("what should be a report is no JSON") from None
+        raise NoReport("the report is not JSON") from None
     version = said.get("schema_version") if isinstance(said, dict) else None
     if version != SCHEMA_VERSION:
         shown = shortened(plain(repr(version)), 40)
@@ -59,7 +59,7 @@ def report_from_json(text: str) -> Report:
     try:
         return _report(read_as(ReportJson, said))
     except Unfit as fault:
-        raise NoReport(f"what should be a report is none: {shortened(str(fault), 200)}") from None
+        raise NoReport(f"the report is invalid: {shortened(str(fault), 200)}") from None
 
 
 def _report(said: ReportJson) -> Report:

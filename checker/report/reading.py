@@ -77,7 +77,7 @@ def _composed(origin: Any, inner: tuple[Any, ...]) -> Read:
 
 def _text(said: Any) -> str:
     if not isinstance(said, str):
-        raise Unfit("expected a text")
+        raise Unfit("expected a string")
     return said
 
 
@@ -121,7 +121,7 @@ def _restricted(plain: Read, allowed: re.Pattern[str] | range) -> Read:
             if value not in allowed:
                 raise Unfit(f"expected a number from {allowed.start} to {allowed.stop - 1}")
         elif not allowed.fullmatch(value):
-            raise Unfit(f"expected a text that matches {allowed.pattern}")
+            raise Unfit(f"expected a string that matches {allowed.pattern}")
         return value
 
     return read

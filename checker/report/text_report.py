@@ -53,7 +53,8 @@ def _package(
         explained.add(finding.rule)
     lines += _counted(share.own[SHOWN_LIMIT:])
     lines += [
-        f"{count(n, 'finding')} in {plain(name)}: see there" for name, n in share.elsewhere.items()
+        f"{count(n, 'finding')} in {plain(name)}: listed there"
+        for name, n in share.elsewhere.items()
     ]
     lines += [f"settings: {plain(shortened(package.settings, MESSAGE_LIMIT))}"] * bool(
         package.settings
@@ -83,7 +84,7 @@ def _counted(findings: Sequence[ReportedFinding]) -> Iterator[str]:
 def _inherited(package: PackageReport) -> Iterator[str]:
     by_source: dict[str, list[str]] = {}
     for part in package.inherited:
-        source = part.package + ("" if part.at_hand else " (not at hand)")
+        source = part.package + ("" if part.at_hand else " (not available)")
         by_source.setdefault(source, []).append(part.part)
     for source, parts in by_source.items():
         yield f"inherited from {plain(source)}: {plain(listed(parts))}"
@@ -113,4 +114,4 @@ def _verdict(package: PackageReport, palette: Palette) -> str:
 
 
 def _skipped(each: NotOpened) -> str:
-    return f"not looked at: {plain(each.path)} {plain(each.reason)}\n"
+    return f"not opened: {plain(each.path)} {plain(each.reason)}\n"

@@ -22,7 +22,7 @@ def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
         palette: Colours.
     """
     if trial["refused"]:
-        yield plain(f"trial: MuJoCo does not take the model: {_short(trial['refused'])}")
+        yield plain(f"trial: MuJoCo refuses the model: {_short(trial['refused'])}")
         return
     yield plain(f"trial: {_course(trial)}")
     rows = [row for row in rows_of(trial["measurements"]) if row.matters]
@@ -39,7 +39,7 @@ def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
     if trial["repairs"]:
         repaired = count(len(trial["repairs"]), "repair")
         first = trial["repairs"][0]
-        yield plain(f"    {repaired} so that it could go on: {_short(_repair(first))}")
+        yield plain(f"    {repaired} to make the trial possible: {_short(_repair(first))}")
 
 
 def _course(trial: Mapping[str, Any]) -> str:

@@ -36,7 +36,7 @@ def namespace_faults(document: XmlDocument) -> Iterator[XmlFault]:
             yield XmlFault(
                 span,
                 f"the prefix {prefix!r} is not declared",
-                f'add xmlns:{prefix}="{uri}" to the outermost element',
+                f'add xmlns:{prefix}="{uri}" to the root element',
             )
 
 

@@ -26,7 +26,7 @@ def mend_declaration(source: SourceText) -> tuple[str, list[XmlFault]]:
     fault = XmlFault(
         Span(source, *late.span(1)),
         "the XML declaration is not at the very start of the file",
-        "remove what is blank in front of it",
+        "remove the space or lines before it",
     )
     # Line ends stay: lxml counts lines.
     blank = re.sub(r"[^\r\n]", " ", late.group())

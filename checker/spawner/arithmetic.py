@@ -49,7 +49,7 @@ def _power(left: Number, right: Number) -> Number:
             raise LimitReached(f"makes an integer of more than {MAX_INTEGER_BITS} bits")
         return int(left**right)
     if left < 0 and not float(right).is_integer() and not math.isinf(right):
-        raise NotReal("a negative number to a broken power is Complex")
+        raise NotReal("a negative number to a fractional power is Complex")
     try:
         return float(math.pow(left, right))
     except OverflowError:

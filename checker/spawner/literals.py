@@ -104,6 +104,7 @@ def _unescaped(source: SourceText, found: re.Match[str]) -> str:
     single_byte = body[0] != "u" and codes[0] > 127
     if single_byte or any(not 0 <= code <= 0x10FFFF or 0xD800 <= code < 0xE000 for code in codes):
         raise Unreadable(
-            Span(source, found.start(), found.end()), f"uses the escape {whole}, which is not read"
+            Span(source, found.start(), found.end()),
+            (f"uses the escape {whole}, which is not supported"),
         )
     return "".join(chr(code) for code in codes)

@@ -49,8 +49,8 @@ def guessed_profile(folder: Path) -> Guess:
     if len(found) == 1:
         return Guess(next(iter(found)), counted)
     if found:
-        return Guess("", f"{counted}; each is judged by subt, or by urdf if it is URDF")
-    return Guess("", "nothing, there is no robot yet")
+        return Guess("", f"{counted}; each is checked with the profile subt, or urdf if it is URDF")
+    return Guess("", "nothing: there is no robot yet")
 
 
 def _profile_of(package: Package) -> str:

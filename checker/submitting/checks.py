@@ -167,6 +167,6 @@ def refusal(connection: Connection, answer: Answer) -> CheckerError:
 
 def _unclear(connection: Connection, answer: Answer) -> CheckerError:
     return CheckerError(
-        f"{connection.server} answers {answer.status}, and not as the service of subt-check does; "
-        "check the address"
+        f"{connection.server} answers {answer.status}, but not like a subt-check service; check "
+        "the address"
     )

@@ -69,7 +69,9 @@ def _say(words: str) -> None:
 def _token(options: argparse.Namespace) -> str:
     token: str = options.token or os.environ.get("SUBT_CHECK_TOKEN", "")
     if not (token.isascii() and token.isprintable() and " " not in token):
-        raise CheckerError("the token holds other than ASCII letters, digits and signs")
+        raise CheckerError(
+            "the token contains characters that are not ASCII letters, digits or signs"
+        )
     return token
 
 
@@ -84,7 +86,7 @@ def _file_of(path: Path) -> Iterator[Path]:
         _refuse_file(path)
         around = enclosing_package(path.resolve().parent)
         if around and path.name.lower().endswith(SINGLE_FILE_SUFFIXES):
-            _say(f"{path} is sent alone; for its meshes, give the folder {around}")
+            _say(f"{path} is sent without its meshes; to include them, give the folder {around}")
         yield path
         return
     with tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True) as own:
@@ -110,7 +112,7 @@ def _refuse_file(path: Path) -> None:
             raise UnreadableInput(path, "does not exist", "check the spelling")
         known = path.name.lower().endswith((*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES))
         if not known or not path.is_file():
-            raise UnreadableInput(path, "is no package, archive or model file", advice)
+            raise UnreadableInput(path, "is not a package, archive or model file", advice)
         with path.open("rb"):
             pass
     except (OSError, ValueError) as error:
@@ -151,7 +153,7 @@ def _offer_to_cancel(check: Check) -> None:
                 check.cancel()
                 _say("the check is cancelled")
                 return
-    _say(f"the check goes on at {check.link}")
+    _say(f"the check continues at {check.link}")
 
 
 def _without_report(standing: Standing, server: Server) -> Report | None:

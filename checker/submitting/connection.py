@@ -132,7 +132,8 @@ class Connection:
         if 300 <= answer.status < 400:
             where = plain(shortened(answer.headers.get("location", "elsewhere"), _SHOWN))
             raise CheckerError(
-                f"{self.server} sends on to {where}; if that is right, give its address as --server"
+                f"{self.server} redirects to {where}; if that is right, give this address with "
+                "--server"
             )
         return answer
 
@@ -156,7 +157,7 @@ class Connection:
             raise CheckerError(f"{self.server} answers with more than {limit / 1e6:g} MB")
         # Without a length, what was cut off could not be told from what is whole.
         if response.length != 0 and not response.chunked:
-            raise NoAnswer("hangs up in the middle of its answer")
+            raise NoAnswer("closes the connection in the middle of its answer")
         headers = {name.lower(): value for name, value in response.getheaders()}
         return Answer(response.status, headers, body)
 

@@ -28,7 +28,7 @@ def sliding_friction(
     if abs(min(other, MOST) - min(mu, MOST)) > _ALIKE * max(mu, _ALIKE):
         ledger.note(
             f"Friction is {mu:g} in its first direction and {other:g} in its second; the trial "
-            f"takes {taken:g} for both",
+            f"uses {taken:g} for both",
             link.scoped_name,
         )
     return taken

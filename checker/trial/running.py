@@ -56,7 +56,7 @@ class Pending:
             said = from_json(answer)
             trial = Trial.from_json(said)
         except NONSENSE:
-            return "the trial was answered with nonsense"
+            return "the trial sent an invalid answer"
         self._cache.put(_KIND, self._key, said)
         return trial
 

@@ -69,9 +69,9 @@ class Metrics:
             yield _sample(f"{name}_count", {"route": route}, total)
 
     def _of_uploads(self) -> Iterator[str]:
-        yield from _head("uploads_total", "counter", "Uploads that were taken.")
+        yield from _head("uploads_total", "counter", "Accepted uploads.")
         yield _sample("uploads_total", {}, self.uploads)
-        yield from _head("refused_total", "counter", "Requests that were refused, by cause.")
+        yield from _head("refused_total", "counter", "Refused requests, by cause.")
         for cause, number in sorted(self.refused.items()):
             yield _sample("refused_total", {"cause": cause}, number)
 
@@ -81,12 +81,14 @@ def _of_engine(alive: Alive | None) -> Iterator[str]:
     yield _sample("engine_up", {}, int(alive is not None))
     if alive is None:
         return
-    yield from _head("waiting", "gauge", "Checks that wait, by queue.")
+    yield from _head("waiting", "gauge", "Waiting checks, by queue.")
     for queue, number in sorted(alive.waiting.items()):
         yield _sample("waiting", {"queue": queue}, number)
-    yield from _head("running", "gauge", "Checks that run.")
+    yield from _head("running", "gauge", "Running checks.")
     yield _sample("running", {}, alive.running)
-    yield from _head("worker_silent_seconds", "gauge", "Since each worker's last sign of life.")
+    yield from _head(
+        "worker_silent_seconds", "gauge", "Since the last report of each worker process."
+    )
     for worker, seconds in sorted(alive.workers.items()):
         yield _sample("worker_silent_seconds", {"worker": worker}, round(seconds, 3))
 

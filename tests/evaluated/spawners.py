@@ -66,7 +66,7 @@ BODIES = {
     "a sum that grows": "x = 2**999; while true; x = ([x] * 1000).sum; end",
     "a sum beyond floats": "x = 2**999; 15.times { x = ([x] * 1000).sum }; x.to_f",
     "a quotient without end": "1e308.div(1e-10).to_s",
-    "an index that is no number": "[1][Float::NAN].to_s",
+    "an index that is not a number": "[1][Float::NAN].to_s",
     "an integer without end": "Integer(1e400).to_s",
     "no text, many times": "x = '' * 10**30; 1",
     "no items, many times": "x = [] * 10**30; 1",

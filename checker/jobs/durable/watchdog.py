@@ -33,6 +33,8 @@ class Watchdog:
         self.roll.beat(self.worker)
         dead = holders() - self.roll.living(self.silence_seconds)
         if dead:
-            _LOG.warning("workers that died: %s; what they had in hand waits again", sorted(dead))
+            _LOG.warning(
+                "worker processes that ended: %s; their checks are waiting again", sorted(dead)
+            )
             recover(dead)
         self.roll.strike_silent(_ROLL_SILENCES * self.silence_seconds)

@@ -59,7 +59,7 @@ def _attachments(robot: Robot) -> Iterator[Fault]:
             at = attached[at]
         done.update(path)
         if at in path and any(frames[each].pose.relative_to for each in path):
-            message = f"frame {at!r} is attached to itself, over {attached[at]!r}"
+            message = f"frame {at!r} is attached to itself through {attached[at]!r}"
             yield Fault(FaultKind.FRAME, frames[at].span, message)
 
 

@@ -105,7 +105,7 @@ def _constant(run: Interpreter, node: RubyNode) -> Value:
         return _read(run, run.constants[name])
     if name in _MODULES or name in ERROR_CLASSES:
         return Value(Constant(name))
-    raise Unreadable(node.span, f"uses {name}, which is not read")
+    raise Unreadable(node.span, f"uses {name}, which is not supported")
 
 
 def _scoped_constant(run: Interpreter, node: RubyNode) -> Value:
@@ -121,7 +121,7 @@ def _scoped_constant(run: Interpreter, node: RubyNode) -> Value:
         return run.value(numbers[node.text])
     if node.text in ERROR_CLASSES:
         return Value(Constant(node.text))
-    raise Unreadable(node.span, f"uses {node.text[:60]}, which is not read")
+    raise Unreadable(node.span, f"uses {node.text[:60]}, which is not supported")
 
 
 def assign(run: Interpreter, target: RubyNode, value: Value) -> None:
@@ -141,7 +141,7 @@ def assign(run: Interpreter, target: RubyNode, value: Value) -> None:
     elif target.type in {"left_assignment_list", "destructured_left_assignment"}:
         _assign_many(run, target, value)
     else:
-        raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not read")
+        raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not supported")
 
 
 def _assign_many(run: Interpreter, target: RubyNode, value: Value) -> None:
@@ -164,7 +164,7 @@ def _set_element(run: Interpreter, target: RubyNode, value: Value) -> None:
     keys = elements(run, target.parts[1:])
     data = holder.data
     if len(keys) != 1 or not isinstance(data, (RubyHash, RubyArray)):
-        raise Unreadable(target.span, "assigns to an element, which is not read here")
+        raise Unreadable(target.span, "assigns to an element, which is not supported")
     if data.frozen:
         raise RubyError("FrozenError", "can't modify frozen Array or Hash", target.span)
     if isinstance(data, RubyHash):
@@ -194,7 +194,7 @@ def _assignment(run: Interpreter, node: RubyNode) -> Value:
 def _operator_assignment(run: Interpreter, node: RubyNode) -> Value:
     target, sign = node.fields["left"], node.fields["operator"].text[:-1]
     if target.type not in _PLAIN_TARGETS | {"element_reference"}:
-        raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not read")
+        raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not supported")
     old = _old_value(run, target)
     if sign in {"||", "&&"}:
         if old.truthy is (sign == "||"):
@@ -225,7 +225,7 @@ def _element(run: Interpreter, node: RubyNode) -> Value:
 
 
 def _self(_run: Interpreter, node: RubyNode) -> Value:
-    raise Unreadable(node.span, "uses self, which is not read")
+    raise Unreadable(node.span, "uses self, which is not supported")
 
 
 def special_identifier(run: Interpreter, node: RubyNode) -> Value | None:

@@ -27,7 +27,7 @@ _HASH_PARTS = frozenset({"pair", "hash_splat_argument"})
 def _call(run: Interpreter, node: RubyNode) -> Value:
     name = node.fields.get("method")
     if name is None or name.type not in {"identifier", "constant"}:
-        raise Unreadable(node.span, f"uses '{node.text[:60]}', which is not read")
+        raise Unreadable(node.span, f"uses '{node.text[:60]}', which is not supported")
     receiver_node = node.fields.get("receiver")
     receiver = run.evaluate(receiver_node) if receiver_node else None
     sign = node.fields.get("operator")
@@ -51,7 +51,7 @@ def _read_arguments(call: Call, node: RubyNode) -> None:
     run, arguments = call.run, node.fields.get("arguments")
     parts = arguments.parts if arguments else []
     if arguments is not None and arguments.broken:
-        raise Unreadable(node.span, "holds Ruby that the parser does not understand")
+        raise Unreadable(node.span, "contains Ruby that the parser does not understand")
     plain = [part for part in parts if part.type not in _HASH_PARTS | {"block_argument"}]
     call.arguments = elements(run, plain)
     pairs = [part for part in parts if part.type in _HASH_PARTS]
@@ -91,7 +91,7 @@ def call_bare(call: Call) -> Value:
         return call_function(call, function)
     known = KERNEL.get(call.name)
     if known is None:
-        raise Unreadable(call.span, f"calls {call.name}, which is not read")
+        raise Unreadable(call.span, f"calls {call.name}, which is not supported")
     check_arity(call, known)
     return known(call, *call.arguments)
 
@@ -106,7 +106,7 @@ def call_function(call: Call, function: Function, *, entry: bool = False) -> Val
     """
     run, node = call.run, function.node
     if node.broken:
-        raise Unreadable(function.span, "holds Ruby that the parser does not understand")
+        raise Unreadable(function.span, "contains Ruby that the parser does not understand")
     if run.calls >= MAX_CALLS:
         raise Unreadable(call.span, f"calls functions more than {MAX_CALLS} deep")
     scope = Scope(function.path, node, block=call.block)
@@ -153,7 +153,7 @@ def _subshell(run: Interpreter, node: RubyNode) -> Value:
     package = found.group(1) or found.group(2)
     folder = run.files.package_folder(package)
     if folder is None:
-        raise Unreadable(node.span, f"package {package} is not at hand")
+        raise Unreadable(node.span, f"package {package} is not available")
     return run.computed(absolute(folder) + (found.group(3) or "") + "\n", node.span)
 
 

@@ -31,7 +31,7 @@ def _integer(run: Interpreter, node: RubyNode) -> Value:
     try:
         number = int(digits.removeprefix("0d"), 8 if octal else 10 if digits.isdigit() else 0)
     except ValueError:
-        raise Unreadable(node.span, f"uses the number {digits}, which is not read") from None
+        raise Unreadable(node.span, f"uses the number {digits}, which is not supported") from None
     return run.value(number)
 
 
@@ -57,7 +57,7 @@ def string_content(run: Interpreter, node: RubyNode) -> TracedString:
     """Read a quoted literal of any kind."""
     quotes = node.children
     if len(quotes) < 2 or quotes[0].named or quotes[-1].named:
-        raise Unreadable(node.span, "holds a string that is not read")
+        raise Unreadable(node.span, "contains a string that is not supported")
     opening, closing = quotes[0].text, quotes[-1].text
     start, end = quotes[0].end, quotes[-1].start
     if opening.startswith(("'", "%q", ":'")):
@@ -95,7 +95,7 @@ def _assembled(
 
 def _interpolation(run: Interpreter, node: RubyNode) -> TracedString:
     if node.broken or any(not part.named and part.text not in "#{}" for part in node.children):
-        raise Unreadable(node.span, "holds Ruby that the parser does not understand")
+        raise Unreadable(node.span, "contains Ruby that the parser does not understand")
     value = run.run(node.parts)
     run.budget.spend()
     return run.written(value, node.span).computed_by(node.span)
@@ -104,7 +104,7 @@ def _interpolation(run: Interpreter, node: RubyNode) -> TracedString:
 def _heredoc(run: Interpreter, node: RubyNode) -> Value:
     body = heredoc_body(node)
     if body is None or "`" in node.text:
-        raise Unreadable(node.span, "holds a heredoc that is not read")
+        raise Unreadable(node.span, "contains a heredoc that is not supported")
     content = _assembled(run, node, list(body.parts), raw=body.raw)
     has_holes = any(isinstance(part, RubyNode) for part in body.parts)
     return run.string(content, frozen=not has_holes and _frozen_literals(run, node))
@@ -120,7 +120,7 @@ def _character(run: Interpreter, node: RubyNode) -> Value:
 
 def _words(run: Interpreter, node: RubyNode) -> Value:
     if node.children[0].text.startswith(("%W", "%I")):
-        raise Unreadable(node.span, "uses %W, which is not read")
+        raise Unreadable(node.span, "uses %W, which is not supported")
     quotes = node.children[0].text[-1] + node.children[-1].text + " "
     words = [
         decode_single(part.source, [(part.start, part.end)], run.influences, quotes)
@@ -159,7 +159,7 @@ def elements(run: Interpreter, nodes: list[RubyNode]) -> list[Value]:
             run.budget.spend_items(len(value.data.items))
             items += value.data.items
         else:
-            raise Unreadable(node.span, "takes apart something that is no array")
+            raise Unreadable(node.span, "unpacks something that is not an array")
     return items
 
 
@@ -174,13 +174,13 @@ def hash_of(run: Interpreter, nodes: list[RubyNode]) -> Value:
         if node.type == "hash_splat_argument" and node.parts:
             other = run.evaluate(node.parts[0])
             if not isinstance(other.data, RubyHash):
-                raise Unreadable(node.span, "takes apart something that is no hash")
+                raise Unreadable(node.span, "unpacks something that is not a hash")
             run.budget.spend_items(len(other.data.entries))
             result.entries.update(other.data.entries)
             continue
         value_node = node.fields.get("value")
         if node.type != "pair" or value_node is None:
-            raise Unreadable(node.span, "holds a hash entry that is not read")
+            raise Unreadable(node.span, "contains a hash entry that is not supported")
         key = _pair_key(run, node)
         store(run, result, key, run.evaluate(value_node), node)
     return Value(result, run.influences)
@@ -217,7 +217,7 @@ def _range(run: Interpreter, node: RubyNode) -> Value:
         if type(first) is int and type(last) is int:
             exclusive = node.fields["operator"].text == "..."
             return run.value(RubyRange(first, last, exclusive), *values)
-    raise Unreadable(node.span, "uses a range of something else than integers")
+    raise Unreadable(node.span, "uses a range that is not of integers")
 
 
 EXPRESSIONS: Mapping[str, Handler] = MappingProxyType(

@@ -74,7 +74,7 @@ class Interpreter:
         if handler is None or (node.broken and node.type != "method"):
             raise Unreadable(node.span, _unknown(node))
         if self.depth >= MAX_DEPTH:
-            raise Unreadable(node.span, f"is nested deeper than {MAX_DEPTH} levels")
+            raise Unreadable(node.span, f"is nested more than {MAX_DEPTH} levels deep")
         self.depth += 1
         try:
             self.budget.spend(1 + len(node.children) // ITEMS_PER_STEP)
@@ -144,7 +144,7 @@ class Interpreter:
         try:
             text = to_s(value.data, self.budget)
         except NotWritable as error:
-            raise Unreadable(span, f"writes out {error}, which is not read") from None
+            raise Unreadable(span, f"writes out {error}, which is not supported") from None
         return computed(text, span, self._deep_influences(value) | self.influences)
 
     def _deep_influences(self, value: Value) -> frozenset[str]:
@@ -229,6 +229,6 @@ _NAMES = {
 
 def _unknown(node: RubyNode) -> str:
     if node.type == "ERROR" or node.broken:
-        return "holds Ruby that the parser does not understand"
+        return "contains Ruby that the parser does not understand"
     first_line = node.text.partition("\n")[0][:60]
-    return _NAMES.get(node.type, f"uses '{first_line}', which is not read")
+    return _NAMES.get(node.type, f"uses '{first_line}', which is not supported")

@@ -23,7 +23,7 @@ def _at(call: Call, index: Value, count: Value | None = None) -> Value:
     if isinstance(number, float):
         number = call.whole(number)
     if type(number) is not int:
-        raise call.refuse("with something else than an integer")
+        raise call.refuse("with something other than an integer")
     found = items[number] if -len(items) <= number < len(items) else NIL
     extra = call.receiver.parameters | index.parameters
     return Value(found.data, found.parameters | extra)

@@ -37,9 +37,9 @@ def items_of(run: Interpreter, collection: Value, node: RubyNode) -> Iterator[Va
         for key, value in list(data.entries.values()):
             yield run.array([key, value], collection)
             if len(data.entries) > size:
-                raise Unreadable(node.span, "adds to a hash while walking through it")
+                raise Unreadable(node.span, "adds to a hash while iterating over it")
     else:
-        raise Unreadable(node.span, f"walks through {class_name(data)}")
+        raise Unreadable(node.span, f"iterates over {class_name(data)}")
 
 
 def listed(run: Interpreter, collection: Value, node: RubyNode) -> list[Value]:

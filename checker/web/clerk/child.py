@@ -76,7 +76,7 @@ def work(descriptor: int) -> None:
 
     def answer(line: bytes) -> None:
         number, slip = slip_from_line(line)
-        on_fault = partial(_LOG.exception, "an upload is not taken")
+        on_fault = partial(_LOG.exception, "an upload is not accepted")
         said = answer_line(number, partial(desk.take, slip), on_fault)
         with answering:
             wire.sendall(said)

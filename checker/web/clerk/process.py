@@ -100,7 +100,7 @@ class ProcessClerk:
             # Where others were answered meanwhile, it does not hang.
             if running.heard_at < began:
                 self._lose(running)
-            raise _lost("did not take the upload in time") from None
+            raise _lost("did not accept the upload in time") from None
         return id_in(said)
 
     async def _answer(self, running: _Running, slip: Slip) -> Mapping[str, Any]:
@@ -108,7 +108,7 @@ class ProcessClerk:
         await running.places.acquire()
         if self._running is not running:
             running.places.release()
-            raise _lost("was interrupted while it took the upload")
+            raise _lost("was interrupted during the upload")
         loop = asyncio.get_running_loop()
         if not running.begun:
             running.begun = True
@@ -166,7 +166,7 @@ class ProcessClerk:
         for answer in running.waiting.values():
             running.places.release()
             if not answer.done():
-                answer.set_exception(_lost("was interrupted while it took the upload"))
+                answer.set_exception(_lost("was interrupted during the upload"))
         running.waiting.clear()
 
 

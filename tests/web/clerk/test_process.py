@@ -115,7 +115,7 @@ def test_one_that_hangs_is_replaced(store: Store, clerk: ProcessClerk) -> None:
         with pytest.raises(Refused) as refused:
             await taken(clerk, store, b"<sdf />")
         assert refused.value.status == 503
-        assert refused.value.error == "The service did not take the upload in time."
+        assert refused.value.error == "The service did not accept the upload in time."
         assert clerk.pid is None
         clerk.patience = 60
         await taken(clerk, store, b"<sdf  />")
