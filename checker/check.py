@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from checker.cache import NO_CACHE, Cache, cache_folder
 from checker.collection import collection_put_off
 from checker.errors import InvalidSettings, UnreadableInput
+from checker.finding import Safety
 from checker.package.opening import open_input
 from checker.package.package import Package
 from checker.recall import memory_key, recalled, remember
@@ -130,6 +131,8 @@ def _parts(task: Task, jobs: int) -> list[Task]:
 
 
 _Checked = list[PackageReport | NotOpened]
+_PATCHED = 2000
+"""Findings whose fixes a report's patch holds; `--fix` makes all."""
 _PROBLEM_LIMIT = 600
 """Characters of what is wrong with settings."""
 
@@ -208,8 +211,24 @@ def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
         from checker.judging import judged
 
         report = judged(package, shown, settings, cache, task.say, early)
+        if settings.display:
+            report = _with_patch(report, package)
     remember(cache, key, report)
     return report
+
+
+def _with_patch(report: PackageReport, package: Package) -> PackageReport:
+    """Add what the safe fixes change, for those who want to see it."""
+    from checker.patching.patch import patch
+    from checker.patching.rounds import one_round
+
+    started = perf_counter()
+    changes = ""
+    # Who needs a patch that cannot be made asks for it, and hears why.
+    with suppress(Exception):
+        changes = patch(one_round(package, report.findings[:_PATCHED], (Safety.SAFE,)))
+    timings = {**report.timings, "patch": perf_counter() - started}
+    return replace(report, patch=changes, timings=timings)
 
 
 def _report(done: Sequence[_Checked]) -> Report:

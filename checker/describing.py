@@ -9,18 +9,19 @@ from functools import cached_property
 from types import MappingProxyType
 
 from checker.cache import Cache
+from checker.disk_file import NotReadable
 from checker.launching import SAMPLE_ARGUMENTS, LaunchFiles
 from checker.model.launch.expand import expand_launch
-from checker.model.urdf.files import UrdfFiles, XacroFault, XacroFaultKind
+from checker.model.urdf.files import UrdfFiles
 from checker.model.urdf.transmissions import read_description
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 from checker.xacro.choosing import Candidate, candidates, may_hold_description
 from checker.xacro.expansion import Expansions, Outcome, Unread, Wanted
+from checker.xacro.fault import XacroFault, XacroFaultKind
 from checker.xacro.loading import Load, loads
 
 _URDF_KINDS = (PackageKind.URDF_DESCRIPTION, PackageKind.SINGLE_FILE)

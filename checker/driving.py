@@ -11,7 +11,7 @@ from checker.cache import Cache
 from checker.model.robot import Robot
 from checker.parts import NotAtHand
 from checker.record import record
-from checker.stages import Stages
+from checker.saying import Stages
 from checker.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.trial.trial import Trial
 

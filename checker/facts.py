@@ -7,11 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from checker.dynamics.mass_properties import MassProperties
+from checker.mesh.package_meshes import TimedMeshes
 from checker.model.components import Collision, Visual
 from checker.model.mesh import Mesh
 from checker.model.robot import Robot
 from checker.parts import NotAtHand
-from checker.stages import TimedMeshes
 from checker.subject import Subject
 from checker.trial.robot_trial import RobotTrial
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import Any
 
 from checker.cache import Cache
@@ -12,7 +11,6 @@ from checker.discovery import all_rules
 from checker.display.early import NO_CHILDREN, EarlyChildren
 from checker.engine import crashed, needed_parts
 from checker.facts import facts_of
-from checker.finding import Safety
 from checker.measured import measured
 from checker.model.known_devices import known_devices
 from checker.options import check_against_rules
@@ -27,15 +25,11 @@ from checker.report.report import (
     PackageReport,
     ReportedFinding,
 )
-from checker.saying import Say
+from checker.saying import Say, Stages
 from checker.settings import Settings
-from checker.stages import Stages
 from checker.subject import Subject
 from checker.suppressing import run_and_set_aside
 from checker.trial.robot_trial import RobotTrial
-
-_PATCHED = 2000
-"""Findings whose fixes a report's patch holds; `--fix` makes all."""
 
 
 def judged(
@@ -112,7 +106,6 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
     facts, trouble = _facts(subject)
     driven = subject.provided(RobotTrial)
     display, undrawn = _display(subject) if settings.display else (None, ())
-    patch = _patch(subject, outcome.findings) if settings.display else ""
     return PackageReport(
         package.name,
         shown,
@@ -131,7 +124,6 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         suppressed=outcome.suppressed,
         looked=tuple(outcome.looked),
         display=display,
-        patch=patch,
     )
 
 
@@ -140,17 +132,6 @@ def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]
         return facts_of(subject), ()
     except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
         return {}, (crashed("facts", error),)
-
-
-def _patch(subject: Subject, findings: tuple[ReportedFinding, ...]) -> str:
-    """Return what the safe fixes change, for those who want to see it."""
-    from checker.patching.patch import patch
-    from checker.patching.rounds import one_round
-
-    # Who needs a patch that cannot be made asks for it, and hears why.
-    with subject.stages.stage("patch"), suppress(Exception):
-        return patch(one_round(subject.package, findings[:_PATCHED], (Safety.SAFE,)))
-    return ""
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from checker.disk_file import NotReadable
 from checker.model.paperwork import (
     ModelConfig,
     PackageManifest,
@@ -11,7 +12,6 @@ from checker.model.paperwork import (
     read_package_xml,
 )
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.record import record
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.positions import XmlFault

@@ -13,11 +13,12 @@ from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
+from checker.disk_file import NotReadable
 from checker.errors import InvalidSettings
 from checker.finding import Severity
 from checker.model.device_form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
-from checker.package.reading import NotReadable, read_text
+from checker.package.reading import read_text
 from checker.profiles import profile_names
 from checker.record import record
 from checker.rule import Rule

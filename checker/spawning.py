@@ -7,9 +7,9 @@ import re
 from functools import cached_property
 from typing import TypeVar
 
+from checker.disk_file import NotReadable
 from checker.package.inheritance import SPAWNER
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.parts import NotAtHand
 from checker.record import record
 from checker.source.fragments import parse_fragments, unwrapped

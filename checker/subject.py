@@ -13,13 +13,14 @@ from checker.confined import Child
 from checker.controlling.entries import LaunchEntries, launch_entries
 from checker.controlling.system import control_system
 from checker.describing import Describing
+from checker.disk_file import NotReadable
 from checker.display.early import NO_CHILDREN, EarlyChildren
 from checker.driving import Driving
 from checker.dynamics.mass_properties import MassProperties
 from checker.dynamics.weighing import weigh
 from checker.including import ModelIncludes
 from checker.launching import launch_graph
-from checker.mesh.package_meshes import PackageMeshes, mesh_uris
+from checker.mesh.package_meshes import PackageMeshes, TimedMeshes, mesh_uris
 from checker.model.configuration import FirstConfiguration
 from checker.model.controllers import ControlSystem
 from checker.model.devices import SensorDevices
@@ -38,15 +39,14 @@ from checker.package.configuration import configuration_number, first_configurat
 from checker.package.inheritance import SPAWNER, Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.paperwork import Paperwork
 from checker.parts import NotAtHand
 from checker.record import record
+from checker.saying import Stages
 from checker.source.positions import XmlFault
 from checker.source.xml import XmlDocument
 from checker.spawner.reader import Spawner, read_spawner
 from checker.spawning import SpawnedXml, StartedXml, WorkspaceFiles, emitted_xml
-from checker.stages import Stages, TimedMeshes
 from checker.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.view.viewing import Viewing
 

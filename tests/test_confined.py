@@ -14,7 +14,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from checker.confined import Child, Died, Limits
-from checker.package.reading import NotReadable
+from checker.disk_file import NotReadable
 from checker.sandbox.files import Damaged, from_disk, read, write
 from checker.sandbox.launcher import OwnLauncher
 from checker.sandbox.task import tightened

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from checker.disk_file import NotReadable
 from checker.launching import LaunchFiles
 from checker.model.controllers import Controller, ParameterFault, SimulatorGains
 from checker.model.controllers_reader import read_controllers
 from checker.model.launch.graph import LaunchGraph, Param
 from checker.model.launch.substitution import is_known
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.source.excerpt import Excerpt, text_excerpt
 from checker.source.text import SourceText, Span
 

@@ -12,10 +12,11 @@ from checker.display.early import NO_CHILDREN, EarlyChildren
 from checker.display.mesh_files import MeshFiles, surfaces_of
 from checker.display.pictures import Drawing
 from checker.display.surface import NoSurfaces
+from checker.mesh.package_meshes import TimedMeshes
 from checker.model.robot import Robot
 from checker.record import record
 from checker.report.report import Display
-from checker.stages import Stages, TimedMeshes
+from checker.saying import Stages
 from checker.trial.trial import Trial
 
 

@@ -18,6 +18,7 @@ from typing import Any
 
 from checker.cache import key_of
 from checker.confined import from_json
+from checker.disk_file import NotReadable, read_bytes
 from checker.jobs.children import ANSWER_LIMIT, Children, Ended
 from checker.jobs.crowd import let_pass
 from checker.jobs.layout import CACHE, UPLOAD, is_part
@@ -33,7 +34,6 @@ from checker.jobs.outcome import (
 )
 from checker.jobs.port import Order, Stage
 from checker.jobs.summary import read_summary
-from checker.package.reading import NotReadable, read_bytes
 from checker.private import make_folder
 from checker.recall import program_parts
 from checker.report.artefacts import ARTEFACT_NAME

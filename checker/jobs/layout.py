@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from checker.package.reading import NotReadable, read_bytes
+from checker.disk_file import NotReadable, read_bytes
 from checker.sandbox.files import Content, Files
 
 UPLOAD = "upload"

@@ -11,11 +11,11 @@ from itertools import islice
 
 from checker.cache import Cache
 from checker.confined import Child, Limits
+from checker.disk_file import read_bytes
 from checker.mesh.key import KIND, mesh_key
 from checker.mesh.limits import MEMORY, SECONDS_FOR_ALL, SIZE_LIMIT
 from checker.package.index import FileEntry
 from checker.package.package import Package
-from checker.package.reading import read_bytes
 
 _SUFFIXES = (".dae", ".stl", ".obj")
 _LOOKED_AT = 20

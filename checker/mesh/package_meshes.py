@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import posixpath
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 
 from checker.cache import NO_CACHE, Cache
 from checker.confined import Child, Limits
+from checker.disk_file import NotReadable, read_bytes
 from checker.mesh.key import KIND, mesh_key
 from checker.mesh.limits import MEMORY, SECONDS_FOR_ALL, SECONDS_FOR_ONE, SIZE_LIMIT
 from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
@@ -21,9 +22,9 @@ from checker.mesh.wire import from_json, to_json
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.package.reading import NotReadable, read_bytes
 from checker.record import record
 from checker.sandbox.files import from_disk
+from checker.saying import Stages
 from checker.source.text import Located
 
 _MATERIAL_FILES = 20
@@ -188,3 +189,37 @@ def _answered(child: Child, number: int) -> list[_Read]:
     """Wait for what a child has read, as many files as it was given."""
     read = all_read(child, number, from_json)
     return [MeshFault(MeshTrouble.NOT_LOOKED_AT, read)] * number if isinstance(read, str) else read
+
+
+@dataclass(eq=False)
+class TimedMeshes:
+    """The meshes of a robot, whose first reading is a stage: a `Meshes`.
+
+    Attributes:
+        meshes: Where they are had from.
+        number: How many there are.
+        read: Whether they have been asked for, so that asking again costs nothing.
+    """
+
+    meshes: PackageMeshes
+    number: int
+    stages: Stages
+    read: bool = False
+
+    def begin(self) -> None:
+        """Begin to read them, while the caller does something else."""
+        with self.stages.stage("meshes"):
+            self.meshes.begin()
+
+    def stop(self) -> None:
+        """End the reading, if nobody has waited for it."""
+        self.meshes.stop()
+
+    def of(self, uri: Located[str]) -> Mesh | MeshFault:
+        """Return what the file behind a URI holds."""
+        if self.read:
+            return self.meshes.of(uri)
+        self.read = True
+        noun = "mesh" if self.number == 1 else "meshes"
+        with self.stages.stage("meshes", f"reading {self.number} {noun}"):
+            return self.meshes.of(uri)

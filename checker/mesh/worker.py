@@ -7,12 +7,12 @@ from functools import partial
 from importlib import import_module
 from time import monotonic
 
+from checker.disk_file import NotReadable
 from checker.mesh.apart import Ended, all_apart
 from checker.mesh.limits import LATE, SECONDS_FOR_ALL
 from checker.mesh.reader import load_libraries, read_mesh
 from checker.mesh.wire import to_json
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
-from checker.package.reading import NotReadable
 from checker.sandbox.files import Files
 
 

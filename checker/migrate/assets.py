@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from checker.cache import NO_CACHE
+from checker.disk_file import NotReadable
 from checker.mesh.package_meshes import PackageMeshes, mesh_uris
 from checker.mesh.uris import MeshFile, file_behind
 from checker.migrate.source import Source
 from checker.model.mesh import Mesh
-from checker.package.reading import NotReadable
 
 MESHES, TEXTURES = "meshes", "materials/textures"
 _PICTURES = (".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".gif", ".dds")

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from checker.package.reading import NotReadable
+from checker.disk_file import NotReadable
 from checker.sandbox.files import Content, Files
 
 WIDTH, HEIGHT = 640, 480

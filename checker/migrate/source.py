@@ -12,11 +12,12 @@ from checker.describing import Describing
 from checker.migrate.wishes import NotMigrated
 from checker.model.paperwork import PackageManifest
 from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles, XacroFault, XacroFaultKind
+from checker.model.urdf.files import UrdfFiles
 from checker.package.opening import Opened, open_input
 from checker.package.package import Package
 from checker.paperwork import Paperwork
 from checker.record import record
+from checker.xacro.fault import XacroFault, XacroFaultKind
 
 _NAMED_LIMIT = 8
 _GIVE_ARGUMENT = "; give it with --args name:=value"

@@ -10,8 +10,9 @@ from pathlib import Path
 
 from lxml import etree
 
+from checker.disk_file import NotReadable
 from checker.package.package import Package
-from checker.package.reading import NotReadable, read_text
+from checker.package.reading import read_text
 from checker.package.recognition import looks_like_package
 from checker.package.walk import build_index
 from checker.record import record

@@ -9,8 +9,8 @@ from contextlib import suppress
 from pathlib import Path
 from textwrap import indent
 
+from checker.disk_file import NotReadable, read_bytes
 from checker.errors import CheckerError
-from checker.package.reading import NotReadable, read_bytes
 from checker.report.wording import plain
 from checker.resources import templates
 from checker.settings import FILE_NAME, find_settings, folders_above

@@ -8,9 +8,9 @@ from dataclasses import asdict, field
 from pathlib import Path
 from typing import Any
 
+from checker.disk_file import NotReadable, read_bytes
 from checker.finding import Severity
 from checker.fingerprint import fingerprint
-from checker.package.reading import NotReadable, read_bytes
 from checker.record import record
 from checker.report.wording import shortened
 from checker.suppression.entries import REASON_LIMIT

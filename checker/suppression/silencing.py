@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
+from checker.disk_file import NotReadable
 from checker.finding import Place
 from checker.model.suggestions import Suggestions
 from checker.package.package import Package
-from checker.package.reading import TEXT_LIMIT, NotReadable
+from checker.package.reading import TEXT_LIMIT
 from checker.record import record
 from checker.report.report import IN_BASELINE, SuppressedBy
 from checker.rule import Finding, Rule

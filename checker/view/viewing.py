@@ -10,12 +10,13 @@ from typing import Any
 from checker.cache import Cache, code_hash, key_of
 from checker.confined import Child, Died, Limits, from_json
 from checker.mesh.limits import MEMORY, SIZE_LIMIT
+from checker.mesh.package_meshes import TimedMeshes
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews, View
 from checker.sandbox.files import from_disk
+from checker.saying import Stages
 from checker.source.text import Located
-from checker.stages import Stages, TimedMeshes
 from checker.versions import version_of
 from checker.view.request import Asked, Content, asked_of
 from checker.view.worker import SECONDS_FOR_ALL

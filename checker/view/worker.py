@@ -13,10 +13,10 @@ from functools import partial
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
+from checker.disk_file import NotReadable
 from checker.mesh.apart import Ended, all_apart
 from checker.mesh.reader import load_libraries, read_surface
 from checker.mesh.surface import NoSurface
-from checker.package.reading import NotReadable
 from checker.sandbox.files import NO_FILES, Content, Files
 from checker.view.grid import Grid, grid_from_json
 from checker.view.solids import entered

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from checker.model.urdf.files import XacroFaultKind
+from checker.xacro.fault import XacroFaultKind
 
 _KINDS = frozenset(kind.value for kind in XacroFaultKind)
 

@@ -8,7 +8,6 @@ from typing import Any
 
 from checker.cache import Cache, code_hash, key_of
 from checker.confined import Child, Died, Limits, from_json
-from checker.model.urdf.files import XacroFault, XacroFaultKind
 from checker.package.package import Package
 from checker.record import record
 from checker.source.text import Span
@@ -16,6 +15,7 @@ from checker.source.xml import XmlDocument
 from checker.versions import version_of
 from checker.xacro.answers import is_answer
 from checker.xacro.expanded import expanded_document
+from checker.xacro.fault import XacroFault, XacroFaultKind
 from checker.xacro.gathering import Gathered
 from checker.xacro.paths import path_of
 from checker.xacro.worker import SECONDS_FOR_ALL

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from checker.disk_file import NotReadable
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument

@@ -10,8 +10,8 @@ order of the views is this rule's own.
 
 import posixpath
 
+from checker.disk_file import NotReadable
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.rule import Findings, Severity, finding, rule
 from checker.source.png import png_fault
 

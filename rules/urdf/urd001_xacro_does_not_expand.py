@@ -14,9 +14,10 @@ import re
 from collections.abc import Iterator
 
 from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles, XacroFault, XacroFaultKind
+from checker.model.urdf.files import UrdfFiles
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
+from checker.xacro.fault import XacroFault, XacroFaultKind
 
 _BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")

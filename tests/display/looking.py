@@ -10,9 +10,9 @@ from pathlib import Path
 from checker.cache import NO_CACHE, Cache
 from checker.display.files.wire import Looked
 from checker.display.mesh_files import MeshFiles, surfaces_of
+from checker.mesh.package_meshes import TimedMeshes
 from checker.model.robot import Robot
 from checker.package.opening import open_input
-from checker.stages import TimedMeshes
 from checker.subject import Subject
 from tests.examples import write_example
 

@@ -18,9 +18,9 @@ from checker.display.glb import glb_of
 from checker.display.mesh_files import surfaces_of
 from checker.display.scene import Layer
 from checker.display.surface import NoSurfaces
+from checker.mesh.package_meshes import TimedMeshes
 from checker.model.robot import Robot
 from checker.package.opening import open_input
-from checker.stages import TimedMeshes
 from checker.subject import Subject
 from checker.trial.running import start_trial
 from checker.trial.trial import Trial

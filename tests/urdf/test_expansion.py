@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from checker.cache import Cache
-from checker.model.urdf.files import UrdfFiles, XacroFaultKind
+from checker.model.urdf.files import UrdfFiles
 from checker.parts import NotAtHand
 from checker.subject import Subject
+from checker.xacro.fault import XacroFaultKind
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"

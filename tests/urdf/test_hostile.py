@@ -10,8 +10,8 @@ from time import monotonic
 import pytest
 
 from checker.mesh.apart import Ended, apart
-from checker.model.urdf.files import XacroFault, XacroFaultKind
 from checker.xacro import guard
+from checker.xacro.fault import XacroFault, XacroFaultKind
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"

@@ -11,13 +11,13 @@ from typing import Any
 from urllib.parse import unquote
 
 from checker.cache import code_hash, key_of
+from checker.disk_file import NotReadable, read_bytes
 from checker.display.files.painting import FILE_LIMIT
 from checker.mesh.limits import SIZE_LIMIT
 from checker.mesh.materials import SIZE_LIMIT as MATERIAL_LIMIT
 from checker.mesh.uris import MeshFile
 from checker.model.mesh import Mesh
 from checker.package.package import Package
-from checker.package.reading import NotReadable, read_bytes
 from checker.record import record
 from checker.versions import version_of
 

@@ -11,6 +11,7 @@ from time import monotonic
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from checker.disk_file import NotReadable
 from checker.display.early import SECONDS_FOR_ALL
 from checker.display.files.collada import collada_pieces
 from checker.display.files.painting import picture, sampled
@@ -23,7 +24,6 @@ from checker.mesh.apart import Ended, all_apart
 from checker.mesh.limits import SECONDS_FOR_ONE
 from checker.mesh.reader import load_libraries, read_surface
 from checker.mesh.surface import NoSurface
-from checker.package.reading import NotReadable
 from checker.sandbox.files import Files
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from time import monotonic
 from typing import Any
 
 from checker.confined import from_json
+from checker.disk_file import open_file
 from checker.errors import UnreadableInput
-from checker.package.reading import open_file
 from checker.sandbox.launcher import Launcher, Order, OwnLauncher
 
 _MODULE = "checker.package.index_process"
