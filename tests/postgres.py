@@ -25,7 +25,7 @@ from typing import Any
 
 import pytest
 
-from checker.sandbox.task import end_with_parent
+from checker.base.sandbox.task import end_with_parent
 
 _NOBODY = 65534
 """Who runs the server in place of root, which PostgreSQL refuses."""

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from checker.check import check_package
-from checker.discovery import all_rules
+from checker.pipeline import check_package
+from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 
 FOLDER = Path(os.environ.get("SUBT_CHECK_REVIEWS") or "no reviews")

@@ -7,7 +7,7 @@ other.
 Source: the Gazebo systems that drive the robots of the SubT challenge.
 """
 
-from checker.model.locomotion import DriveKind
+from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.package.kind import PackageKind
 from checker.package.package import Package

@@ -9,7 +9,7 @@ Fix: add WheelSlip to what the spawner emits, with a `<wheel>` for each wheel:
 Source: SubT maintainers ask for it in their reviews of skid-steer robots.
 """
 
-from checker.model.locomotion import Side
+from checker.model.locomotion.locomotion import Side
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 

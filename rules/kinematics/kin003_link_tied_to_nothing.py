@@ -7,9 +7,9 @@ Fix: add a joint between the robot and the link, usually `<joint type="fixed">`;
 Source: SDFormat specification: links of a model move freely unless joints connect them.
 """
 
+from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.model.tree import LinkTree
 from checker.rule import Findings, Severity, finding, rule, unchecked
 

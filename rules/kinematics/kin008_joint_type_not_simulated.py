@@ -10,9 +10,9 @@ Source: `joint_types.json`: SDFormat's types, and those that the physics plugin 
 supports.
 """
 
+from checker.base.resources import table
+from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
-from checker.resources import table
 from checker.rule import Context, Findings, Severity, finding, rule
 
 _BECOMES = {

@@ -12,7 +12,7 @@ import re
 import struct
 from collections.abc import Iterator
 
-from checker.disk_file import NotReadable
+from checker.base.disk_file import NotReadable
 from checker.finding import Place
 from checker.model.plugin_library import release_major
 from checker.package.package import Package

@@ -11,8 +11,12 @@ beyond it.
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.reader import (
+    EXECUTABLES_ARGUMENTS,
+    SPAWNER_ARGUMENTS,
+    Spawner,
+)
 from checker.rule import Findings, Severity, finding, rule
-from checker.spawner.reader import EXECUTABLES_ARGUMENTS, SPAWNER_ARGUMENTS, Spawner
 
 ARGUMENTS = {"spawner": SPAWNER_ARGUMENTS, "rosExecutables": EXECUTABLES_ARGUMENTS}
 

@@ -7,8 +7,8 @@ Source: Model Migration Guide, example spawner. None of the accepted packages th
 this.
 """
 
+from checker.expand.spawner.emitted_xml import SpawnedXml
 from checker.rule import Findings, Severity, finding, rule
-from checker.spawning import SpawnedXml
 
 
 @rule("SPW007", "gazebo-factory", Severity.ERROR)

@@ -10,8 +10,8 @@ Source: MuJoCo documentation, XML reference: checks of the compiler.
 
 import re
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 _OF_INERTIA = re.compile(r"\b(mass|moments?)\b")
 """Repairs that the rules on inertia report in more detail."""

@@ -8,8 +8,8 @@ Source: experience; the load is the mean while the robot is at rest, compared wi
 the weight.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI007", "wheel-without-load", Severity.ERROR)

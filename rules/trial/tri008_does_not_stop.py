@@ -8,8 +8,8 @@ Source: experience; the speed at the end of a stop of 1.5 s, or longer if the ro
 more time.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI008", "does-not-stop", Severity.ERROR)

@@ -11,8 +11,8 @@ smallest largest share of any rotor's thrust.
 
 import math
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI010", "does-not-fly", Severity.ERROR)

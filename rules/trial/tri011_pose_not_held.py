@@ -10,8 +10,8 @@ Source: experience; a position and velocity controller holds each joint.
 
 import math
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI011", "pose-not-held", Severity.WARNING)

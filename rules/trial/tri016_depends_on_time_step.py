@@ -8,9 +8,9 @@ that almost tip over.
 Source: a sound simulation converges: half the step changes almost nothing.
 """
 
+from checker.physics.trial.measures.figures import MEASURES
+from checker.physics.trial.robot_trial import RepeatedTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.measures import MEASURES
-from checker.trial.robot_trial import RepeatedTrial
 
 _MATTERS = {
     "settle_drop": 0.02,

@@ -9,8 +9,8 @@ Source: kinetic and potential energy at rest, as a share of the energy that lift
 m.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI017", "gains-energy", Severity.WARNING)

@@ -13,11 +13,11 @@ only tags with the prefix `xacro:`.
 import re
 from collections.abc import Iterator
 
+from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.files import UrdfFiles
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
-from checker.xacro.fault import XacroFault, XacroFaultKind
 
 _BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
 _EXPRESSION = re.compile(r"\$\{[^}]{0,200}\}|\$\((?:arg|find|eval)\s[^)]{0,200}\)")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from time import sleep
 
-from checker.mesh.package_meshes import TimedMeshes
+from checker.base.progress import Stages
 from checker.model.mesh import Mesh
-from checker.saying import Stages
+from checker.physics.mesh.package_meshes import TimedMeshes
 from checker.source.text import Located, SourceText
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from checker.model.specification.motion import MotionQuantity as Motion
 from checker.model.specification.sheet import read_specification
-from checker.source.decode import decode
 from checker.source.text import SourceText
+from checker.source.text_file import decode
 
 CORPUS = Path(os.environ.get("SUBT_CHECK_CORPUS", "/nowhere"))
 pytestmark = pytest.mark.skipif(not CORPUS.is_dir(), reason="SUBT_CHECK_CORPUS names no packages")

@@ -9,9 +9,9 @@ from time import monotonic
 
 import pytest
 
-from checker.mesh.apart import Ended, apart
-from checker.xacro import guard
-from checker.xacro.fault import XacroFault, XacroFaultKind
+from checker.base.forked_work import Ended, apart
+from checker.expand.xacro import worker
+from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"
@@ -140,7 +140,7 @@ ESCAPES = {
 @pytest.mark.parametrize("way", ESCAPES)
 def test_behind_the_guard_nothing_opens(way: str) -> None:
     def work() -> bytes:
-        guard.put_up()
+        worker.put_up()
         try:
             ESCAPES[way]()
         except (PermissionError, KeyError) as refusal:

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.view.grid import Grid, Steps
-from checker.view.solids import SOLIDS, entered
-from checker.view.triangles import met
+from checker.physics.views.rays import Grid, Steps
+from checker.physics.views.solids import SOLIDS, entered
+from checker.physics.views.triangles import met
 from tests.mesh.files import box
 
 GRID = Grid(Steps(-1.0, 1.0, 21), Steps(-0.8, 0.8, 17), 0.0, 100.0)

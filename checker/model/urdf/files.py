@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from checker.base.record import record
+from checker.expand.xacro.fault import XacroFault
 from checker.model.urdf.description import UrdfDescription
-from checker.record import record
-from checker.xacro.fault import XacroFault
 
 
 @record(eq=False)
