@@ -7,6 +7,10 @@ CORPUS ?= $(wildcard ../shared/corpus)
 REVIEWS ?= $(wildcard ../shared/reviews)
 MODERN ?= $(wildcard ../shared/modern)
 WORKERS ?= auto
+# Folders of real packages, where there are any: tests and benches do without.
+PACKAGES := $(if $(CORPUS),SUBT_CHECK_CORPUS=$(abspath $(CORPUS))) \
+  $(if $(REVIEWS),SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS))) \
+  $(if $(MODERN),SUBT_CHECK_MODERN=$(abspath $(MODERN)))
 VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
@@ -26,12 +30,12 @@ demo: .venv/installed $(VIEWER)
 	@echo "== results: demo/report.html (open it in a browser), demo/broken.txt, demo/good.txt"
 
 test: .venv/tested $(VIEWER)
-	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS)) \
-	  SUBT_CHECK_MODERN=$(abspath $(MODERN)) $(BIN)/pytest -n $(WORKERS)
+	$(PACKAGES) $(BIN)/pytest -n $(WORKERS)
 
 lint: .venv/tested
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports --no-cache
 
 types: .venv/tested
 	$(BIN)/mypy
@@ -41,16 +45,15 @@ format: .venv/tested
 	$(BIN)/ruff format .
 
 bench: .venv/tested $(VIEWER)
-	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/static.py
-	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python bench/trial.py
-	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python -m bench.report
+	$(PACKAGES) $(BIN)/python bench/static.py
+	$(PACKAGES) $(BIN)/python bench/trial.py
+	$(PACKAGES) $(BIN)/python -m bench.report
 	$(BIN)/python bench/hostile.py
-	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python -m bench.first_findings
+	$(PACKAGES) $(BIN)/python -m bench.first_findings
 	$(BIN)/python -m bench.uploads
 	$(BIN)/python -m bench.uploads --postgres
-	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) $(BIN)/python -m bench.batch
-	SUBT_CHECK_CORPUS=$(abspath $(CORPUS)) SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS)) \
-	  $(BIN)/python -m bench.xacro
+	$(PACKAGES) $(BIN)/python -m bench.batch
+	$(PACKAGES) $(BIN)/python -m bench.xacro
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 
 import pytest
@@ -12,6 +11,8 @@ from hypothesis import settings
 
 from tests.browser import chromium  # noqa: F401 (a fixture)
 from tests.postgres import postgres_url  # noqa: F401 (a fixture)
+from tests.real_packages import CORPUS, needed_folder
+from tests.tiers import MARKS, Guard, marks_of
 
 # Machines differ and are shared: no example of a property is held against the clock.
 settings.register_profile("shared machines", deadline=None)
@@ -22,6 +23,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 SAMPLES = Path(__file__).parent.parent / "samples"
+GUARD = Guard()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -30,13 +32,29 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    for name, need in MARKS.items():
+        config.addinivalue_line("markers", f"{name}: {need}")
+
+
+def pytest_itemcollected(item: pytest.Item) -> None:
+    for name in marks_of(item):
+        item.add_marker(name)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+    GUARD.watch(item)
+    try:
+        return (yield)
+    finally:
+        GUARD.watch(None)
+
+
 @pytest.fixture(scope="session")
 def corpus() -> Path:
     """The folder of real packages that SUBT_CHECK_CORPUS names."""
-    folder = os.environ.get("SUBT_CHECK_CORPUS", "")
-    if not folder or not Path(folder).is_dir():
-        pytest.skip("SUBT_CHECK_CORPUS names no folder of real packages")
-    return Path(folder)
+    return needed_folder(CORPUS)
 
 
 @pytest.fixture(scope="session")

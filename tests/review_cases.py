@@ -7,16 +7,15 @@ SUBT_CHECK_REVIEWS names their folder: `<id>/before/<package>`, `<id>/after/<pac
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 from checker.pipeline import check_package
 from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
+from tests.real_packages import REVIEWS, named_folder
 
-FOLDER = Path(os.environ.get("SUBT_CHECK_REVIEWS") or "no reviews")
+FOLDER = named_folder(REVIEWS)
 
 OUT_OF_REACH = {
     "R104": "nothing in the package names the device before the correction",
@@ -78,7 +77,7 @@ class ReviewCase:
 
 def review_cases() -> list[ReviewCase]:
     """Return all cases; none when there is no folder of them."""
-    if not FOLDER.is_dir():
+    if FOLDER is None:
         return []
     entries = json.loads((FOLDER / "cases.json").read_text("utf-8"))
     return [

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from tests.review_cases import FOLDER, OUT_OF_REACH, ReviewCase, review_cases
+from tests.real_packages import REVIEWS, needs
+from tests.review_cases import OUT_OF_REACH, ReviewCase, review_cases
 
 CASES = [case for case in review_cases() if case.id not in OUT_OF_REACH]
 
 
-@pytest.mark.skipif(not FOLDER.is_dir(), reason="SUBT_CHECK_REVIEWS names no folder of reviews")
+@needs(REVIEWS)
 def test_there_are_cases() -> None:
     assert len(CASES) >= 48
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
 
@@ -14,9 +13,10 @@ from checker.expand.launch.launch_file import MissingLaunchFile
 from checker.source.text import SourceText
 from checker.source.text_file import decode
 from checker.source.xml import XmlDocument, parse_xml
+from tests.real_packages import CORPUS, named_folder, needs
 
-CORPUS = os.environ.get("SUBT_CHECK_CORPUS", "")
-FILES = sorted(Path(CORPUS).glob("*/launch/*.launch")) if CORPUS else []
+FOLDER = named_folder(CORPUS)
+FILES = sorted(FOLDER.glob("*/launch/*.launch")) if FOLDER else []
 BRIDGES = {
     "cerberus_anymal_c_sensor_config_1": 28,
     "coro_crystal_sensor_config_1": 16,
@@ -33,7 +33,7 @@ BRIDGES = {
     "x1_sensor_config_6": 12,
     "x2_sensor_config_7": 12,
 }
-pytestmark = pytest.mark.skipif(not FILES, reason="SUBT_CHECK_CORPUS names no packages")
+pytestmark = needs(CORPUS)
 
 
 def read(path: Path, file: str) -> XmlDocument:
@@ -72,8 +72,8 @@ def test_every_real_launch_file_expands_without_a_fault_that_is_not_real(path):
 
 
 @pytest.mark.parametrize("package", sorted(BRIDGES))
-def test_every_bridge_is_read_and_marked_where_it_is_written(package):
-    path = Path(CORPUS) / package / "launch/vehicle_topics.launch"
+def test_every_bridge_is_read_and_marked_where_it_is_written(package, corpus):
+    path = corpus / package / "launch/vehicle_topics.launch"
     graph = expand(path, name="X", world_name="w", breadcrumbs="1")
     written = [bridge for bridge in graph.bridges if not bridge.node.assumed_from]
     assert len(written) == BRIDGES[package]

@@ -2,29 +2,31 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
-from time import perf_counter
 
 import pytest
 
+from checker.expand.launch.attributes import MAX_STEPS, Reader
 from checker.expand.launch.expansion import MAX_DEPTH
 from checker.expand.launch.graph import LaunchFaultKind as Kind
 from checker.model.ros.robot_description import robot_descriptions
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import Settings
+from checker.source.xml import Element
+from tests.effort import limited
 from tests.examples import write_example
 
 TOPICS = "launch/vehicle_topics.launch"
 SECONDS = 30.0
-"""Most that one of them may take, on a slow machine."""
+"""Of work: the most that one of them may be."""
 
 
 def checked(tmp_path: Path, files: dict[str, str], *rules: str) -> PackageReport:
     package = write_example(files, tmp_path)
-    started = perf_counter()
-    (report,) = check_package(package, Settings(select=rules or ("ROS", "SDF001"))).packages
-    assert perf_counter() - started < SECONDS
+    with limited(SECONDS):
+        (report,) = check_package(package, Settings(select=rules or ("ROS", "SDF001"))).packages
     assert not [each for each in report.not_checked if each.cause.name == "CRASHED"]
     return report
 
@@ -66,7 +68,7 @@ def test_a_long_chain_of_includes_is_followed_to_a_limit(tmp_path):
     assert f"more than {MAX_DEPTH} levels" in reasons(package, "ROS010")
 
 
-def test_a_file_that_includes_another_many_times_over_ends(tmp_path):
+def test_a_file_that_includes_another_many_times_over_ends(tmp_path, monkeypatch):
     files = {
         f"launch/l{n}.launch": "<launch>"
         + f'<include file="$(dirname)/l{n + 1}.launch"/>' * 10
@@ -75,7 +77,16 @@ def test_a_file_that_includes_another_many_times_over_ends(tmp_path):
     }
     files["launch/l20.launch"] = "<launch/>\n"
     files[TOPICS] = launch('<include file="$(dirname)/l0.launch"/>')
+    followed = Counter[str]()
+    charge = Reader.charge
+
+    def count(reader: Reader, element: Element, steps: int) -> bool:
+        followed[element.tag] += 1
+        return charge(reader, element, steps)
+
+    monkeypatch.setattr(Reader, "charge", count)
     assert "steps to evaluate" in reasons(checked(tmp_path, files, "ROS010"), "ROS010")
+    assert 0 < followed["include"] <= 3 * MAX_STEPS
 
 
 @pytest.mark.parametrize(

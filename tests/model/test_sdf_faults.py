@@ -12,8 +12,8 @@ from checker.model.faults import FaultKind
 from checker.model.frames import FrameGraph, FrameNode
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
+from tests.effort import seconds
 from tests.model.robots import assert_pose, document, messages, pose, sdf
-from tests.source.clock import seconds
 
 NOT_NUMBERS = [
     "1e400",

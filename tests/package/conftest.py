@@ -1,9 +1,8 @@
-"""Builders of small packages and archives, and the real packages where they are at hand."""
+"""Builders of small packages and archives."""
 
 from __future__ import annotations
 
 import io
-import os
 import tarfile
 import zipfile
 from collections.abc import Callable, Mapping
@@ -13,14 +12,6 @@ import pytest
 
 Write = Callable[[Mapping[str, str]], Path]
 Entries = list[tuple[str, bytes]]
-
-
-@pytest.fixture
-def corpus() -> Path:
-    place = os.environ.get("SUBT_CHECK_CORPUS")
-    if not place or not Path(place).is_dir():
-        pytest.skip("SUBT_CHECK_CORPUS names no folder of real packages")
-    return Path(place)
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -11,8 +10,6 @@ from checker.package.manifests import read_model_config, read_package_xml
 from checker.source.text import SourceText
 from checker.source.text_file import decode
 from checker.source.xml import XmlDocument, parse_xml
-
-CORPUS = Path(os.environ.get("SUBT_CHECK_CORPUS", "/nowhere"))
 
 
 def parse(text: str, file: str = "package.xml") -> XmlDocument:
@@ -102,9 +99,8 @@ def test_an_empty_model_config_states_nothing():
     assert not any(each.stated for each in (config.name, config.version, config.description))
 
 
-@pytest.mark.skipif(not CORPUS.is_dir(), reason="SUBT_CHECK_CORPUS names no packages")
-def test_every_real_package_states_its_name_and_its_model():
-    manifests = sorted(CORPUS.glob("*/package.xml"))
+def test_every_real_package_states_its_name_and_its_model(corpus: Path):
+    manifests = sorted(corpus.glob("*/package.xml"))
     assert len(manifests) == 18
     for path in manifests:
         manifest = read_package_xml(parse(decode(path.read_bytes())))
@@ -112,7 +108,7 @@ def test_every_real_package_states_its_name_and_its_model():
         assert manifest.depends_on("catkin")
         assert manifest.maintainers
         assert all(person.email.stated for person in manifest.maintainers)
-    configs = sorted(CORPUS.glob("*/model.config"))
+    configs = sorted(corpus.glob("*/model.config"))
     assert len(configs) == 14
     for path in configs:
         (entry,) = read_model_config(parse(decode(path.read_bytes()))).sdf

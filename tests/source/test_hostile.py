@@ -9,7 +9,7 @@ import pytest
 from checker.source.text import SourceText
 from checker.source.xml import MAX_DEPTH, XmlDocument, parse_xml
 from checker.source.xml_positions import XmlFault
-from tests.source.clock import seconds
+from tests.effort import seconds
 from tests.source.documents import document, fault
 
 Texts = Callable[[int], str]

@@ -11,6 +11,7 @@ import pytest
 
 from checker.expand.spawner.reader import Spawner, read_spawner
 from checker.source.text import SourceText
+from tests.real_packages import CORPUS, named_folder, needed_folder
 
 
 @dataclass
@@ -97,10 +98,7 @@ class Ruby:
 
 @pytest.fixture(scope="session")
 def corpus() -> Folder:
-    folder = os.environ.get("SUBT_CHECK_CORPUS")
-    if not folder or not Path(folder).is_dir():
-        pytest.skip("SUBT_CHECK_CORPUS does not name the folder of real packages")
-    return Folder(Path(folder))
+    return Folder(needed_folder(CORPUS))
 
 
 @pytest.fixture(scope="session")
@@ -110,8 +108,8 @@ def ruby(tmp_path_factory) -> Ruby:
         pytest.skip("ruby is not installed")
     folder = tmp_path_factory.mktemp("bin")
     rospack = folder / "rospack"
-    root = os.environ.get("SUBT_CHECK_CORPUS", "/nowhere")
-    rospack.write_text(f'#!/bin/sh\n[ "$1" = find ] && echo "{Path(root).resolve()}/$2"\n')
+    root = named_folder(CORPUS) or Path("/nowhere")
+    rospack.write_text(f'#!/bin/sh\n[ "$1" = find ] && echo "{root.resolve()}/$2"\n')
     rospack.chmod(0o755)
     path = f"{folder}:{os.environ['PATH']}"
     return Ruby({**os.environ, "PATH": path, "LC_ALL": "C.UTF-8"})

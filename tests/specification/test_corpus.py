@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from checker.model.specification.motion import MotionQuantity as Motion
-from checker.model.specification.sheet import read_specification
+from checker.model.specification.sheet import Specification, read_specification
 from checker.source.text import SourceText
 from checker.source.text_file import decode
-
-CORPUS = Path(os.environ.get("SUBT_CHECK_CORPUS", "/nowhere"))
-pytestmark = pytest.mark.skipif(not CORPUS.is_dir(), reason="SUBT_CHECK_CORPUS names no packages")
 
 # Mass in kg, endurance in s, greatest speed along x in m/s and about z in rad/s.
 NUMBERS = {
@@ -51,18 +48,23 @@ SENSORS = {
 }
 
 
-def read(package: str):
-    data = (CORPUS / package / "specifications.md").read_bytes()
+@pytest.fixture
+def read(corpus: Path) -> Callable[[str], Specification]:
+    return lambda package: _sheet(corpus, package)
+
+
+def _sheet(corpus: Path, package: str) -> Specification:
+    data = (corpus / package / "specifications.md").read_bytes()
     return read_specification(SourceText("specifications.md", decode(data)))
 
 
-def test_every_real_sheet_stands_in_the_tables():
-    assert {path.parent.name for path in CORPUS.glob("*/specifications.md")} == set(NUMBERS)
+def test_every_real_sheet_stands_in_the_tables(corpus):
+    assert {path.parent.name for path in corpus.glob("*/specifications.md")} == set(NUMBERS)
     assert set(NUMBERS) == set(SENSORS)
 
 
 @pytest.mark.parametrize("package", NUMBERS)
-def test_numbers(package):
+def test_numbers(read, package):
     sheet = read(package)
     forward = sheet.limit(Motion.LINEAR_VELOCITY, "x")
     turning = sheet.limit(Motion.ANGULAR_VELOCITY, "z")
@@ -76,7 +78,7 @@ def test_numbers(package):
 
 
 @pytest.mark.parametrize("package", SENSORS)
-def test_sensors(package):
+def test_sensors(read, package):
     listed = [
         (f"{sensor.count}x" if sensor.count is not None else "") + sensor.kind
         for sensor in read(package).sensors
@@ -85,18 +87,18 @@ def test_sensors(package):
 
 
 @pytest.mark.parametrize("package", NUMBERS)
-def test_breadcrumbs_belong_to_another_configuration(package):
+def test_breadcrumbs_belong_to_another_configuration(read, package):
     for sensor in read(package).sensors:
         assert (sensor.configurations == {2}) is (sensor.kind == "breadcrumbs")
 
 
-def test_the_rocky_acceleration_is_the_modeled_one():
+def test_the_rocky_acceleration_is_the_modeled_one(read):
     limit = read("coro_rocky_sensor_config_1").limit(Motion.LINEAR_ACCELERATION, "x")
     assert (limit.minimum, limit.maximum) == (-4, 4)
 
 
 @pytest.mark.parametrize("package", NUMBERS)
-def test_the_headings_that_reviewers_ask_for_are_found(package):
+def test_the_headings_that_reviewers_ask_for_are_found(read, package):
     sheet = read(package)
     for title in ("Description", "Sensors", "Motion Characteristics", "Endurance Characteristics"):
         assert not sheet.section(title).is_empty

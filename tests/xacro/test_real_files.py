@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
 
+from tests.real_packages import CORPUS, MODERN, REVIEWS, needed_folder
 from tests.xacro.real_files import compared, requests
 
 ROOT = Path(__file__).parent.parent.parent
-FOLDERS = ("SUBT_CHECK_CORPUS", "SUBT_CHECK_REVIEWS", "SUBT_CHECK_MODERN")
 
 
 def differences(folder: Path) -> tuple[int, list[object]]:
@@ -19,12 +18,9 @@ def differences(folder: Path) -> tuple[int, list[object]]:
     return sum(result["number"] for _, result in found), others
 
 
-@pytest.mark.parametrize("name", FOLDERS)
+@pytest.mark.parametrize("name", [CORPUS, REVIEWS, MODERN])
 def test_of_real_packages(name: str) -> None:
-    folder = Path(os.environ.get(name) or "/nowhere")
-    if not folder.is_dir():
-        pytest.skip(f"{name} names no folder of real packages")
-    number, others = differences(folder)
+    number, others = differences(needed_folder(name))
     assert not others
     assert number
 

@@ -1,0 +1,54 @@
+"""How much work code does: the same on a slow machine, and on one that others keep busy.
+
+Work is the processor time of this process. Where that is too much, it is held against the time of a
+task of a known size at the same moment.
+"""
+
+from __future__ import annotations
+
+import gc
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+_TASK_SECONDS = 0.02
+"""What the task takes on a machine of today that does nothing else."""
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """Return the processor time of a piece of work, only to be compared with that of another.
+
+    The pauses of the garbage collector do not count: what those cost depends on everything that
+    other tests left behind.
+    """
+    gc.collect()
+    gc.disable()
+    try:
+        start = time.process_time()
+        work()
+        return time.process_time() - start
+    finally:
+        gc.enable()
+
+
+@contextmanager
+def limited(most: float) -> Iterator[None]:
+    """Assert that what is done inside is no more work than a machine of today does in a time.
+
+    Args:
+        most: That time, in seconds.
+    """
+    start = time.process_time()
+    yield
+    taken = time.process_time() - start
+    slowness = max(_task_seconds() / _TASK_SECONDS, 1.0) if taken > most else 1.0
+    assert taken <= most * slowness, f"{taken:.2f} s of work, {most * slowness:.2f} allowed"
+
+
+def _task_seconds() -> float:
+    start = time.process_time()
+    words: dict[str, int] = {}
+    for number in range(120_000):
+        word = f"{number % 1000} "
+        words[word] = words.get(word, 0) + len(word)
+    return time.process_time() - start

@@ -1,0 +1,77 @@
+"""Which tier a test belongs to: what it needs decides, not how long it takes.
+
+The first tier needs Python and what `make dev` installs. What needs more carries a mark, by the
+fixtures that it uses and by the place where it stands; a few stand in the tests themselves.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+TESTS = Path(__file__).parent
+MARKS: Mapping[str, str] = {
+    "browser": "needs Chromium and the viewer that is built",
+    "service": "needs a network port or a database server",
+    "install": "needs a second installation of the project, or what makes one: pip, git, an image",
+    "programs": "needs a program or library beside Python: ruby, git, node, OpenGL",
+    "corpus": "needs real packages",
+}
+BY_FIXTURE: Mapping[str, str] = {
+    "chromium": "browser",
+    "postgres_url": "service",
+    "serve": "service",
+    "start_service": "service",
+    "ruby": "programs",
+    "corpus": "corpus",
+}
+BY_PLACE: Mapping[str, str] = {
+    "deployment": "install",
+    "repository": "install",
+    "test_wheel.py": "install",
+    "survival": "service",
+    "viewer": "browser",
+    "web/test_hostile_requests.py": "service",
+}
+"""Folders and modules, all of whose tests need the same."""
+_PROGRAMS = {"chromium": "browser", "postgres": "service"} | dict.fromkeys(
+    ("git", "node", "npm", "ruby"), "programs"
+)
+
+
+def marks_of(item: pytest.Item) -> Iterator[str]:
+    """Yield the marks that a test has by its fixtures and its place."""
+    place = item.path.relative_to(TESTS)
+    for each in (place, *place.parents):
+        if mark := BY_PLACE.get(each.as_posix()):
+            yield mark
+    for name in getattr(item, "fixturenames", ()):
+        if mark := BY_FIXTURE.get(name):
+            yield mark
+
+
+class Guard:
+    """Fails a test of the first tier that opens a network port or starts a foreign program."""
+
+    def __init__(self) -> None:
+        self._active = False
+        sys.addaudithook(self._look)
+
+    def watch(self, item: pytest.Item | None) -> None:
+        """Watch a test, unless it carries a mark; None ends it."""
+        self._active = item is not None and not any(item.get_closest_marker(each) for each in MARKS)
+
+    def _look(self, event: str, given: tuple[Any, ...]) -> None:
+        if not self._active:
+            return
+        if event in ("socket.bind", "socket.connect") and isinstance(given[1], tuple):
+            pytest.fail("it opens a network port: it needs the mark `service`")
+        if event == "subprocess.Popen":
+            program = Path(os.fsdecode(given[0])).name
+            if mark := _PROGRAMS.get(program):
+                pytest.fail(f"it starts {program}: it needs the mark `{mark}`")
