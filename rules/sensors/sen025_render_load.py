@@ -12,7 +12,7 @@ Source: the accepted package that we checked with the highest load, four cameras
 import math
 from collections.abc import Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
@@ -21,8 +21,7 @@ _NAMED = 5
 """Greatest number of sensors that the finding lists."""
 
 
-@record(eq=False)
-class _Load:
+class _Load(Record, eq=False):
     """The load of a sensor: its pixels or rays, and its rate."""
 
     sensor: Sensor
