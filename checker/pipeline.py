@@ -171,7 +171,7 @@ def _checked(package: Package, task: Task) -> PackageReport | NotOpened:
             raise
         file = error.path.relative_to(package.root)
         problem = shortened(error.problem, _PROBLEM_LIMIT)
-        reason = f"is not checked: its settings cannot be used: {file}: {problem}"
+        reason = f"is not checked, because its settings cannot be used: {file}: {problem}"
         return NotOpened(task.shown(package), reason, failed=True)
 
 

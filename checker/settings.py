@@ -101,7 +101,7 @@ class Settings(Record):
         changes += [f"without {', '.join(self.ignore)}"] if self.ignore else []
         changes += [f"severity of {', '.join(self.severity)}"] if self.severity else []
         changes += [f"options of {', '.join(self.options)}"] if self.options else []
-        changes += [f"{len(self.devices)} of its own devices"] if self.devices else []
+        changes += [f"own devices: {len(self.devices)}"] if self.devices else []
         changes += [f"{len(self.suppress)} suppressed with reasons"] if self.suppress else []
         changes += [f"baseline {self.baseline.path.name}"] if self.baseline.path else []
         changes += [] if self.trial else ["without trial"]
@@ -167,7 +167,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(source.text)
     except ValueError as error:
-        raise InvalidSettings(path, f"is no TOML: {error}") from None
+        raise InvalidSettings(path, f"is not TOML: {error}") from None
     except RecursionError:
         raise InvalidSettings(path, "is nested too deeply") from None
 
@@ -200,7 +200,7 @@ def parse_settings(content: object, path: Path) -> Settings:
         InvalidSettings: A key is unknown or a value has the wrong type.
     """
     if _is_huge(content):
-        raise InvalidSettings(path, "holds a number of more than 300 digits")
+        raise InvalidSettings(path, "contains a number of more than 300 digits")
     values: dict[str, Any] = {}
     for key, value in _table("tool.subt-check", content, path).items():
         if key not in _KEYS:
@@ -261,7 +261,7 @@ def _by_rule(key: str, value: Any, path: Path) -> dict[str, Any]:
 
 def _devices(value: Any, path: Path) -> tuple[Mapping[str, Any], ...]:
     if not isinstance(value, list) or len(value) > DEVICES_LIMIT:
-        problem = f"devices is no list of tables, or one of more than {DEVICES_LIMIT}"
+        problem = f"devices is not a list of at most {DEVICES_LIMIT} tables"
         raise InvalidSettings(path, problem)
     for number, entry in enumerate(value, 1):
         problem = problem_of_device(entry) or problem_of_match(entry["match"])
@@ -281,7 +281,7 @@ def _baseline(value: Any, path: Path) -> Baseline:
     """Read the baseline beside a settings file: a stranger's may not name files elsewhere."""
     inside = normal_path(value) if isinstance(value, str) else None
     if inside is None or not _lies_in(path.parent, inside):
-        expected = "expected the path of a file in the folder of these settings or below"
+        expected = "expected the path of a file in or below the folder of these settings"
         raise InvalidSettings(path, f"baseline is {value!r}, {expected}")
     return read_baseline(path.parent / inside)
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 _STOP_SECONDS = 60.0
-_SAID = re.compile(r"subt-check serves at (http://\S+)\n")
+_SAID = re.compile(r"the service runs at (http://\S+)\n")
 
 
 @contextlib.contextmanager

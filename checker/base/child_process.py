@@ -160,7 +160,7 @@ class Child:
         try:
             answer, files = handed.read(descriptor, limit)
         except handed.Damaged as damage:
-            return Died(f"left an answer that {damage}")
+            return Died(f"sent an answer that {damage}")
         return (answer, files) if answer else Died("ended without an answer")
 
     def stop(self) -> None:
@@ -215,5 +215,5 @@ def _cause(code: int, limits: Limits) -> str:
     if code == -signal.SIGKILL:
         return "was killed: it needs too much time or memory"
     if code < 0:
-        return f"ended in a crash (signal {signal.Signals(-code).name})"
-    return "failed in its process"
+        return f"crashed (signal {signal.Signals(-code).name})"
+    return "failed with an error"

@@ -34,7 +34,7 @@ def read_bytes(location: Path, path: str, limit: int) -> bytes | NotReadable:
         with open_file(location) as file:
             status = os.fstat(file.fileno())
             if not stat.S_ISREG(status.st_mode):
-                return NotReadable(path, "is no regular file")
+                return NotReadable(path, "is not a regular file")
             if status.st_size > limit:
                 return NotReadable(path, _too_large(status.st_size, limit))
             data = file.read(status.st_size + 1)
@@ -58,4 +58,4 @@ def open_file(location: Path) -> BinaryIO:
 
 
 def _too_large(size: int, limit: int) -> str:
-    return f"has {size / 1e6:.1f} MB, more than the {limit / 1e6:g} MB that are read"
+    return f"has {size / 1e6:.1f} MB, more than the limit of {limit / 1e6:g} MB"

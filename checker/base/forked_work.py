@@ -139,9 +139,9 @@ def _memory() -> int:
 
 def _cause(code: int, seconds: int) -> str:
     if code == _OUT_OF_MEMORY:
-        return "needs more memory than it may have"
+        return "needs more memory than allowed"
     if code == -signal.SIGXCPU:
         return f"needs more than {seconds} s of processor time"
     if code < 0:
-        return f"ended its reader in a crash (signal {-code})"
-    return "made its reader fail"
+        return f"crashed its reader (signal {-code})"
+    return "cannot be read: its reader failed"

@@ -43,12 +43,14 @@ def build_parser() -> argparse.ArgumentParser:
     _add_submit(commands)
     _add_serve(commands)
     _add_worker(commands)
-    start = commands.add_parser("init", help="write a settings file, and a hook for pre-commit")
-    folder = "of the packages (default: this one)"
+    start = commands.add_parser("init", help="write a settings file and a pre-commit hook")
+    folder = "folder of the packages (default: the current one)"
     start.add_argument("path", metavar="FOLDER", nargs="?", default=".", help=folder)
-    commands.add_parser("doctor", help="look whether all works here; exit code 1 if not")
+    commands.add_parser(
+        "doctor", help="test whether everything works on this machine; exit code 1 if not"
+    )
     one = commands.add_parser("rule", help="explain a rule")
-    one.add_argument("id", help="such as SEN005 or lidar-scan-resolution")
+    one.add_argument("id", help="id or name, such as SEN005 or lidar-scan-resolution")
     every = commands.add_parser("rules", help="list all rules")
     every.add_argument("--format", choices=("text", "json"), default="text")
     return parser
@@ -70,42 +72,56 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     check.add_argument(
         "--files",
         action="store_true",
-        help="each PATH is a changed file: check the packages that they belong to",
+        help="each PATH is a changed file: check the packages of these files",
     )
     check.add_argument("--format", choices=FORMATS, default="text")
-    check.add_argument("--output", metavar="FILE", help="write the result there, not to stdout")
+    check.add_argument(
+        "--output", metavar="FILE", help="write the result to this file instead of stdout"
+    )
     check.add_argument(
         "--report",
         metavar="DIR",
         help="also write report.html, report.json, report.sarif and robot.glb into this folder",
     )
-    check.add_argument("--statistics", action="store_true", help="count the findings by rule")
-    check.add_argument("--profile", choices=PROFILES, help="default: subt, or urdf for URDF")
-    check.add_argument("--select", metavar="IDS", type=_ids, help="only these rules or groups")
-    check.add_argument("--ignore", metavar="IDS", type=_ids, help="leave out rules or groups")
-    check.add_argument("--fail-on", choices=("error", "warning"), help="(default: error)")
-    check.add_argument("--fix", action="store_true", help="apply the safe fixes, then check")
+    check.add_argument(
+        "--statistics", action="store_true", help="print the number of findings of each rule"
+    )
+    check.add_argument(
+        "--profile", choices=PROFILES, help="set of rules (default: subt, or urdf for URDF)"
+    )
+    check.add_argument("--select", metavar="IDS", type=_ids, help="run only these rules or groups")
+    check.add_argument(
+        "--ignore", metavar="IDS", type=_ids, help="do not run these rules or groups"
+    )
+    check.add_argument(
+        "--fail-on",
+        choices=("error", "warning"),
+        help="lowest severity that fails (default: error)",
+    )
+    check.add_argument("--fix", action="store_true", help="apply safe fixes, then check")
     check.add_argument(
         "--unsafe",
         action="store_true",
-        help="with --fix or --diff: also those that change behaviour",
+        help="with --fix or --diff: also fixes that change behaviour",
     )
-    check.add_argument("--diff", action="store_true", help="print the fixes as a patch, no more")
     check.add_argument(
-        "--baseline", metavar="FILE", help="findings that are in this file do not count"
+        "--diff", action="store_true", help="print the fixes as a patch and do nothing else"
     )
+    check.add_argument("--baseline", metavar="FILE", help="ignore findings that are in this file")
     check.add_argument(
         "--write-baseline",
         action="store_true",
-        help="write the findings of now there, no more (default: into the one that the settings "
-        "name, else subt-check-baseline.json)",
+        help=(
+            "write the current findings to a baseline file and do nothing else (default: the file "
+            "in the settings, else subt-check-baseline.json)"
+        ),
     )
-    check.add_argument("--no-trial", action="store_true", help="do not drive the robot")
+    check.add_argument("--no-trial", action="store_true", help="skip the trial")
     check.add_argument(
-        "--thorough", action="store_true", help="drive it again at half the time step"
+        "--thorough", action="store_true", help="repeat the trial at half the time step"
     )
-    check.add_argument("--no-cache", action="store_true", help="keep no results, take none")
-    check.add_argument("--jobs", type=_positive, default=1, metavar="N", help="processes")
+    check.add_argument("--no-cache", action="store_true", help="do not use the cache")
+    check.add_argument("--jobs", type=_positive, default=1, metavar="N", help="number of processes")
     check.add_argument("--color", choices=("auto", "always", "never"), default="auto")
 
 
@@ -116,55 +132,69 @@ def _add_export(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         "--format",
         choices=("urdf", "mjcf"),
         required=True,
-        help="urdf: for RViz, with package:// meshes; mjcf: the scene of the trial, for MuJoCo",
+        help="urdf: for RViz, with package:// meshes; mjcf: the trial's scene for MuJoCo",
     )
     export.add_argument(
         "--output",
         metavar="FILE",
-        help="write it there; into a folder, an MJCF goes with its meshes beside it",
+        help="output file; or, for MJCF, a folder for the scene and its meshes",
     )
-    export.add_argument("--no-cache", action="store_true", help="keep no results, take none")
+    export.add_argument("--no-cache", action="store_true", help="do not use the cache")
 
 
 def _add_migrate(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     migrate = commands.add_parser(
         "migrate",
-        help="make a package for SubT of a description for Gazebo 9",
+        help="convert a description for Gazebo 9 to a package for SubT",
         epilog=_EXITS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     migrate.add_argument("source", metavar="SOURCE", help="a description package, or a URDF file")
-    migrate.add_argument("destination", metavar="DEST", help="an empty folder, or a new one")
-    migrate.add_argument("--organization", metavar="NAME", default="", help="who submits it")
-    migrate.add_argument("--robot", metavar="NAME", default="", help="(default: the URDF's name)")
-    migrate.add_argument("--config", type=int, default=1, metavar="N", help="number (default: 1)")
+    migrate.add_argument("destination", metavar="DEST", help="a new or empty folder")
+    migrate.add_argument(
+        "--organization",
+        metavar="NAME",
+        default="",
+        help="name of the organization that submits the robot",
+    )
+    migrate.add_argument(
+        "--robot", metavar="NAME", default="", help="name of the robot (default: the URDF's name)"
+    )
+    migrate.add_argument(
+        "--config", type=int, default=1, metavar="N", help="configuration number (default: 1)"
+    )
     for side in ("left", "right"):
         migrate.add_argument(
             f"--{side}-wheels",
             metavar="JOINTS",
             type=_ids,
             default=(),
-            help=f"joints that drive on the {side}, with commas between (default: guessed)",
+            help=f"drive joints on the {side}, separated by commas (default: guessed)",
         )
     for limit, unit in (("velocity", "m/s"), ("acceleration", "m/s²")):
         migrate.add_argument(
             f"--max-{limit}",
             metavar="NUMBER",
             type=_above_zero,
-            help=f"of the drive, {unit} (default: as the joints and SubT allow)",
+            help=f"limit of the drive, {unit} (default: the limits of the joints and SubT)",
         )
-    migrate.add_argument("--urdf", metavar="FILE", default="", help="which file is the robot")
+    migrate.add_argument("--urdf", metavar="FILE", default="", help="file that contains the robot")
     migrate.add_argument(
-        "--args", metavar="NAME:=VALUE", nargs="+", type=_argument, default=[], help="for xacro"
+        "--args",
+        metavar="NAME:=VALUE",
+        nargs="+",
+        type=_argument,
+        default=[],
+        help="argument for xacro",
     )
-    migrate.add_argument("--no-trial", action="store_true", help="do not drive the robot")
-    migrate.add_argument("--no-cache", action="store_true", help="keep no results, take none")
+    migrate.add_argument("--no-trial", action="store_true", help="skip the trial")
+    migrate.add_argument("--no-cache", action="store_true", help="do not use the cache")
 
 
 def _add_submit(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     submit = commands.add_parser(
         "submit",
-        help="have a service check a package",
+        help="check a package with a service",
         epilog=_EXITS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -172,48 +202,71 @@ def _add_submit(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         "package", metavar="PACKAGE", help="a package folder, an archive or a model file"
     )
     submit.add_argument(
-        "--server", metavar="URL", required=True, help="of the service: https://check.example"
+        "--server",
+        metavar="URL",
+        required=True,
+        help="address of the service, such as https://check.example",
     )
     submit.add_argument(
-        "--token", default="", help="that it wants (better: SUBT_CHECK_TOKEN, which none sees)"
+        "--token",
+        default="",
+        help="access token (safer: the variable SUBT_CHECK_TOKEN, which other users cannot see)",
     )
-    submit.add_argument("--profile", choices=PROFILES, help="default: subt, or urdf for URDF")
+    submit.add_argument(
+        "--profile", choices=PROFILES, help="set of rules (default: subt, or urdf for URDF)"
+    )
     submit.add_argument("--format", choices=FORMATS, default="text")
-    submit.add_argument("--output", metavar="FILE", help="write the result there, not to stdout")
+    submit.add_argument(
+        "--output", metavar="FILE", help="write the result to this file instead of stdout"
+    )
     submit.add_argument(
         "--report",
         metavar="DIR",
         help="also write report.html, report.json, report.sarif and robot.glb into this folder",
     )
-    submit.add_argument("--fail-on", choices=("error", "warning"), help="(default: error)")
+    submit.add_argument(
+        "--fail-on",
+        choices=("error", "warning"),
+        help="lowest severity that fails (default: error)",
+    )
     submit.add_argument("--color", choices=("auto", "always", "never"), default="auto")
 
 
 def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     serve = commands.add_parser(
         "serve",
-        help="start the web service with its workers",
-        description="Start the web service with its workers. On another address than this "
-        "machine's own it wants SUBT_CHECK_TOKENS, separated by commas, or --public; with either, "
-        "layers around what others upload, of which `subt-check doctor` tells.",
+        help="start the web service with its worker processes",
+        description=(
+            "Start the web service with its worker processes. On an address that other machines "
+            "can reach, it needs SUBT_CHECK_TOKENS (separated by commas) or --public. It then also "
+            "needs sandbox layers for uploads; `subt-check doctor` lists them."
+        ),
     )
     serve.add_argument("--host", default="127.0.0.1", help="address (default: 127.0.0.1)")
     serve.add_argument(
-        "--port", type=_port, default=8000, help="(default: 8000; 0 for any that is free)"
+        "--port", type=_port, default=8000, help="port (default: 8000; 0: any free port)"
     )
     serve.add_argument(
-        "--workers", type=_count, metavar="N", help="processes; 0: elsewhere (default: 2 or fewer)"
+        "--workers",
+        type=_count,
+        metavar="N",
+        help="number of worker processes; 0: none, they run elsewhere (default: 2 or fewer)",
     )
-    serve.add_argument("--public", action="store_true", help="let everybody upload")
+    serve.add_argument("--public", action="store_true", help="allow everybody to upload")
     serve.add_argument(
         "--without-sandbox",
         action="store_true",
-        help="take uploads of others where no layer hides files: a package that takes over its "
-        "reader then reads all that this user can",
+        help=(
+            "accept uploads although no sandbox layer hides files: a package that takes control of "
+            "its reader can then read all files of this user"
+        ),
     )
     _add_data(serve)
     serve.add_argument(
-        "--base-url", metavar="URL", default="", help="where people reach it, if not at its address"
+        "--base-url",
+        metavar="URL",
+        default="",
+        help="public address of the service, if it differs from its own",
     )
     serve.add_argument(
         "--behind-proxy",
@@ -222,21 +275,31 @@ def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         nargs="?",
         const="127.0.0.1,::1",
         default="",
-        help="believe what the proxy at these addresses or networks, with commas between, says of "
-        "its clients (default: one on this machine)",
+        help=(
+            "trust the client addresses that proxies at these addresses or networks report; "
+            "separated by commas (default: a proxy on this machine)"
+        ),
     )
 
 
 def _add_worker(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    worker = commands.add_parser("worker", help="start a further worker of a service")
+    worker = commands.add_parser("worker", help="start another worker process of a service")
     worker.add_argument(
-        "--jobs", type=_positive, metavar="N", help="trials at once in each worker (at first: 1)"
+        "--jobs",
+        type=_positive,
+        metavar="N",
+        help=(
+            "trials at the same time in each worker process (default: the last number given, else "
+            "1)"
+        ),
     )
     worker.add_argument(
         "--name",
         default="",
-        help="under which no other worker runs; started again under it, this one takes up at once "
-        "what it had in hand (default: at random)",
+        help=(
+            "unique name of the worker process; one that restarts with the same name continues its "
+            "checks at once (default: random)"
+        ),
     )
     _add_data(worker)
 
@@ -246,14 +309,16 @@ def _add_data(command: argparse.ArgumentParser) -> None:
         "--data",
         metavar="DIR",
         default="",
-        help="for uploads and reports (default: SUBT_CHECK_DATA, else the user's data folder)",
+        help=(
+            "folder for uploads and reports (default: SUBT_CHECK_DATA, else the user's data folder)"
+        ),
     )
 
 
 def _argument(text: str) -> tuple[str, str]:
     name, assigned, value = text.partition(":=")
     if not name or not assigned:
-        raise argparse.ArgumentTypeError(f"{text!r} is no argument, expected name:=value")
+        raise argparse.ArgumentTypeError(f"{text!r} is not an argument, expected name:=value")
     return name, value
 
 
@@ -263,7 +328,7 @@ def _above_zero(text: str) -> float:
     except ValueError:
         value = 0.0
     if not 0.0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text!r} is no limit, expected a number above 0")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a limit, expected a number above 0")
     return value
 
 
@@ -273,13 +338,17 @@ def _ids(text: str) -> tuple[str, ...]:
 
 def _positive(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of processes, expected 1 or more")
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a number of processes, expected 1 or more"
+        )
     return int(text)
 
 
 def _count(text: str) -> int:
     if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of processes, expected 0 or more")
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a number of processes, expected 0 or more"
+        )
     return int(text)
 
 
@@ -292,14 +361,15 @@ def _networks(text: str) -> str:
             ipaddress.ip_network(each.strip())
         except ValueError:
             raise argparse.ArgumentTypeError(
-                f"{each!r} is no address or network, expected such as 127.0.0.1 or 172.30.77.0/24"
+                f"{each!r} is not an address or network, expected for example 127.0.0.1 or "
+                "172.30.77.0/24"
             ) from None
     return text
 
 
 def _port(text: str) -> int:
     if not (text.isascii() and text.isdecimal()) or int(text) > 65535:
-        raise argparse.ArgumentTypeError(f"{text!r} is no port, expected a number up to 65535")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a port, expected a number up to 65535")
     return int(text)
 
 

@@ -54,7 +54,7 @@ def write_baseline(before: Baseline, report: Report, rules: Collection[str]) -> 
     write(before.path, _text(before.path, packages))
     said = count(sum(len(packages[package.name]) for package in report.packages), "finding")
     where = count(len(report.packages), "package")
-    return f"{plain(str(before.path))} holds {said} of {where}\n"
+    return f"{plain(str(before.path))} contains {said} of {where}\n"
 
 
 def _refuse_equal_names(report: Report) -> None:
@@ -64,8 +64,8 @@ def _refuse_equal_names(report: Report) -> None:
     for name, places in paths.items():
         if len(places) > 1:
             raise CheckerError(
-                f"{listed(places[:3])} are packages of one name, {name}, by which a baseline knows "
-                "them; write one for each, with --baseline FILE"
+                f"{listed(places[:3])} are packages with the same name, {name}, which a baseline "
+                "cannot distinguish; write a baseline for each, with --baseline FILE"
             )
 
 
@@ -73,7 +73,9 @@ def _text(path: Path, packages: Mapping[str, tuple[BaselineEntry, ...]]) -> str:
     try:
         return baseline_text(packages)
     except ValueError as error:
-        raise CheckerError(f"{path} {error}; write one for fewer packages or rules") from None
+        raise CheckerError(
+            f"{path} {error}; write a baseline for fewer packages or rules"
+        ) from None
 
 
 def _entries(

@@ -109,9 +109,11 @@ def _refuse_together(options: argparse.Namespace) -> None:
         for other in others if getattr(options, option) else ():
             if getattr(options, other):
                 one, two = (f"--{name.replace('_', '-')}" for name in (option, other))
-                raise CheckerError(f"{one} and {two} do not go together; leave out one of them")
+                raise CheckerError(
+                    f"{one} and {two} cannot be used together; leave out one of them"
+                )
     if options.write_baseline and options.format != "text":
-        raise CheckerError("--write-baseline writes the baseline alone; leave out --format")
+        raise CheckerError("--write-baseline only writes the baseline; leave out --format")
 
 
 def _baseline(options: argparse.Namespace) -> Baseline | None:

@@ -84,7 +84,7 @@ def exported(path: Path, form: str, *, apart: bool = False, cached: bool = True)
     with open_input(path) as opened:
         if len(opened.packages) != 1:
             found = len(opened.packages)
-            raise CheckerError(f"{path} holds {found} packages; give one, for one robot is written")
+            raise CheckerError(f"{path} contains {found} packages; give one of them")
         package = opened.packages[0]
         subject = Subject(package, Cache(cache_folder()) if cached else NO_CACHE)
         try:
@@ -98,7 +98,7 @@ def _exported(
 ) -> Exported:
     robots = subject.robots
     if isinstance(robots, NotAtHand):
-        raise CheckerError(f"{path} gives no robot to write: {robots.reason}")
+        raise CheckerError(f"{path} has no robot to write: {robots.reason}")
     robot = robots[0]
     if form == "mjcf":
         return _as_mjcf(path, package, robot, apart=apart)

@@ -67,7 +67,7 @@ def _refuse_archives(path: Path) -> None:
     """Raise for what cannot be fixed, before anything is."""
     with open_input(path) as opened:
         if path.is_file() and any(not package.only for package in opened.packages):
-            raise UnreadableInput(path, "is an archive, which is not changed", _ARCHIVES_STAY)
+            raise UnreadableInput(path, "is an archive; archives are not changed", _ARCHIVES_STAY)
 
 
 def _fix_input(task: Task, allowed: Collection[Safety], write: bool) -> Iterator[FixedPackage]:
@@ -134,10 +134,13 @@ def _summary(package: FixedPackage) -> Iterator[str]:
         edits = [edit for each in fixed.elsewhere if each.fix for edit in each.fix.edits]
         files = sorted({plain(edit.place.file) for edit in edits})
         said = count(len(fixed.elsewhere), "finding")
-        yield f"{said} to fix in {listed(files)}, with the package that holds it"
+        yield f"{said} to fix in {listed(files)}: check the package that contains it"
     if fixed.withheld:
         said = count(len(fixed.withheld), "finding")
-        yield f"{said} left whose fix changes behaviour ({_rules(fixed.withheld)}): --diff --unsafe"
+        yield (
+            f"{said} not fixed, because the fix changes behaviour ({_rules(fixed.withheld)}): see "
+            "--diff --unsafe"
+        )
 
 
 def _rules(findings: Sequence[ReportedFinding]) -> str:

@@ -139,8 +139,8 @@ def guessed_profile(folder: Path) -> Guess:
     if len(found) == 1:
         return Guess(next(iter(found)), counted)
     if found:
-        return Guess("", f"{counted}; each is judged by subt, or by urdf if it is URDF")
-    return Guess("", "nothing, there is no robot yet")
+        return Guess("", f"{counted}; each is checked with the profile subt, or urdf if it is URDF")
+    return Guess("", "nothing: there is no robot yet")
 
 
 def _profile_of(package: Package) -> str:
@@ -172,7 +172,7 @@ def init(path: Path) -> str:
     """
     folder = path.resolve()
     if not folder.is_dir():
-        raise CheckerError(f"{path} is no folder; give the folder that holds the packages")
+        raise CheckerError(f"{path} is not a folder; give the folder that contains the packages")
     try:
         lines = [*_settings(folder), *_hook(folder)]
     except OSError as error:
@@ -183,11 +183,11 @@ def init(path: Path) -> str:
 def _settings(folder: Path) -> Iterator[str]:
     known = find_settings(folders_above(folder)).source
     if known is not None:
-        yield f"left {plain(str(known))} as it is"
+        yield f"{plain(str(known))} already exists and is not changed"
         return
     target = folder / FILE_NAME
     if os.path.lexists(target):
-        yield f"left {plain(str(target))} as it is: it is no file that holds settings"
+        yield f"{plain(str(target))} is not changed: it is not a settings file"
         return
     from jinja2 import StrictUndefined, Template
 
@@ -202,7 +202,7 @@ def _settings(folder: Path) -> Iterator[str]:
 def _hook(folder: Path) -> Iterator[str]:
     root = next((each for each in folders_above(folder) if (each / ".git").exists()), None)
     if root is None:
-        yield f"added no hook: {plain(str(folder))} lies in no git repository"
+        yield f"added no hook: {plain(str(folder))} is not in a git repository"
         return
     file = root / HOOKS_FILE
     if not os.path.lexists(file):
@@ -217,11 +217,11 @@ def _hook_into(file: Path) -> Iterator[str]:
     reason = data.reason if isinstance(data, NotReadable) else ""
     text = _decoded(data) if isinstance(data, bytes) else None
     if text is not None and has_hook(text):
-        yield f"left {plain(str(file))} as it is: it has the hook {ID}"
+        yield f"{plain(str(file))} already has the hook {ID} and is not changed"
         return
     after = with_hook(text) if text is not None else None
     if after is None:
-        reason = reason or "is not in a form to which it can be added safely"
+        reason = reason or "has a form to which the hook cannot be added safely"
         yield f"added no hook: {plain(str(file))} {reason}; add this to its list `repos`:"
         yield hook_entry().rstrip()
         return

@@ -46,7 +46,7 @@ def _example(example: object) -> str:
             case "@fragment", _:
                 shown.append(f"model.sdf:\n{_indented(text.strip())}")
             case "@urdf", True:
-                shown.append("urdf/arm.urdf holds an arm with a transmission for its joint")
+                shown.append("urdf/arm.urdf contains an arm with a transmission for its joint")
             case "@urdf", _:
                 shown.append(f"urdf/arm.urdf:\n{_indented(text.strip())}")
             case "@name", _:

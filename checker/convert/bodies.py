@@ -94,7 +94,7 @@ def _lumped(tie: Tie, link: Link, kept: frozenset[str], notes: Notes) -> bool:
     if tie.joint.name.value not in kept:
         return True
     if link.mass == 0.0:
-        said = "has no mass: its fixed joint is lumped though a <gazebo> tag asks to keep it"
+        said = "has no mass: its fixed joint is lumped, although a <gazebo> tag asks to keep it"
         notes.say(link, f"link {link.name.value!r} {said}")
         return True
     return False
@@ -105,13 +105,13 @@ def _drop_massless(found: Bodies, notes: Notes) -> None:
     carrying: set[str] = set()
     for name, body in reversed(list(found.bodies.items())):
         if body.mass == 0.0 and name not in carrying and len(found.bodies) > 1:
-            notes.say(body.link, f"link {name!r} has no mass: left out, as Gazebo leaves it out")
+            notes.say(body.link, f"link {name!r} has no mass: left out, as in Gazebo")
             del found.bodies[name]
             for part in body.parts:
                 del found.holders[part.link.scoped_name]
             continue
         if body.mass == 0.0:
-            said = "Gazebo leaves it out with all that hangs on it, so it needs an <inertial>"
+            said = "Gazebo drops it with all links below it, so it needs an <inertial>"
             notes.say(body.link, f"link {name!r} has no mass: {said}")
         if body.tie is not None and body.tie.parent in found.holders:
             carrying.add(found.holders[body.tie.parent].link.scoped_name)

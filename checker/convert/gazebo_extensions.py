@@ -80,7 +80,7 @@ class Copier:
             if chosen != name:
                 twin.set("name", chosen)
                 said = f"{element.tag} {name!r} is renamed to {chosen!r}"
-                self.notes.say(element, f"{said}: link {link!r} has got another of that name")
+                self.notes.say(element, f"{said}: link {link!r} already has one with that name")
             name = chosen
         return name if element.tag == "sensor" else ""
 
@@ -97,7 +97,7 @@ class Copier:
         scope = Scope("", MODEL_FRAME, (1, 6), ValueReader(), FrameGraph())
         own = scope.pose(element)
         if own.relative_to:
-            said = f"<pose> of a {element.tag} is relative to {own.relative_to!r}: left as it is"
+            said = f"<pose> of a {element.tag} is relative to {own.relative_to!r}: not changed"
             self.notes.say(own, said)
             return
         node = twin.find("pose")

@@ -105,7 +105,7 @@ def gazebo_tags(robot: Robot, description: UrdfDescription, notes: Notes) -> dic
         here = said.setdefault(reference, Said())
         for element in tag.element.children:
             if not _sort(element, here, kinds):
-                notes.say(element, f"<{element.tag}> of a <gazebo> tag is not carried over")
+                notes.say(element, f"<{element.tag}> of a <gazebo> tag is left out")
     return said
 
 

@@ -49,8 +49,10 @@ def add_joint(
     """Add a joint to a model; None for one of a type that leaves its child free in Gazebo."""
     kind = _TYPES.get(joint.type.value)
     if kind is None:
-        said = f"joint {joint.name.value!r} is of type {joint.type.value!r}, which SDF lacks"
-        notes.say(joint, f"{said}: left out, so that link {ends.child!r} is free")
+        said = (
+            f"joint {joint.name.value!r} has the type {joint.type.value!r}, which SDF does not have"
+        )
+        notes.say(joint, f"{said}: left out, so link {ends.child!r} moves freely")
         return None
     element = add(model, "joint", name=name, type_=kind)
     add(element, "parent", ends.parent)
@@ -62,8 +64,8 @@ def add_joint(
         if kind != "fixed" or setting.path[0] != "axis":
             child_of(element, *setting.path).text = setting.value
     for named in joint.mimics:
-        said = f"joint {joint.name.value!r} mimics {named.value!r}, which SDF 1.6 cannot say"
-        notes.say(named, f"{said}: it moves on its own")
+        said = f"joint {joint.name.value!r} mimics {named.value!r}, which SDF 1.6 cannot describe"
+        notes.say(named, f"{said}: it moves independently")
     return element
 
 
@@ -148,7 +150,7 @@ class ShapeWriter:
         """Return what a shape consists of in SDF 1.6; nothing, with a note, for what it lacks."""
         found = shapes_of(shape.geometry, _PRIMITIVES)
         if not found:
-            kind = shape.geometry.shape or "shape that is missing or not known"
+            kind = shape.geometry.shape or "missing or unknown shape"
             self.notes.say(shape, f"a {shape.element.tag} that is a {kind} is left out")
         return found
 

@@ -83,7 +83,7 @@ class _Writer:
         tie, child = self.hanging.by.get(name), self._pose(name)
         if tie is None:
             link = self.robot.tree.links[name]
-            said = f"link {name!r} hangs on no other link: a floating joint ties it to {top!r}"
+            said = f"link {name!r} has no parent link: a floating joint connects it to {top!r}"
             self.notes.say(link, said)
         at = top if tie is None else tie.parent
         steps = [Step("floating", child)] if tie is None else self._steps(tie, child)
@@ -102,8 +102,8 @@ class _Writer:
         steps = list(steps_of(self.robot, tie, child))
         joint = tie.joint
         if steps[0].kind == "fixed" and joint.type.value != "fixed":
-            said = f"joint {joint.scoped_name!r} ({joint.type.value}) is written as a fixed one"
-            self.notes.say(joint, f"{said}: its limits, its axis or URDF leave it no motion")
+            said = f"joint {joint.scoped_name!r} ({joint.type.value}) is written as a fixed joint"
+            self.notes.say(joint, f"{said}: its limits, its axis or URDF allow no motion")
         return steps
 
     def _pose(self, name: str) -> Transform:
@@ -117,11 +117,14 @@ class _Writer:
 
     def _say_what_is_cut(self) -> None:
         for tie in self.hanging.left_out:
-            said = f"joint {tie.joint.scoped_name!r} closes a loop, which URDF cannot: left out"
+            said = (
+                f"joint {tie.joint.scoped_name!r} closes a loop, which URDF cannot describe: left "
+                "out"
+            )
             self.notes.say(tie.joint, said)
         for broken in self.robot.tree.broken:
-            said = f"joint {broken.joint.scoped_name!r} ties {broken.missing.value!r}"
-            self.notes.say(broken.joint, f"{said}, which is no link: left out")
+            said = f"joint {broken.joint.scoped_name!r} connects {broken.missing.value!r}"
+            self.notes.say(broken.joint, f"{said}, which is not a link: left out")
 
 
 # The URDF for RViz as a xacro file, whose argument `name` goes in front of every link.

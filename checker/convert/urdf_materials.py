@@ -82,14 +82,14 @@ class Materials:
             return None
         paint = _paint(element_, self._notes) or self._named.get(element_.get("name") or "")
         if paint is None:
-            self._notes.say(element_, f"material {element_.get('name')!r} is defined nowhere")
+            self._notes.say(element_, f"material {element_.get('name')!r} is not defined")
         return paint
 
     def _of_gazebo(self, element: Element) -> Paint | None:
         name = value_of(element)
         known = table("gazebo_colours")["colours"].get(name)
         if known is None:
-            self._notes.say(element, f"material {name} is no plain colour of Gazebo: left out")
+            self._notes.say(element, f"material {name} is not a plain colour of Gazebo: left out")
             return None
         colours = {part: (*known[part], 1.0) for part in _COLOURS if part in known}
         return Paint(colours, known.get("transparency", 0.0))
@@ -109,7 +109,7 @@ def _paint(material: Element, notes: Notes) -> Paint | None:
         read = ValueReader().attribute_numbers(colour, "rgba", (0.0, 0.0, 0.0, 1.0))
         rgba = [each.value for each in read]
         if max(rgba[:3]) > 1.0:
-            notes.say(colour, f"colour {colour.get('rgba')!r} is taken to go up to 255, not to 1")
+            notes.say(colour, f"colour {colour.get('rgba')!r} is read as 0 to 255, not 0 to 1")
             rgba = [*(each / _BYTE for each in rgba[:3]), rgba[3]]
         rgba = [min(max(each, 0.0), 1.0) for each in rgba]
     opaque = (*rgba[:3], 1.0)

@@ -93,7 +93,7 @@ class LinkWriter:
             return
         inertial = add(element, "inertial")
         if link.inertial is None:
-            said = f"link {link.scoped_name!r} states no inertial: SDFormat's default is written"
+            said = f"link {link.scoped_name!r} has no inertial: SDFormat's default is written"
             self.notes.say(link, said)
             mass, moments = exact(link.mass), ["1", "0", "0", "1", "0", "1"]
         else:
@@ -113,10 +113,12 @@ class LinkWriter:
     ) -> None:
         shapes = shapes_of(source.geometry, _PRIMITIVES)
         if not shapes and source.geometry.shape != "empty":
-            what = source.geometry.shape or "shape that is missing or not known"
-            self.notes.say(source, f"a {kind} that is a {what} is left out: URDF has none")
+            what = source.geometry.shape or "missing or unknown shape"
+            self.notes.say(
+                source, f"a {kind} that is a {what} is left out: URDF does not have this shape"
+            )
         if source.geometry.element.child("submesh") is not None:
-            self.notes.say(source, f"a {kind} is of the whole mesh: URDF has no submeshes")
+            self.notes.say(source, f"a {kind} uses the whole mesh: URDF has no submeshes")
         for shape in shapes:
             stem = source.name.value or f"{link.name.value}_{kind}"
             child = add(element, kind, name=unique(stem, taken))
@@ -140,8 +142,8 @@ class LinkWriter:
         frame = self.robot.pose_of(link.scoped_name)
         at = self.robot.pose_of_part(link, stated)
         if frame is None or at is None:
-            said = f"a place is relative to {stated.relative_to!r}, which is not known"
-            self.notes.say(stated, f"{said}: the link's frame taken")
+            said = f"a pose is relative to {stated.relative_to!r}, which is not known"
+            self.notes.say(stated, f"{said}: the link's frame is used")
             return Transform()
         return frame.inverse @ at
 

@@ -105,7 +105,7 @@ class _Writer:
         link = add(model, "link", name=self.naming.local(name))
         pose = self.robot.pose_of(name)
         if pose is None:
-            self.notes.say(body.link, f"the pose of link {name!r} is not known: the origin taken")
+            self.notes.say(body.link, f"the pose of link {name!r} is not known: the origin is used")
             pose = Transform()
         if not is_identity(pose):
             stated = body.tie.joint.pose if body.tie is not None else None
@@ -155,15 +155,15 @@ class _Writer:
 
     def _say_what_is_cut(self) -> None:
         for tie in self.found.left_out:
-            said = f"joint {tie.joint.name.value!r} ties {tie.child!r}"
-            self.notes.say(tie.joint, f"{said}, which hangs on another link already: left out")
+            said = f"joint {tie.joint.name.value!r} connects {tie.child!r}"
+            self.notes.say(tie.joint, f"{said}, which already has a parent link: left out")
         for broken in self.robot.tree.broken:
-            said = f"joint {broken.joint.name.value!r} ties {broken.missing.value!r}"
-            self.notes.say(broken.joint, f"{said}, which is no link: left out")
+            said = f"joint {broken.joint.name.value!r} connects {broken.missing.value!r}"
+            self.notes.say(broken.joint, f"{said}, which is not a link: left out")
         free = [body for body in self.found.bodies.values() if body.tie is None]
         for body in free[1:]:
-            said = f"link {body.link.name.value!r} hangs on no other link"
-            self.notes.say(body.link, f"{said}: it is free in the model")
+            said = f"link {body.link.name.value!r} has no parent link"
+            self.notes.say(body.link, f"{said}: it moves freely in the model")
 
     def _said(self, name: str) -> Said:
         return self.said.get(name, _NOTHING)

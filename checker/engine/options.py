@@ -33,7 +33,7 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
     for id in settings.options:
         options_of(by_id[id], settings)
     if rules and not any(map(settings.selects, rules)):
-        raise InvalidSettings(settings.source, "select and ignore leave no rule to run")
+        raise InvalidSettings(settings.source, "select and ignore leave no rules to run")
 
 
 def _check_entries(settings: Settings, rules: Sequence[Rule]) -> None:
@@ -42,7 +42,7 @@ def _check_entries(settings: Settings, rules: Sequence[Rule]) -> None:
     single = {name for rule in rules for name in (rule.id, rule.name)}
     for entry in settings.suppress:
         if entry.rule.upper() in groups:
-            problem = f"suppress names the group {entry.rule!r}; entries name single rules"
+            problem = f"suppress names the group {entry.rule!r}; expected a single rule"
             raise InvalidSettings(settings.source, problem)
         if entry.rule.upper() not in single and entry.rule.lower() not in single:
             raise InvalidSettings(settings.source, no_such_rule(entry.rule, single))
@@ -109,6 +109,6 @@ def _finite(value: Any) -> float | None:
 def _kind(default: Any) -> str:
     if isinstance(default, tuple):
         return f"a list in which each is {_kind(_element(default))}"
-    names = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
+    names = {bool: "true or false", int: "a whole number", float: "a number", str: "a string"}
     kind = names.get(type(default), type(default).__name__)
     return kind if _is_allowed(-1, default) else f"{kind}, 0 or more"

@@ -63,7 +63,7 @@ T = TypeVar("T")
 
 _WITHOUT_ROBOT = {
     PackageKind.PLUGIN: "the package only carries a plugin",
-    PackageKind.UNKNOWN: "the package holds no robot",
+    PackageKind.UNKNOWN: "the package contains no robot",
 }
 
 
@@ -93,7 +93,7 @@ class Subject(Record, eq=False, dict=True):
         """
         provide = _PROVIDERS.get(kind)
         if provide is None:
-            raise LookupError(f"{kind.__name__} is no part of a package")
+            raise LookupError(f"{kind.__name__} is not a part of a package")
         had = provide(self)
         if isinstance(had, NotAtHand):
             return had
@@ -175,7 +175,7 @@ class Subject(Record, eq=False, dict=True):
     def urdf_files(self) -> UrdfFiles | NotAtHand:
         """What became of the URDF files."""
         if not self.describing.applicable:
-            return NotAtHand("no URDF file stands for a robot", applicable=False)
+            return NotAtHand("no URDF file is a robot", applicable=False)
         return self.describing.files
 
     @cached_property
@@ -186,7 +186,7 @@ class Subject(Record, eq=False, dict=True):
             return files if isinstance(files, NotAtHand) else files.descriptions
         wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
         reasons = [*wrong, *files.unread]
-        said = next(iter((*reasons, *files.set_aside)), "the URDF files hold no robot")
+        said = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
         return NotAtHand(said, applicable=bool(reasons))
 
     def document(self, path: str) -> XmlDocument | NotAtHand:
@@ -236,7 +236,7 @@ class Subject(Record, eq=False, dict=True):
             robots = robots[:1]
         if not robots:
             nothing_to_see = self.model.root.child("world") is not None
-            reason = f"{self.model.source.file} holds no model"
+            reason = f"{self.model.source.file} contains no model"
             return NotAtHand(reason, applicable=not nothing_to_see)
         return (self._with_spawned_plugins(robots[0]), *robots[1:])
 
@@ -260,7 +260,7 @@ class Subject(Record, eq=False, dict=True):
         """The configuration of the same robot that has the lowest number at hand."""
         package = first_configuration(self.package)
         if package is None:
-            return NotAtHand("no earlier configuration is at hand to compare", applicable=False)
+            return NotAtHand("no earlier configuration is available to compare", applicable=False)
         robots = Subject(package)._read_robots()
         if isinstance(robots, NotAtHand):
             return NotAtHand(f"{package.name} cannot be compared: {robots.reason}")
@@ -351,7 +351,7 @@ class Subject(Record, eq=False, dict=True):
         """What controls the joints of a URDF package."""
         alone = self.package.only and self.describing.applicable
         if self.package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
-            return NotAtHand("the package is no URDF package", applicable=False)
+            return NotAtHand("the package is not a URDF package", applicable=False)
         return control_system(self.package, self.launch_entries, self.robots, self.descriptions)
 
     @cached_property

@@ -43,8 +43,8 @@ def write_files(package: Package, files: Iterable[FixedFile]) -> None:
             _sync_folder(target.parent)
     except OSError as error:
         raise NotWritten(
-            f"{error.filename or package.name} cannot be written: {error.strerror}; "
-            "files are replaced whole, so none is half written"
+            f"{error.filename or package.name} cannot be written: {error.strerror}; no file is "
+            "half written"
         ) from None
     finally:
         for new, _ in prepared:
@@ -55,7 +55,9 @@ def write_files(package: Package, files: Iterable[FixedFile]) -> None:
 def _target(package: Package, file: FixedFile) -> Path:
     target = package.root / file.path
     if target.resolve() != target or not target.is_relative_to(package.root):
-        raise NotWritten(f"{file.path} is reached through a link, and links are not written to")
+        raise NotWritten(
+            f"{file.path} is reached through a link; the checker does not write through links"
+        )
     return target
 
 

@@ -100,10 +100,12 @@ class Assets:
         if old in self._targets or not self.source.package.exists(old):
             return
         if new in self._taken:
-            self._note(f"{mesh} names {named}, and another file is {new} already: it is left out")
+            self._note(
+                f"{mesh} names {named}, but another file is already called {new}: it is left out"
+            )
             return
         if new.startswith(("../", "/")):
-            self._note(f"{mesh} names {named}, which would lie outside the package: it is left out")
+            self._note(f"{mesh} names {named}, which is outside the package: it is left out")
         elif len(self._targets) < _FILES_LIMIT:
             self._targets[old] = new
 

@@ -43,7 +43,7 @@ def answer(request: bytes, files: Files) -> bytes:
         said = apart(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
         if not isinstance(said, Ended):
             return said
-    return _unable("no OpenGL is at hand (EGL or OSMesa)")
+    return _unable("OpenGL is not available (EGL or OSMesa)")
 
 
 def _unable(reason: str) -> bytes:

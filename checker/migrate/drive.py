@@ -90,8 +90,8 @@ def drive_of(robot: Robot, wheels: Wheels, wishes: Wishes) -> Drive:
     radii = [wheel.radius for wheel in wheels.all if wheel.radius]
     if not radii or not 0.0 < separation < math.inf:
         raise NotMigrated(
-            f"the wheels have no size or no distance: left {_places(wheels.left)}, "
-            f"right {_places(wheels.right)}; are sides swapped, or collisions missing?"
+            f"the wheels have no size or no distance: left {_places(wheels.left)}, right "
+            f"{_places(wheels.right)}; are the sides swapped, or are collisions missing?"
         )
     radius = fmean(radii)
     velocity, why = _velocity(wheels, radius, wishes)
@@ -118,13 +118,13 @@ def _standard() -> dict[str, float]:
 def _velocity(wheels: Wheels, radius: float, wishes: Wishes) -> tuple[float, str]:
     """Return the limit of velocity, m/s, and where it comes from."""
     if wishes.max_velocity is not None:
-        return wishes.max_velocity, "as you say"
+        return wishes.max_velocity, "from your options"
     rates = [axis.velocity.value for wheel in wheels.all for axis in wheel.joint.axes]
     reachable = min((rate for rate in rates if rate > 0.0), default=math.inf) * radius
     usual = float(_standard()["max_velocity"])
     if reachable >= usual:
-        return usual, "as SubT allows without validation"
-    return math.floor(reachable * 1000) / 1000, "as the wheels' velocity limits allow"
+        return usual, "SubT's limit without validation"
+    return math.floor(reachable * 1000) / 1000, "from the wheels' velocity limits"
 
 
 def _skidding(robot: Robot, plain: Drive) -> Drive:
@@ -132,15 +132,15 @@ def _skidding(robot: Robot, plain: Drive) -> Drive:
     said = f"DiffDrive turns {', '.join((*plain.left, *plain.right))}: {plain.wheels.reason}"
     notes = (
         said,
-        f"wheel separation {plain.separation:g} m and radius {plain.radius:g} m by the geometry",
+        f"wheel separation {plain.separation:g} m and radius {plain.radius:g} m from the geometry",
     )
     if count < _WHEELS_THAT_SLIP:
         return replace(plain, notes=notes)
     force = round(robot.mass * GRAVITY / count, 2)
     slip = f"WheelSlip for a skid-steer robot: {force:g} N on each of {count} wheels"
     factor = (
-        "skid-steer robots turn about a wider track than they have: raise <wheel_separation> in "
-        "launch/spawner.rb until the robot turns as fast as it is told"
+        "skid-steer robots turn as if their track were wider: increase <wheel_separation> in "
+        "launch/spawner.rb until the robot reaches the commanded turn rate"
     )
     points = (*plain.open_points, factor)
     return replace(plain, notes=(*notes, slip), normal_force=force, open_points=points)
@@ -151,13 +151,13 @@ def _steering(robot: Robot, plain: Drive) -> Drive:
     rear = [wheel for wheel in plain.wheels.all if wheel.steering not in joints]
     if not rear:
         raise NotMigrated(
-            "every driven wheel is steered, which AckermannSteering cannot; name the wheels that "
-            "it shall turn by --left-wheels and --right-wheels"
+            "every driven wheel is steered, which AckermannSteering does not support; name the "
+            "wheels that it drives with --left-wheels and --right-wheels"
         )
     poses = [robot.pose_of_joint(joint) for joint in joints]
     places = [pose.translation for pose in poses if pose is not None]
     if len(places) < len(joints):
-        raise NotMigrated(f"joint {joints[0].name.value!r} steers, and its place is not known")
+        raise NotMigrated(f"joint {joints[0].name.value!r} steers, but its place is not known")
     base = abs(fmean(p[0] for p in places) - fmean(w.centre[0] for w in rear if w.centre))
     limits = [abs(x.value) for j in joints for x in (j.axes[0].lower, j.axes[0].upper)]
     limit = min((each for each in limits if 0.0 < each < math.pi / 2), default=_STEERING_LIMIT)
@@ -188,7 +188,9 @@ def turn_forward(tree: etree._Element, wheels: Wheels) -> list[str]:
             put(axis, "xyz", " ".join(flipped))
     if not backwards:
         return []
-    return [f"axes of {', '.join(sorted(backwards))} are turned round: they rolled backwards"]
+    return [
+        f"the axes of {', '.join(sorted(backwards))} are reversed, because they pointed backwards"
+    ]
 
 
 def _mean_y(wheels: Sequence[Wheel]) -> float:

@@ -70,10 +70,10 @@ def mend_model(staging: Staging) -> list[str]:
 def _notes(findings: tuple[ReportedFinding, ...]) -> Iterator[str]:
     for finding in findings:
         more = f" (and {len(finding.places) - 1} more)" if len(finding.places) > 1 else ""
-        yield f"{finding.rule} is mended: {finding.message}{more}"
+        yield f"{finding.rule} is fixed: {finding.message}{more}"
 
 
-_SHEET_POINTS = "everything that says TODO in specifications.md: devices, cost, rights, validation"
+_SHEET_POINTS = "every TODO in specifications.md: devices, cost, rights, validation"
 
 
 class Migrated(Record):
@@ -128,8 +128,8 @@ def _check_apart(source: Source, destination: Path) -> None:
     package = source.package
     if not package.only and destination.resolve().is_relative_to(package.root.resolve()):
         raise NotMigrated(
-            f"{destination} lies inside package {package.name}, and ROS finds no package within "
-            "another; give a folder outside of it"
+            f"{destination} is inside package {package.name}, and ROS finds no package inside "
+            "another; give a folder outside it"
         )
 
 
@@ -167,7 +167,9 @@ def _converted(
     conversion = sdf_of(robot, description, name=names.package, mesh_uri=assets.uri)
     links = [each.get("name") or "" for each in conversion.tree.iter("link")]
     if not links:
-        raise NotMigrated(f"{description.file} has no link that Gazebo would keep; nothing is left")
+        raise NotMigrated(
+            f"{description.file} has no link that Gazebo keeps, so the model is empty"
+        )
     judged = judge_plugins(conversion, BASE if BASE in links else links[0])
     log.points += judged.open_points
     log.notes += [*conversion.notes, *judged.notes, *rewrite_sensors(conversion.tree)]
@@ -194,7 +196,7 @@ def _surround(
     servos = servos_of(source, robot)
     log.points += [*_what_moves_it(drive, servos), *papers.open_points]
     if not any(sensor.kind is SensorType.IMU for sensor in robot.sensors):
-        log.points.append("an IMU: the description has none, and every robot of SubT carries one")
+        log.points.append("an IMU: the description has none, but every SubT robot has one")
     pictures = thumbnails_of(robot, staging.folder)
     for name, picture in pictures.files.items():
         staging.write(f"thumbnails/{name}.png", picture)
@@ -215,14 +217,14 @@ def _surround(
 def _what_moves_it(drive: Drive | None, servos: list[Servo]) -> Iterator[str]:
     if drive is None and servos:
         yield (
-            f"what commands the {len(servos)} joints that JointPositionController holds with the "
-            "gains of the description's controllers (launch/spawner.rb)"
+            f"a program that commands the {len(servos)} joints of JointPositionController; the "
+            "gains are those of the description's controllers (launch/spawner.rb)"
         )
     elif drive is None:
         yield (
-            "the drive: no wheels were found (round parts on joints that turn without end about "
-            "their own axis, in pairs left and right); name their joints by --left-wheels and "
-            "--right-wheels, or put another drive plugin into launch/spawner.rb"
+            "the drive: no wheels are found (round parts on continuous joints about their own "
+            "axis, in pairs left and right); name their joints with --left-wheels and "
+            "--right-wheels, or add another drive plugin to launch/spawner.rb"
         )
 
 

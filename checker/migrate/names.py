@@ -97,8 +97,8 @@ def check_names(tree: etree._Element) -> None:
             name = element.get("name") or ""
             if _SAFE.fullmatch(name) is None:
                 raise NotMigrated(
-                    f"{tag} {name[:80]!r} has a name that launch files cannot hold; expected "
-                    "1 to 200 letters, digits and _ . : + -"
+                    f"{tag} {name[:80]!r} is a name that launch files cannot contain; expected 1 "
+                    "to 200 letters, digits and _ . : + -"
                 )
 
 
@@ -151,6 +151,6 @@ def _word(name: str, option: str) -> str:
     word = _UNFIT.sub("_", name.lower()).strip("_")[:_LENGTH_LIMIT].strip("_")
     if not word:
         raise NotMigrated(
-            f"{name!r} is no name for a package; give {option} of lower-case letters and digits"
+            f"{name!r} is not a package name; give {option} with lower-case letters and digits"
         )
     return word

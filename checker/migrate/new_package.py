@@ -197,12 +197,14 @@ def _made(destination: Path) -> list[Path]:
             held = [each.name for each in destination.iterdir()]
             if held := sorted(name for name in held if not name.startswith(_PREFIX)):
                 raise NotMigrated(
-                    f"{destination} is not empty (it holds {held[0]}); give a folder that is "
+                    f"{destination} is not empty (it contains {held[0]}); give a folder that is "
                     "empty or does not exist"
                 )
             return []
         if os.path.lexists(destination):
-            raise NotMigrated(f"{destination} is no folder; give one that is empty or not there")
+            raise NotMigrated(
+                f"{destination} is not a folder; give one that is empty or does not exist"
+            )
         missing = [each for each in (destination, *destination.parents) if not each.exists()]
         destination.mkdir(parents=True)
     except OSError as error:

@@ -59,12 +59,12 @@ def judge_plugins(conversion: Conversion, base: str) -> Judged:
         if carried.sensor:
             continue
         if known is None:
-            judged.open_points.append(f"what takes the place of {filename}, of unknown purpose")
+            judged.open_points.append(f"a replacement for {filename}, whose purpose is not known")
         elif system := _system_to_add(known):
             judged.open_points.append(f"{system} in launch/spawner.rb, for {filename}")
         elif known.get("action") == "replace" and not known.get("replacement"):
-            hint = known.get("note", "nothing does it by itself")
-            judged.open_points.append(f"what takes the place of {filename}: {hint}")
+            hint = known.get("note", "there is no direct replacement")
+            judged.open_points.append(f"a replacement for {filename}: {hint}")
         judged.notes += _replaced(known or {}, carried, conversion, base)
         instead = (known or {}).get("replacement") or {}
         if "Drive" in instead.get("name", "") or "Steering" in instead.get("name", ""):
@@ -76,13 +76,13 @@ def judge_plugins(conversion: Conversion, base: str) -> Judged:
 
 def _said(known: dict[str, Any] | None) -> str:
     if known is None:
-        return "is removed: it is built for Gazebo 9; only its author knows what can stand for it"
+        return "is removed: it is built for Gazebo 9, and only its author knows a replacement"
     instead = known.get("replacement") or {}
     note = f" ({known['note']})" if known.get("note") else ""
     if kind := instead.get("sensor_type"):
         return f"is replaced by a sensor of type {kind}"
     if _system_to_add(known):
-        return f"is removed; what does its work is {instead['filename']}, {instead['name']}{note}"
+        return f"is removed; its replacement is {instead['filename']}, {instead['name']}{note}"
     return f"is removed{note}"
 
 
@@ -112,9 +112,9 @@ def _replaced(
             name = _free_name(holder, _SENSOR_NAMES[kind])
             holder.append(_new_sensor(name, kind, pose, _rate_of(carried.node, kind)))
             place = numbers(pose.translation)
-            yield f"sensor {name!r} of type {kind} stands in link {link!r} at {place}"
+            yield f"sensor {name!r} of type {kind} is in link {link!r} at {place}"
     elif kind is not None:
-        yield f"{carried.plugin.filename.value} stands in no sensor: there is none to replace it"
+        yield f"{carried.plugin.filename.value} is not in a sensor, so no sensor can replace it"
 
 
 _SENSOR_NAMES = {
@@ -166,7 +166,7 @@ def _merged(carried: CarriedPlugin, tree: etree._Element) -> Iterator[str]:
     name = carried.plugin.filename.value
     cameras = _cameras_of(carried, tree)
     if not cameras:
-        yield f"{name} names no camera of the model: there is none to replace it"
+        yield f"{name} names no camera of the model, so no camera can replace it"
         return
     kept = next((each for each in cameras if "color" in each.get("name", "")), cameras[0])
     depth = next((each for each in cameras if each.get("type") == "depth"), None)
@@ -216,6 +216,6 @@ def _lights(tree: etree._Element) -> Iterator[str]:
     names = [each.get("name", "") for each in tree.iter("light")]
     if names:
         yield (
-            f"lights {', '.join(names)} are darker in Ignition Gazebo than in Gazebo 9: raise them "
-            "by the values below <attenuation>"
+            f"lights {', '.join(names)} are darker in Ignition Gazebo than in Gazebo 9: make them "
+            "brighter with the values below <attenuation>"
         )

@@ -62,7 +62,9 @@ def _singles(sensor: etree._Element, notes: list[str]) -> list[etree._Element]:
         parent.insert(parent.index(sensor), part)
         parts.append(part)
     parent.remove(sensor)
-    notes.append(f"sensor {sensor.get('name')!r} has {len(cameras)} lenses: a camera for each")
+    notes.append(
+        f"sensor {sensor.get('name')!r} has {len(cameras)} lenses, so it becomes several cameras"
+    )
     return parts
 
 
@@ -87,7 +89,10 @@ def _rewritten(sensor: etree._Element) -> Iterator[str]:
     _form(sensor, kind, plugin)
     sensor.set("type", kind)
     if kind == "gpu_lidar" and _is_range(plugin) and _one_row(sensor):
-        yield f"sensor {name!r} measures along one row of rays: it gives a LaserScan, not a Range"
+        yield (
+            f"sensor {name!r} measures along one row of rays, so it publishes a LaserScan, not a "
+            "Range"
+        )
     if kind != was:
         yield f"sensor {name!r} of type {was!r} becomes {kind}"
 

@@ -23,7 +23,7 @@ from checker.package.package import Package
 from checker.physics.mesh.uris import MeshFile, file_behind
 
 _NAMED_LIMIT = 8
-_GIVE_ARGUMENT = "; give it by --args name:=value"
+_GIVE_ARGUMENT = "; give it with --args name:=value"
 
 
 class Source(Record, eq=False):
@@ -73,20 +73,22 @@ def _package_of(opened: Opened, path: Path, urdf: str) -> Package:
         return described[0]
     if described:
         names = _listed([package.name for package in described])
-        raise NotMigrated(f"{path} holds several packages ({names}); give the folder of one")
+        raise NotMigrated(
+            f"{path} contains several packages ({names}); give the folder of one of them"
+        )
     with_model = [each for each in opened.packages if each.index.with_suffix(".sdf")]
     if with_model:
         raise NotMigrated(
-            f"{path} has an SDF model already ({with_model[0].index.with_suffix('.sdf')[0].path}); "
-            "there is nothing to migrate. Check it by: subt-check check PATH"
+            f"{path} already has an SDF model ({with_model[0].index.with_suffix('.sdf')[0].path}), "
+            "so there is nothing to migrate. To check it, run: subt-check check PATH"
         )
     raise _without_urdf(path)
 
 
 def _without_urdf(path: Path) -> NotMigrated:
     return NotMigrated(
-        f"{path} holds no robot in URDF (a .urdf or .xacro file with <robot> and links); give a "
-        "description package, or the file by --urdf"
+        f"{path} contains no robot in URDF (a .urdf or .xacro file with <robot> and links); give a "
+        "description package, or name the file with --urdf"
     )
 
 
@@ -99,7 +101,7 @@ def _file_in(package: Package, urdf: str) -> str:
         return real.relative_to(package.root).as_posix()
     found = [each.path for each in package.index.with_suffix(".urdf", ".xacro")]
     raise NotMigrated(
-        f"{urdf} is no file of {package.name}; found: {_listed(found) or 'no URDF file'}"
+        f"{urdf} is not a file of {package.name}; found: {_listed(found) or 'no URDF file'}"
     )
 
 
@@ -109,7 +111,9 @@ def _only_one(files: UrdfFiles, package: Package, path: Path) -> UrdfDescription
         return with_links[0]
     if with_links:
         names = _listed([each.file for each in with_links])
-        raise NotMigrated(f"{package.name} describes several robots: {names}; choose by --urdf")
+        raise NotMigrated(
+            f"{package.name} describes several robots: {names}; choose one with --urdf"
+        )
     if files.faults:
         raise NotMigrated(_fault(files.faults[0]))
     unread = (*files.unread, *files.set_aside)
@@ -184,9 +188,9 @@ def papers_of(source: Source) -> Papers:
     license = next((each.value for each in manifest.licenses if each.value), "") if manifest else ""
     open_points = []
     if person is None:
-        open_points.append("maintainer, with e-mail (package.xml, model.config)")
+        open_points.append("the maintainer, with email (package.xml, model.config)")
     if not license or license.upper() == NO_LICENSE:
-        open_points.append("license (package.xml)")
+        open_points.append("the license (package.xml)")
     return Papers(
         _one_line(person.name.value) if person else NO_NAME,
         _one_line(person.email.value) if person else NO_EMAIL,

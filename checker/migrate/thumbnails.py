@@ -48,7 +48,7 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     """
     shapes = list(_shapes(robot, folder))
     if not shapes:
-        return Thumbnails(trouble=_trouble("the model has nothing that can be seen"))
+        return Thumbnails(trouble=_trouble("the model has no visuals"))
     request = json.dumps({"shapes": shapes}).encode()
     files = dict.fromkeys((str(each["file"]) for each in shapes if each["file"]), SIZE_LIMIT)
     limits = Limits(_SECONDS, _MEMORY, draws=True)
@@ -58,15 +58,15 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     try:
         answer = from_json(said)
         if "pictures" not in answer:
-            return Thumbnails(trouble=_trouble(str(answer.get("unable", "no picture came"))))
+            return Thumbnails(trouble=_trouble(str(answer.get("unable", "there is no picture"))))
         pictures = (base64.b64decode(each) for each in answer["pictures"])
         return Thumbnails(dict(zip(NAMES, pictures, strict=True)))
     except NONSENSE:
-        return Thumbnails(trouble=_trouble("the process that draws answered with nonsense"))
+        return Thumbnails(trouble=_trouble("the process that draws sent an invalid answer"))
 
 
 def _trouble(reason: str) -> str:
-    return f"thumbnails/1.png to 5.png (slantwise, top, left, front, rear), not drawn: {reason}"
+    return f"thumbnails/1.png to 5.png (at an angle, top, left, front, rear), not drawn: {reason}"
 
 
 def _shapes(robot: Robot, folder: Path) -> Iterator[dict[str, Any]]:

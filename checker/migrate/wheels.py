@@ -63,11 +63,11 @@ def find_drive_wheels(
             make pairs.
     """
     if wishes.left_wheels or wishes.right_wheels:
-        return _named(robot, wishes.left_wheels, wishes.right_wheels, "as you name them")
+        return _named(robot, wishes.left_wheels, wishes.right_wheels, "from your options")
     for carried in plugins:
         left, right = _of_plugin(carried, robot)
         if left and right:
-            reason = f"as {carried.plugin.filename.value} names them"
+            reason = f"named by {carried.plugin.filename.value}"
             return _named(robot, left, right, reason)
     return _guessed(robot, driven)
 
@@ -82,7 +82,8 @@ def _named(robot: Robot, left: Iterable[str], right: Iterable[str], reason: str)
             wheel = None if joint is None else reader.below(joint, side, knuckles)
             if wheel is None or wheel.axis is None or wheel.centre is None:
                 raise NotMigrated(
-                    f"{name!r} is no joint that turns a wheel; joints that turn: {_turning(robot)}"
+                    f"{name!r} is not a joint that turns a wheel; joints that turn: "
+                    f"{_turning(robot)}"
                 )
             wheels.append(wheel)
         if not wheels:
@@ -121,7 +122,7 @@ def _guessed(robot: Robot, driven: frozenset[str]) -> Wheels:
     alone = [wheel for wheel in (*left, *right) if id(wheel) not in paired]
     if alone or not pairs or len(pairs) != len(left) or len(left) != len(right):
         raise NotMigrated(_unsure(left, right, alone))
-    found = "round parts on joints that turn without end about their own axis"
+    found = "round parts on continuous joints about their own axis"
     why = ", ".join(filter(None, (found, reason)))
     return Wheels(_front_first(left), _front_first(right), why, _steering(robot))
 
@@ -141,10 +142,10 @@ def _unsure(left: Sequence[Wheel], right: Sequence[Wheel], alone: Sequence[Wheel
         for side, wheels in (("left", left), ("right", right))
     )
     odd = ", ".join(wheel.joint.name.value for wheel in alone)
-    without = f"; without partner: {odd}" if odd else ""
+    without = f"; without a partner: {odd}" if odd else ""
     return (
-        f"it is unclear which wheels drive the robot ({'; '.join(named)}{without}); "
-        "name their joints by --left-wheels and --right-wheels"
+        f"it is unclear which wheels drive the robot ({'; '.join(named)}{without}); name their "
+        "joints with --left-wheels and --right-wheels"
     )
 
 

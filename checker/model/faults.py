@@ -11,7 +11,7 @@ from checker.source.text import Span
 class FaultKind(enum.Enum):
     """What sort of fault a reader met."""
 
-    VALUE = "a value does not read as its type"
+    VALUE = "a value is not of its type"
     FRAME = "a frame is unknown or depends on itself"
     INCLUDE = "an included model cannot be read"
 

@@ -25,7 +25,7 @@ class MeshTrouble(enum.StrEnum):
     """A format that the checker does not read."""
     UNREADABLE = "unreadable"
     """Empty or corrupt."""
-    NOT_LOOKED_AT = "not looked at"
+    NOT_LOOKED_AT = "not checked"
     """The checker gave up (limits of time, memory, size), or its place is beyond the workspace."""
 
 
@@ -98,7 +98,7 @@ class NoMeshes(Record):
 
     def of(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002 - as a `Meshes` has it
         """Say that the file is not at hand."""
-        return MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not looked for")
+        return MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not searched")
 
 
 def mesh_of(geometry: Geometry, meshes: Meshes) -> Mesh | MeshFault | None:
@@ -120,7 +120,7 @@ def _as_used(geometry: Geometry, file: Mesh | MeshFault) -> Mesh | MeshFault:
     centred = center is not None and center.text.value.strip() in ("true", "1")
     if name is not None and file.parts == (name.text.value.strip(),) and not centred:
         return file
-    return MeshFault(MeshTrouble.NOT_LOOKED_AT, "is used in part only (<submesh>)")
+    return MeshFault(MeshTrouble.NOT_LOOKED_AT, "is only partly used (<submesh>)")
 
 
 class MeshUse(Record, eq=False):

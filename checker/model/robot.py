@@ -139,7 +139,7 @@ class Robot(Part, dict=True):
     def missing_parts(self) -> str:
         """Why parts of the robot are not known, as the end of a sentence; empty when all are."""
         uris = [uri.value or "a model without <uri>" for uri in self.unresolved_includes]
-        return f"{uris[0]} is included and not at hand" if uris else ""
+        return f"{uris[0]} is included, but not available" if uris else ""
 
     @staticmethod
     def folder_of(uri: Located[str]) -> str:

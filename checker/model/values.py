@@ -68,7 +68,7 @@ class ValueReader:
         child = parent.child(tag) if parent is not None else None
         if child is None:
             if parent is None:
-                raise ValueError(f"nothing holds <{tag}>")
+                raise ValueError(f"there is no <{tag}>")
             return tuple(Located(value, parent.span, stated=False) for value in default)
         return self.numbers_of(child, default)
 
@@ -96,7 +96,7 @@ class ValueReader:
         if len(read) == len(default):
             return read
         count = f"{len(default)} number{'s' if len(default) > 1 else ''}"
-        self.fault(FaultKind.VALUE, text.span, f"{label} holds {len(read)}, expected {count}")
+        self.fault(FaultKind.VALUE, text.span, f"{label} has {len(read)} values, expected {count}")
         padded = [*read[: len(default)]]
         padded += [Located(value, text.span, stated=False) for value in default[len(padded) :]]
         return tuple(padded)

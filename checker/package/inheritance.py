@@ -58,7 +58,7 @@ class Missing(Record):
     Attributes:
         part: Its path, or `model`.
         reason: A clause that says why.
-        package_not_at_hand: The sibling it comes from, when that is not at hand: then nothing is
+        package_not_at_hand: The sibling it comes from, when that is not available: then nothing is
             known about the part. None when the package itself lacks it.
     """
 
@@ -141,7 +141,7 @@ def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:
         name = reference.package_name
         sibling = holder.workspace.package(name)
         if sibling is None:
-            return Missing(part, f"{part} is inherited from {name}, which is not at hand", name)
+            return Missing(part, f"{part} is inherited from {name}, which is not available", name)
         if sibling.name in seen:
             chain = " → ".join([*seen, sibling.name])
             return Missing(part, f"{part} is inherited in a circle: {chain}")

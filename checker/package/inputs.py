@@ -83,7 +83,7 @@ def open_input(
     elif real.is_file() and shown.lower().endswith(SINGLE_FILE_SUFFIXES):
         yield _open_single(path, real, further)
     else:
-        raise UnreadableInput(path, "is no package, archive or model file", _WHAT_TO_GIVE)
+        raise UnreadableInput(path, "is not a package, archive or model file", _WHAT_TO_GIVE)
 
 
 def _resolved(path: Path) -> Path:
@@ -100,7 +100,7 @@ def _resolved(path: Path) -> Path:
 
 def _unpack(path: Path, real: Path, target: Path, shown: str, limits: ArchiveLimits | None) -> None:
     if not real.is_file():
-        raise UnreadableInput(path, "is no regular file", _WHAT_TO_GIVE)
+        raise UnreadableInput(path, "is not a regular file", _WHAT_TO_GIVE)
     try:
         unpack_archive(real, target, shown, limits)
     except UnreadableInput as error:
@@ -144,7 +144,7 @@ def _open_folder(path: Path, folder: Path, further: tuple[Path, ...]) -> Opened:
         return _opened(folder.parent, [folder], further)
     around = enclosing_package(folder)
     advice = f"give the package folder {around}" if around else _WHAT_TO_GIVE
-    missing = "holds no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
+    missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     raise UnreadableInput(path, missing, advice)
 
 
@@ -180,11 +180,11 @@ def _collect(
         if place.name.startswith(".") or place.name == "__MACOSX" or not _is_folder(place):
             continue
         if place.is_symlink():
-            skipped.append(Skipped(place.name, "is a link; give the folder it leads to"))
+            skipped.append(Skipped(place.name, "is a link; give the folder to which it leads"))
         elif not os.access(place, os.R_OK | os.X_OK):
             skipped.append(Skipped(place.name, "cannot be read: permission denied"))
         elif not (looks_like_package(place) or holds_loose_models(place)):
-            skipped.append(Skipped(place.name, "holds no package"))
+            skipped.append(Skipped(place.name, "contains no package"))
         elif place.name in packages:
             skipped.append(Skipped(place.name, "has the name of another package"))
         else:

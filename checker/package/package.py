@@ -156,7 +156,7 @@ class Package(Record, eq=False, dict=True):
         if entry.kind is EntryKind.LINK and entry.content is EntryKind.LINK:
             reason = f"is a link that is not followed ({entry.target_state}: {entry.target})"
             return NotReadable(path, reason)
-        return entry if entry.is_file else NotReadable(path, "is no regular file")
+        return entry if entry.is_file else NotReadable(path, "is not a regular file")
 
     def xml(self, path: str) -> XmlDocument | XmlFault | NotReadable:
         """Return a file as XML, parsed once."""

@@ -76,12 +76,12 @@ class _Walk:
                 if entry.kind is EntryKind.FOLDER:
                     pending.append((f"{entry.path}/", item.path))
         if len(self.entries) > MAX_ENTRIES:
-            self._fault("", f"holds more than {MAX_ENTRIES} files; the rest is not looked at")
+            self._fault("", f"contains more than {MAX_ENTRIES} files; the rest is not checked")
         return FileIndex(dict(sorted(self.entries.items())), tuple(self.faults))
 
     def _items(self, prefix: str, location: str) -> list[os.DirEntry[str]]:
         if prefix.count("/") >= MAX_DEPTH:
-            self._fault(prefix[:-1], f"lies more than {MAX_DEPTH} folders deep")
+            self._fault(prefix[:-1], f"is more than {MAX_DEPTH} folders deep")
             return []
         room = MAX_ENTRIES + 1 - len(self.entries)
         try:
@@ -98,7 +98,7 @@ class _Walk:
                 return self._link(path, Path(item.path))
             status = item.stat(follow_symlinks=False)
         except OSError as error:
-            self._fault(path, f"cannot be looked at: {error.strerror}")
+            self._fault(path, f"cannot be read: {error.strerror}")
             return None
         kind = _kind(status.st_mode)
         if kind is EntryKind.FILE and not os.access(item.path, os.R_OK):

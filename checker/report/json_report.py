@@ -128,7 +128,7 @@ def report_from_json(text: str) -> Report:
     try:
         members = json.loads(text)
     except (ValueError, RecursionError):
-        raise NoReport("what should be a report is no JSON") from None
+        raise NoReport("the report is not JSON") from None
     version = members.get("schema_version") if isinstance(members, dict) else None
     if version != SCHEMA_VERSION:
         shown = shortened(plain(repr(version)), 40)
@@ -137,7 +137,7 @@ def report_from_json(text: str) -> Report:
         return _report(msgspec.convert(members, ReportJson))
     except msgspec.ValidationError as error:
         problem = shortened(plain(str(error)), 200)
-        raise NoReport(f"what should be a report is none: {problem}") from None
+        raise NoReport(f"the report is invalid: {problem}") from None
 
 
 def _report(read: ReportJson) -> Report:

@@ -36,7 +36,7 @@ def to_markdown(report: Report) -> str:
     blocks = [
         *_verdicts(report),
         _findings(found),
-        _folded("Why, and how to mend it", list(pages.values()), _page),
+        _folded("Why, and how to fix it", list(pages.values()), _page),
         _folded("Suppressed", _pairs(report, lambda package: package.suppressed), _aside),
         _folded("Not checked", _pairs(report, _unseen), _unseen_line),
         _folded("Facts", _pairs(report, _facts), _facts_line),

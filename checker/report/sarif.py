@@ -206,7 +206,7 @@ def _invocation(report: Report, left_out: int) -> Json:
         said.append({"level": level, "message": {"text": words(text)}})
     said = sorted(said, key=lambda each: str(each["level"]))[:NOTIFICATIONS_LIMIT]
     if left_out:
-        text = f"{count(left_out, 'result')} left out, {RESULTS_LIMIT} shown, the gravest first"
+        text = f"{count(left_out, 'result')} left out, {RESULTS_LIMIT} shown, the most severe first"
         said.append({"level": "warning", "message": {"text": text}})
     return {
         "executionSuccessful": not (crashed or failed),
@@ -215,7 +215,7 @@ def _invocation(report: Report, left_out: int) -> Json:
 
 
 def _notification(unseen: NotChecked, package: PackageReport) -> Json:
-    text = f"{package.name}: {unseen.rule} could not look: {unseen.reason}"
+    text = f"{package.name}: {unseen.rule} was not checked: {unseen.reason}"
     return {
         "level": "error" if unseen.cause is Cause.CRASHED else "note",
         "message": {"text": words(text)},

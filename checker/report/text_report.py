@@ -42,7 +42,7 @@ def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
         palette: Colours.
     """
     if trial["refused"]:
-        yield plain(f"trial: MuJoCo does not take the model: {_short(trial['refused'])}")
+        yield plain(f"trial: MuJoCo refuses the model: {_short(trial['refused'])}")
         return
     yield plain(f"trial: {_course(trial)}")
     rows = [row for row in rows_of(trial["measurements"]) if row.matters]
@@ -59,7 +59,7 @@ def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
     if trial["repairs"]:
         repaired = count(len(trial["repairs"]), "repair")
         first = trial["repairs"][0]
-        yield plain(f"    {repaired} so that it could go on: {_short(_repair(first))}")
+        yield plain(f"    {repaired} to make the trial possible: {_short(_repair(first))}")
 
 
 def _course(trial: Mapping[str, Any]) -> str:
@@ -142,7 +142,8 @@ def _package(
         explained.add(finding.rule)
     lines += _counted(share.own[SHOWN_LIMIT:])
     lines += [
-        f"{count(n, 'finding')} in {plain(name)}: see there" for name, n in share.elsewhere.items()
+        f"{count(n, 'finding')} in {plain(name)}: listed there"
+        for name, n in share.elsewhere.items()
     ]
     lines += [f"settings: {plain(shortened(package.settings, MESSAGE_LIMIT))}"] * bool(
         package.settings
@@ -172,7 +173,7 @@ def _counted(findings: Sequence[ReportedFinding]) -> Iterator[str]:
 def _inherited(package: PackageReport) -> Iterator[str]:
     by_source: dict[str, list[str]] = {}
     for part in package.inherited:
-        source = part.package + ("" if part.at_hand else " (not at hand)")
+        source = part.package + ("" if part.at_hand else " (not available)")
         by_source.setdefault(source, []).append(part.part)
     for source, parts in by_source.items():
         yield f"inherited from {plain(source)}: {plain(listed(parts))}"
@@ -202,4 +203,4 @@ def _verdict(package: PackageReport, palette: Palette) -> str:
 
 
 def _skipped(each: NotOpened) -> str:
-    return f"not looked at: {plain(each.path)} {plain(each.reason)}\n"
+    return f"not opened: {plain(each.path)} {plain(each.reason)}\n"

@@ -48,7 +48,7 @@ def _unseen(package: PackageReport) -> str:
     blind = len({each.rule for each in package.blind_spots})
     reasons = list(dict.fromkeys(each.reason for each in package.blind_spots))
     shown = plain(shortened(listed(reasons[:3]), _REASON_LIMIT))
-    return f"{count(blind, 'rule')} could not look: {shown}"
+    return f"{count(blind, 'rule')} not checked: {shown}"
 
 
 def _aside(package: PackageReport) -> str:

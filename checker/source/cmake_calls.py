@@ -86,7 +86,7 @@ class _Evaluation:
         if self._steps <= 0 and not self._ended:
             self._ended = True
             span = self._commands[start].span
-            self._faults.append(CMakeFault(span, f"takes more than {MAX_STEPS} steps to follow"))
+            self._faults.append(CMakeFault(span, f"takes more than {MAX_STEPS} steps to evaluate"))
 
     def _call(self, command: Command, *, conditional: bool) -> None:
         words = tuple(self._words(command.arguments))
@@ -121,7 +121,7 @@ class _Evaluation:
         """Unroll `foreach(x a b c)`; the body of any other loop runs once, x not known."""
         command = self._commands[start]
         if depth > MAX_DEPTH:
-            message = f"loops are nested deeper than {MAX_DEPTH} levels"
+            message = f"loops are nested more than {MAX_DEPTH} levels deep"
             self._faults.append(CMakeFault(command.name.span, message))
             return
         words = list(self._words(command.arguments))
@@ -201,7 +201,9 @@ def _block_ends(commands: Sequence[Command], faults: list[CMakeFault]) -> dict[i
             if opened and _BLOCKS[commands[opened[-1]].name.value] == name:
                 ends[opened.pop()] = index
             else:
-                faults.append(CMakeFault(command.name.span, f"{name}() closes nothing"))
+                faults.append(
+                    CMakeFault(command.name.span, f"{name}() has no matching opening command")
+                )
     for index in opened:
         name = commands[index].name.value
         faults.append(CMakeFault(commands[index].name.span, f"{name}() has no {_BLOCKS[name]}()"))

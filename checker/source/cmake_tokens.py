@@ -76,7 +76,7 @@ class _Tokens:
         while at < len(text):
             found = _TOKEN.match(text, at)
             if found is None:
-                self._fault(at, at + 1, f"{text[at]!r} may not stand here")
+                self._fault(at, at + 1, f"{text[at]!r} is not allowed here")
                 return
             elif found["equals"] is not None:
                 at, argument = self._bracket(found)
@@ -124,7 +124,7 @@ def read_commands(source: SourceText, faults: list[CMakeFault]) -> Iterator[Comm
     tokens = islice(_Tokens(source, faults), MAX_TOKENS)
     for name in tokens:
         if not _is_name(name):
-            message = f"{name.text.value[:40]!r} stands where a command should"
+            message = f"{name.text.value[:40]!r} is in the place of a command"
             faults.append(CMakeFault(name.text.span, message))
             return
         opening = next(tokens, None)

@@ -18,7 +18,7 @@ _OTHERS = {
     b"GIF8": "a GIF file",
     b"BM": "a BMP file",
     b"<svg": "an SVG file",
-    b"version https://git-lfs": "a pointer of Git LFS, not the picture",
+    b"version https://git-lfs": "a Git LFS pointer, not the picture",
 }
 
 
@@ -36,7 +36,7 @@ def png_fault(data: bytes) -> str | None:
             return f"is damaged: the check sum of its part {kind.decode('latin-1')!r} is wrong"
         kinds.append(kind)
     if kinds and (kinds[0] != b"IHDR" or (kinds[-1] == b"IEND" and b"IDAT" not in kinds)):
-        return "is damaged: it holds no picture"
+        return "is damaged: it contains no picture"
     return None if kinds[-1:] == [b"IEND"] else "is cut off"
 
 

@@ -72,7 +72,7 @@ def decode(data: bytes) -> str:
         where = getattr(error, "start", 0)
         raise NotText(f"is not {encoding.upper()} text: byte {where} cannot be decoded") from None
     if "\0" in text:
-        raise NotText("holds NUL characters, so it is a binary file")
+        raise NotText("contains NUL characters, so it is a binary file")
     return text
 
 

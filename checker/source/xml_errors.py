@@ -29,7 +29,7 @@ def mend_declaration(source: SourceText) -> tuple[str, list[XmlFault]]:
     fault = XmlFault(
         Span(source, *late.span(1)),
         "the XML declaration is not at the very start of the file",
-        "remove what is blank in front of it",
+        "remove the space or lines before it",
     )
     # Line ends stay: lxml counts lines.
     blank = re.sub(r"[^\r\n]", " ", late.group())
@@ -112,7 +112,7 @@ def _mismatched(source: SourceText, at: int, still_open: list[int]) -> XmlFault:
     if len(names) == 1 and source.wrapper:
         return XmlFault(span, f"</{name}> closes no open element")
     opened = still_open[-1]
-    message = f"</{name}> stands where <{names[-1]}> of line {_line(source, opened)} is still open"
+    message = f"</{name}> is here while <{names[-1]}> of line {_line(source, opened)} is still open"
     hint = _never_closed(source, opened, at)
     return XmlFault(span, message, hint or _wrong_name(name, names))
 
@@ -128,7 +128,7 @@ def _wrong_name(name: str, names: list[str]) -> str:
 def _too_early(source: SourceText, at: int, still_open: list[int]) -> XmlFault:
     span = Span(source, at, at)
     if not still_open:
-        return XmlFault(span, "the file holds no element")
+        return XmlFault(span, "the file contains no element")
     opened = still_open[-1]
     label = f"<{_name(source, opened)}> of line {_line(source, opened)}"
     hint = _never_closed(source, opened, at)
@@ -163,15 +163,15 @@ _CAUSES: tuple[tuple[re.Pattern[str], re.Pattern[str], str], ...] = tuple(
         (r"&\Z", r"", "write &amp; for &"),
         (r"&[\w#]{1,40}\Z", r"", "write &amp; for &, or end the entity with ;"),
         (r"]]\Z", r">", "write ]]&gt; for ]]>"),
-        (r"<!\Z|<!-\Z", r"", "a comment begins with <!-- and ends with -->"),
+        (r"<!\Z|<!-\Z", r"", "a comment starts with <!-- and ends with -->"),
         (r"<!--(?:[^-]|-[^-]){0,200}--\Z", r"", "a comment ends at -->, not before"),
-        (r"</\Z", r"\s", "remove the blank behind </"),
+        (r"</\Z", r"\s", "remove the space after </"),
         (r"<[^<>]{0,200}=\s*\Z", r"[^\s\"'<>]", "an attribute's value needs quotes"),
         (r"<[^<>]{0,200}[\s\"'][\w:.-]{1,100}\s*\Z", r"/?>|[\w:.-]", "an attribute needs a value"),
-        (r"=\s*([\"'])[^\"'<>]{0,200}\1\Z", r"[\w:]", "attributes need a blank between them"),
-        (r"=\s*([\"'])[^\"']{0,200}\1\s*\Z", r"<", "the tag in front is not closed by >"),
-        (r"=\s*([\"'])[^<]{0,200}\Z", r"<", "the closing quote of a value in front is missing"),
-        (r"<[\w:.-]{1,100}\s*\Z", r"<", "the tag in front is not closed by >"),
+        (r"=\s*([\"'])[^\"'<>]{0,200}\1\Z", r"[\w:]", "attributes need a space between them"),
+        (r"=\s*([\"'])[^\"']{0,200}\1\s*\Z", r"<", "the tag before this is not closed by >"),
+        (r"=\s*([\"'])[^<]{0,200}\Z", r"<", "the closing quote of a value before this is missing"),
+        (r"<[\w:.-]{1,100}\s*\Z", r"<", "the tag before this is not closed by >"),
         (r"<\Z", r"/[\w:]", "there is no element left to close"),
         (r"<\Z", r"", "write &lt; for <"),
         (r"/\Z", r"[\s/]", "an empty element ends with />"),
@@ -186,11 +186,11 @@ def _invalid(source: SourceText, at: int) -> XmlFault:
     character = source.text[at : at + 1]
     if character and not character.isprintable() and not character.isspace():
         code = f"U+{ord(character):04X}"
-        return XmlFault(span, f"the character {code} cannot stand in XML", "remove it")
+        return XmlFault(span, f"the character {code} is not allowed in XML", "remove it")
     before, after = source.text[max(0, at - _NEAR) : at], source.text[at : at + _NEAR]
-    message = f"{character!r} cannot stand here" if character else "the text breaks off"
+    message = f"{character!r} is not allowed here" if character else "the text ends too early"
     if not before.strip() or "<" not in source.text[:at]:
-        return XmlFault(span, message, "an XML file begins with <")
+        return XmlFault(span, message, "an XML file starts with <")
     for tail, head, hint in _CAUSES:
         if head.match(after) and tail.search(before):
             return XmlFault(span, message, hint)
@@ -200,26 +200,26 @@ def _invalid(source: SourceText, at: int) -> XmlFault:
 def _second_root(text: str, at: int) -> str:
     found = _OPENING.match(text, at)
     what = f"<{found.group(1)}>" if found else "text"
-    return f"everything stands in one outermost element; {what} stands behind it"
+    return f"an XML file has one root element, but {what} follows it"
 
 
 def _unclosed(text: str, at: int) -> str:
     if text.startswith("<!--", at):
-        return "the comment that begins here has no -->"
+        return "the comment that starts here has no -->"
     tag_end = text.find(">", at)
     if tag_end < 0:
-        return "the tag that begins here has no >"
+        return "the tag that starts here has no >"
     if text.startswith("<?", at):
-        return "the declaration that begins here has no ?>"
-    return "a quote of the tag that begins here is missing"
+        return "the declaration that starts here has no ?>"
+    return "a quote of the tag that starts here is missing"
 
 
 _HINTS: Mapping[str, Callable[[str, int], str]] = {
     "junk after document element": _second_root,
     "unclosed token": _unclosed,
-    "unclosed CDATA section": lambda *_: "the CDATA section that begins here has no ]]>",
-    "undefined entity": lambda *_: "XML knows &amp; &lt; &gt; &quot; and &apos;",
+    "unclosed CDATA section": lambda *_: "the CDATA section that starts here has no ]]>",
+    "undefined entity": lambda *_: "XML knows only &amp; &lt; &gt; &quot; and &apos;",
     "duplicate attribute": lambda *_: "keep one of them",
     "XML or text declaration not at start of entity": lambda *_: "remove the second <?xml …?>",
-    "reference to invalid character number": lambda *_: "that number is no character",
+    "reference to invalid character number": lambda *_: "this number is not a character",
 }

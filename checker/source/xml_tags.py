@@ -49,7 +49,7 @@ def namespace_faults(document: XmlDocument) -> Iterator[XmlFault]:
             yield XmlFault(
                 span,
                 f"the prefix {prefix!r} is not declared",
-                f'add xmlns:{prefix}="{uri}" to the outermost element',
+                f'add xmlns:{prefix}="{uri}" to the root element',
             )
 
 
@@ -160,7 +160,7 @@ class _TagReader:
         self.open_tags.append(tag)
         self.tags.append(tag)
         if len(self.open_tags) > self.max_depth:
-            message = f"elements are nested deeper than {self.max_depth} levels"
+            message = f"elements are nested more than {self.max_depth} levels deep"
             hint = "look for a missing end tag or a generator that never closes its elements"
             self._refuse(message, hint)
 
@@ -168,8 +168,8 @@ class _TagReader:
         self.open_tags.pop().end_start = self.parser.CurrentByteIndex
 
     def _doctype(self, *_: object) -> None:
-        hint = "remove it; robot files need none"
-        self._refuse("a document type (<!DOCTYPE>) is not read", hint)
+        hint = "remove it; robot files do not need one"
+        self._refuse("a document type (<!DOCTYPE>) is not allowed", hint)
 
     def _refuse(self, message: str, hint: str) -> None:
         # expat is already inside a document type when it tells of it.

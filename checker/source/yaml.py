@@ -141,7 +141,7 @@ class _Builder:
             if isinstance(event, CollectionStartEvent):
                 opened.append(_Open(event))
                 if len(opened) > MAX_DEPTH:
-                    self.fault(self._span(event), f"is nested deeper than {MAX_DEPTH} levels")
+                    self.fault(self._span(event), f"is nested more than {MAX_DEPTH} levels deep")
                     return None
                 continue
             if isinstance(event, CollectionEndEvent):
@@ -152,7 +152,7 @@ class _Builder:
                 continue
             self._nodes += node.size
             if node.height + len(opened) > MAX_DEPTH or self._nodes > MAX_NODES:
-                self.fault(node.span, "stands for too many values or too deeply nested ones")
+                self.fault(node.span, "expands to too many or too deeply nested values")
                 return None
             if not opened:
                 return node
@@ -184,14 +184,14 @@ class _Builder:
             if len(event.value) <= MAX_NUMBER_LENGTH:
                 value: Plain = self._constructor.construct_object(ScalarNode(tag, event.value))
                 return value
-        self.fault(self._span(event), f"{event.value[:40]!r} does not read as {tag}")
+        self.fault(self._span(event), f"{event.value[:40]!r} is not of type {tag}")
         return str(event.value)
 
     def _alias(self, event: AliasEvent) -> YamlNode:
         named = self._anchors.get(event.anchor or "")
         span = self._span(event)
         if named is None:
-            self.fault(span, f"*{event.anchor} names nothing that stands before it")
+            self.fault(span, f"*{event.anchor} names no anchor before it")
             return YamlNode("scalar", span)
         return YamlNode(
             named.kind, span, named.scalar, named.items, named.entries, named.size, named.height

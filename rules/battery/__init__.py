@@ -1,1 +1,1 @@
-"""Batteries: that there is one, that it drains, and how long it lasts."""
+"""BAT: battery, its draining and endurance."""

@@ -1,1 +1,1 @@
-"""Breadcrumbs: the communication relays that a robot drops."""
+"""BRD: breadcrumbs, the communication relays that a robot drops."""

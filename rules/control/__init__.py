@@ -1,1 +1,1 @@
-"""Control: what ros_control is told about the joints of a URDF package."""
+"""CTL: ros_control in URDF packages."""

@@ -74,14 +74,14 @@ def check(
         elif tags and not any(tag in text for tag in tags):
             yield finding(
                 reference,
-                f"the specification sheet says that {where} states {_expected(reference)}, but "
-                "none is there",
+                f"the specification sheet refers to {where} for {_expected(reference)}, but the "
+                "lines do not contain that",
             )
         elif wrong := _other_number(_claimed(specification, reference), text, tolerance):
             yield finding(
                 reference,
-                f"the specification sheet says that {where} states a limit of {wrong}, but other "
-                "numbers are there",
+                f"the specification sheet refers to {where} for a limit of {wrong}, but the lines "
+                "contain other numbers",
             )
 
 

@@ -88,7 +88,7 @@ def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[
         what = (
             "like all others: the robot drives backwards"
             if every
-            else "the other wheels turn against it"
+            else "so the other wheels turn against it"
         )
         yield finding(
             joint.axes[0].xyz[0],

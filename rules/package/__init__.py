@@ -1,1 +1,1 @@
-"""PKG: layout and paperwork of a package."""
+"""PKG: files, names and metadata of a package."""

@@ -1,1 +1,1 @@
-"""SEN: sensors, what they are set to, and where they look."""
+"""SEN: sensors, their settings and their views."""

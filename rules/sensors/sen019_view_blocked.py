@@ -44,7 +44,7 @@ def check(
         if fault is None:
             continue
         sensor = view.mounted.sensor
-        by = f", most of it visual {view.by[1].name.value!r}" if view.by is not None else ""
+        by = f"; mainly visual {view.by[1].name.value!r}" if view.by is not None else ""
         yield finding(
             sensor.pose,
             f"{sensor.kind.replace('_', ' ')} {sensor.name.value!r} {fault}{by}",

@@ -1,4 +1,4 @@
-"""A sensor with `<visualize>` switched on.
+"""A sensor that the simulator visualizes.
 
 `<visualize>` draws the rays or the view of a sensor in the simulator's window. It helps during
 modelling; in a run it costs time and hides the scene.

@@ -1,1 +1,1 @@
-"""Rules on findings that are set aside: comments, settings, the baseline."""
+"""CFG: suppressions in comments and settings, and the baseline."""

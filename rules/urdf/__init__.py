@@ -1,1 +1,1 @@
-"""URD: URDF and xacro files, of packages that are made of them and beside SDF models."""
+"""URD: URDF and xacro files, in URDF packages and next to SDF models."""

@@ -130,8 +130,8 @@
     // `from` is the finding that asked to see the part, where one did.
     const say = (path, name, from) => {
       const found = subtFindings.choosePart(path, name);
-      if (!path) chosen.textContent = "Click a part to see what was found about it.";
-      else if (!found.length) chosen.textContent = `${name}: nothing was found about it.`;
+      if (!path) chosen.textContent = "Click a part to see its findings.";
+      else if (!found.length) chosen.textContent = `${name}: no findings.`;
       else {
         const words = found.length === 1 ? "1 finding" : `${found.length} findings`;
         chosen.replaceChildren(`${name}: `, linkTo(from ?? found[0], from ? "back to the finding" : words));

@@ -60,7 +60,7 @@ function refuseMany(number, most) {
 export function chosen(files, limits) {
   const loose = files.filter(({ path }) => !path.includes("/"));
   if (files.length === 0) {
-    throw new Refusal("There are no files in it. Choose a package folder with a model in it.");
+    throw new Refusal("The folder contains no files. Choose a package folder with a model.");
   }
   const bytes = files.reduce((sum, { file }) => sum + file.size, 0);
   if (loose.length === 1 && files.length === 1) {
@@ -82,14 +82,14 @@ function nameOf(files) {
 function refuseFile(file, limits) {
   const name = file.name.toLowerCase();
   if (!limits.endings.some((ending) => name.endsWith(ending))) {
-    throw new Refusal(`“${file.name}” is none of ${limits.endings.join(", ")}. Choose an archive or a model file.`);
+    throw new Refusal(`“${file.name}” does not end in ${limits.endings.join(", ")}. Choose an archive or a model file.`);
   }
   refuseBytes(file.size, limits.bytes);
 }
 
 function refuseBytes(bytes, most) {
   if (bytes > most) {
-    throw new Refusal(`It has ${megabytes(bytes)}, and up to ${megabytes(most)} can be sent. Leave out what is not part of the package.`);
+    throw new Refusal(`It has ${megabytes(bytes)}, but at most ${megabytes(most)} can be sent. Remove files that are not part of the package.`);
   }
 }
 

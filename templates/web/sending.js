@@ -2,7 +2,7 @@
 
 import { Refusal } from "./choosing.js";
 
-const BROKEN = "The connection broke before all was sent. Try again.";
+const BROKEN = "The connection broke before everything was sent. Try again.";
 
 // Starts to send a file and returns {answer, stop}; `answer` is the service's, or a Refusal.
 export function sending(file, name, { profile, token }, told) {
@@ -20,7 +20,7 @@ export function sending(file, name, { profile, token }, told) {
       else reject(new Refusal(saidBy(request)));
     });
     request.addEventListener("error", () => reject(new Refusal(BROKEN)));
-    request.addEventListener("abort", () => reject(new Refusal("Stopped: nothing of it is kept.")));
+    request.addEventListener("abort", () => reject(new Refusal("Stopped: the service keeps nothing of the upload.")));
   });
   request.send(form);
   return { answer, stop: () => request.abort() };

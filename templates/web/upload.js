@@ -81,7 +81,7 @@ part("stop").addEventListener("click", () => stop?.());
 form.addEventListener("submit", (event) => {
   event.preventDefault();
   if (given) send();
-  else if (!part("refusal").textContent) refuse(new Refusal("Nothing is chosen. Choose an archive, a model file or a package folder."));
+  else if (!part("refusal").textContent) refuse(new Refusal("No file is chosen. Choose an archive, a model file or a package folder."));
 });
 
 // Anywhere on the page will do: a drop beside the zone would make the browser leave the page.

@@ -60,19 +60,19 @@ def test_an_empty_folder(run: Run, tmp_path: Path) -> None:
 def test_a_folder_without_a_package(run: Run, tmp_path: Path) -> None:
     (tmp_path / "notes").mkdir()
     (tmp_path / "notes/today.txt").write_text("milk")
-    assert refused(run("notes"), "notes holds no package")
+    assert refused(run("notes"), "notes contains no package")
 
 
 @pytest.mark.parametrize("name", ["readme.txt", "robot", "robot.stl"])
 def test_a_file_that_is_no_package(run: Run, tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_text("milk")
-    assert refused(run(name), f"{name} is no package, archive or model file")
+    assert refused(run(name), f"{name} is not a package, archive or model file")
 
 
 def test_devices_and_pipes_are_not_read(run: Run, tmp_path: Path, rover: Path) -> None:
     os.mkfifo(tmp_path / "pipe.sdf")
-    assert refused(run("pipe.sdf"), "is no package, archive or model file")
-    assert refused(run("/dev/zero"), "is no package, archive or model file")
+    assert refused(run("pipe.sdf"), "is not a package, archive or model file")
+    assert refused(run("/dev/zero"), "is not a package, archive or model file")
     (rover / "model.sdf").unlink()
     os.mkfifo(rover / "model.sdf")
     assert "PKG003" in reported(run(rover))
@@ -118,7 +118,7 @@ def test_a_model_of_200_megabytes_is_not_read(run: Run, rover: Path) -> None:
     with (rover / "model.sdf").open("wb") as file:
         file.truncate(200_000_000)
     done = run(rover)
-    assert "model.sdf has 200.0 MB, more than the 20 MB that are read" in done.stdout
+    assert "model.sdf has 200.0 MB, more than the limit of 20 MB" in done.stdout
     assert done.returncode == 1 or "Incomplete" in done.stdout
 
 

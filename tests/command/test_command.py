@@ -107,8 +107,8 @@ def test_what_lies_beside_packages_and_is_none_is_named(
     (tmp_path / "notes").mkdir()
     (tmp_path / "linked").symlink_to(broken)
     done = run(tmp_path, "--select", "SDF001")
-    assert f"not looked at: {tmp_path}/notes holds no package" in done.stdout
-    assert f"not looked at: {tmp_path}/linked is a link" in done.stdout
+    assert f"not opened: {tmp_path}/notes contains no package" in done.stdout
+    assert f"not opened: {tmp_path}/linked is a link" in done.stdout
     assert (good.parent, done.returncode) == (tmp_path, 1)
 
 
@@ -260,7 +260,7 @@ def test_a_package_that_is_called_like_a_command(run: Run, good: Path, tmp_path:
         ([], "usage: subt-check"),
         (["check"], "the following arguments are required: PATH"),
         (["--nonsense", "."], "unrecognized arguments: --nonsense"),
-        (["check", ".", "--jobs", "0"], "'0' is no number of processes, expected 1 or more"),
+        (["check", ".", "--jobs", "0"], "'0' is not a number of processes, expected 1 or more"),
         (["check", ".", "--profile", "mars"], "invalid choice: 'mars'"),
         (["check", ".", "--format", "pdf"], "invalid choice: 'pdf'"),
     ],
@@ -316,7 +316,7 @@ def test_wrong_settings_name_file_and_key_and_end_with_2(run: Run, good: Path) -
     (good / "subt-check.toml").write_text('profile = "\\u001b[31mmars"\n')
     done = run(good)
     assert (done.returncode, done.stdout) == (2, "")
-    said = "is not checked: its settings cannot be used: subt-check.toml: profile is "
+    said = "is not checked, because its settings cannot be used: subt-check.toml: profile is "
     assert done.stderr.startswith(f"subt-check: {good} {said}")
     assert "\x1b" not in done.stderr
     assert done.stderr.count("\n") == 1
@@ -332,12 +332,12 @@ def test_wrong_settings_in_a_package_take_only_its_report(
     done = run(good.parent, "--no-trial", "--format", "json")
     assert done.returncode == 2
     assert [each["name"] for each in packages(done.stdout)] == [GOOD]
-    assert f"{rover.name} is not checked: its settings cannot be used: " in done.stderr
+    assert f"{rover.name} is not checked, because its settings cannot be used: " in done.stderr
     with zipfile.ZipFile(rover.parent / "packed.zip", "w") as archive:
         for file in ("model.sdf", "subt-check.toml"):
             archive.write(rover / file, f"{rover.name}/{file}")
     assert run("packed.zip", "--no-trial").stderr.startswith(
-        f"subt-check: packed.zip/{rover.name} is not checked: its settings cannot be used: "
+        f"subt-check: packed.zip/{rover.name} is not checked, because its settings cannot be used: "
     )
 
 

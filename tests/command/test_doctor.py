@@ -70,7 +70,7 @@ def test_a_cache_that_cannot_be_written_is_a_note(
         ),
         (
             Layer("account", False, "it is not started by root"),
-            "note    sandbox: no account (it is not started by root); a service that root starts",
+            "note    sandbox: no account (it is not started by root); a service started by root",
         ),
     ],
 )
@@ -80,7 +80,10 @@ def test_a_layer_that_is_missing_is_a_note_that_says_how_to_get_it(layer: Layer,
 
 @pytest.mark.parametrize(
     ("place", "advice"),
-    [(None, "; apt install bubblewrap"), ("/usr/bin/bwrap", "; let this user make namespaces, in")],
+    [
+        (None, "; apt install bubblewrap"),
+        ("/usr/bin/bwrap", "; allow this user to create namespaces; in"),
+    ],
 )
 def test_namespaces_without_bubblewrap_hold_in_part(
     place: str | None, advice: str, monkeypatch: pytest.MonkeyPatch
@@ -88,7 +91,7 @@ def test_namespaces_without_bubblewrap_hold_in_part(
     monkeypatch.setattr(of_sandbox.shutil, "which", lambda _: place)
     monkeypatch.setattr(of_sandbox, "bubblewrap", lambda: "bubblewrap fails: no rights")
     said = str(result(Layer("namespaces", True, "no network")))
-    assert said.startswith(f"note    sandbox: namespaces in part (no network){advice}")
+    assert said.startswith(f"note    sandbox: namespaces partly (no network){advice}")
     said = str(result(Layer("namespaces", False, "not allowed")))
     assert said.startswith(f"note    sandbox: no namespaces (not allowed){advice}")
 
@@ -108,7 +111,7 @@ def test_a_missing_library_is_a_problem(run_apart: Run, tmp_path: Path) -> None:
         "problem lxml cannot be imported (ImportError: no lxml here); install subt-check again, "
         "with its libraries\n"
     ) in done.stdout
-    assert "note    self-test is left out" in done.stdout
+    assert "note    the self-test is skipped" in done.stdout
     assert "please report" not in done.stdout
 
 
@@ -117,7 +120,7 @@ def test_a_library_that_ends_the_process_is_a_problem(run_apart: Run, tmp_path: 
     (tmp_path / "yaml/__init__.py").write_text("import os; os.abort()")
     done = run_apart("doctor", PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
-    said = "problem libraries cannot be imported (the child that imports them ended in a crash"
+    said = "problem libraries cannot be imported (the process that imports them crashed"
     assert said in done.stdout
 
 
@@ -129,7 +132,9 @@ def test_a_part_of_a_library_that_is_missing_is_to_be_installed_again(
     (tmp_path / "jinja2/__init__.py").write_text("")
     done = run_apart("doctor", PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
-    assert re.search(r"(?m)^problem self-test fails: .*; install subt-check again, ", done.stdout)
+    assert re.search(
+        r"(?m)^problem the self-test fails: .*; install subt-check again, ", done.stdout
+    )
     assert "please report" not in done.stdout
 
 
@@ -158,7 +163,7 @@ def test_a_robot_with_faults_fails_the_self_test(
 ) -> None:
     monkeypatch.setattr(self_test, "sample", lambda: SAMPLES / BROKEN)
     assert doctor() == 1
-    assert "problem self-test fails: " in capsys.readouterr().out
+    assert "problem the self-test fails: " in capsys.readouterr().out
 
 
 def test_a_sample_that_is_not_there_fails_the_self_test(

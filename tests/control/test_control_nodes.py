@@ -20,7 +20,7 @@ from checker.source.xml import XmlDocument, parse_xml
 
 
 def read_nothing(package: str, path: str, from_file: str) -> str:
-    return f"{path} of {package or from_file} is not at hand"
+    return f"{path} of {package or from_file} is not available"
 
 
 def graph(content: str) -> LaunchGraph:

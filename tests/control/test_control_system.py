@@ -77,7 +77,7 @@ def test_a_world_of_gazebo_ros_is_harmless_and_other_packages_are_not(part: Part
     control = part(ControlSystem, {"launch/world.launch": f"<launch>{world}</launch>"})
     assert not control.unread
     control = part(ControlSystem, {"launch/world.launch": f"<launch>{other}</launch>"})
-    assert "acme_control is not at hand" in control.unread[0]
+    assert "acme_control is not available" in control.unread[0]
 
 
 def test_parameters_within_a_launch_file_have_their_lines(part: Part) -> None:
@@ -108,7 +108,7 @@ def test_a_parameter_file_outside_is_not_read(part: Part) -> None:
     files = ("$(find ../../..)/etc/passwd", "/etc/passwd")
     text = "".join(f'<rosparam file="{file}"/>' for file in files)
     control = part(ControlSystem, {"launch/more.launch": f"<launch>{text}</launch>"})
-    assert all("not at hand" in reason for reason in control.unread)
+    assert all("not available" in reason for reason in control.unread)
     assert len(control.unread) == 2
 
 
@@ -131,7 +131,7 @@ def test_parameters_are_loaded_up_to_a_bound(part: Part, monkeypatch: pytest.Mon
     load = f'<rosparam ns="{{}}" file="$(find {URDF_NAME})/config/control.yaml"/>'
     text = "".join(load.format(f"r{number}") for number in range(20))
     control = part(ControlSystem, {"launch/all.launch": f"<launch>{text}</launch>"})
-    assert "over 50 values" in control.unread[-1]
+    assert "more than 50 values" in control.unread[-1]
     assert len(control.controllers) < 10
 
 
@@ -140,4 +140,6 @@ def test_launch_files_are_followed_up_to_a_bound(
 ) -> None:
     monkeypatch.setattr("checker.expand.launch.package_launch.MAX_PARTS", 2)
     control = part(ControlSystem)
-    assert control.unread == ("launch/control.launch and what follows is too much to read",)
+    assert control.unread == (
+        "launch/control.launch and the following files are too large to read",
+    )

@@ -93,7 +93,7 @@ def test_to_standard_output(samples: Path, capsys: pytest.CaptureFixture[str]) -
 
 @pytest.mark.parametrize(
     ("path", "said"),
-    [("nowhere", "does not exist"), ("packages", "give one"), ("plugin", "gives no robot")],
+    [("nowhere", "does not exist"), ("packages", "give one"), ("plugin", "has no robot")],
 )
 def test_what_cannot_be_written(
     path: str, said: str, samples: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -120,7 +120,7 @@ def test_plugins_and_nested_models_of_the_whole_robot() -> None:
     assert text(made, "joint[@name='j']/parent") == "base"
     assert text(made, "model/@name") == "lamp"
     assert text(made, "static") == "false"
-    assert any(note.endswith("<foo> of a <gazebo> tag is not carried over") for note in made.notes)
+    assert any(note.endswith("<foo> of a <gazebo> tag is left out") for note in made.notes)
 
 
 def test_the_namespace_goes_from_names_and_from_what_names_them() -> None:
@@ -161,7 +161,7 @@ def test_materials_of_urdf(material: str, defined: str, diffuse: str) -> None:
     made = robot(defined, link("base", f"<visual>{BOX}{material}</visual>"))
     assert text(made, "link/visual/material/diffuse") == diffuse
     assert text(made, "link/visual/material/ambient") == diffuse
-    assert bool(diffuse) != any("defined nowhere" in note for note in made.notes)
+    assert bool(diffuse) != any("is not defined" in note for note in made.notes)
 
 
 def test_transparency_and_textures() -> None:

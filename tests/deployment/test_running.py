@@ -83,5 +83,5 @@ def test_a_robot_is_checked_for_those_with_a_token(
     password = surroundings["SUBT_CHECK_DATABASE_URL"].partition("@")[0].rpartition(":")[2]
     id = done.stderr.partition("/checks/")[2].split()[0]
     assert len(id) == 22
-    assert said.count("waits for checks") == 2
+    assert said.count("is waiting for checks") == 2
     assert not [secret for secret in (TOKEN, password, id) if secret in said]

@@ -369,7 +369,7 @@ def test_links_without_a_place_are_left_out() -> None:
     lost = '<link name="lost"><pose relative_to="nowhere">0 0 0 0 0 0</pose></link>'
     found = scene(sdf(link(shape(BOX)) + lost, "1.7"))
     assert [each.name for each in found.links] == ["a"]
-    assert found.notes == ("link 'lost' is not shown: where it is is not known",)
+    assert found.notes == ("link 'lost' is not shown: its place is not known",)
 
 
 def test_a_layer_has_an_end() -> None:

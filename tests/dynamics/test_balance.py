@@ -123,7 +123,7 @@ def test_a_mesh_that_was_not_looked_at_leaves_the_support_open() -> None:
     mesh = collision("mesh", "<uri>meshes/foot.dae</uri>")
     properties = standing(body(collision("box", "1 1 1"), mesh))
     assert properties.tip_angle is None
-    assert properties.support_unknown == "meshes/foot.dae was not looked for"
+    assert properties.support_unknown == "meshes/foot.dae was not searched"
     assert properties.gravity_torques == {}
 
 

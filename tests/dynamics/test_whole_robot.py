@@ -169,7 +169,7 @@ def test_of_a_loop_one_tie_is_left_out_and_named() -> None:
     circle = sdf(parts + ring + joint("ca", "revolute", "c", "a"))
     built = pin_model(circle)
     assert [each.part for each in built.degrees if not each.free] == ["ab", "bc"]
-    assert built.notes == ("Joint ca is left out: a hangs on another link.",)
+    assert built.notes == ("Joint ca is left out: a already has a parent.",)
     assert weigh(circle).mass == 3.0
 
 
@@ -178,12 +178,12 @@ def test_a_link_with_two_parents_hangs_on_the_first() -> None:
     robot = sdf(parts + joint("ac", "revolute", "a", "c") + joint("bc", "revolute", "b", "c"))
     built = pin_model(robot)
     assert {each.part for each in built.degrees} == {"a", "b", "ac"}
-    assert built.notes == ("Joint bc is left out: c hangs on another link.",)
+    assert built.notes == ("Joint bc is left out: c already has a parent.",)
 
 
 def test_a_joint_to_nothing_is_left_out_and_named() -> None:
     built = pin_model(sdf(link("a") + joint("j", "revolute", "a", "nobody")))
-    assert built.notes == ("Joint j is left out: nobody is no link.",)
+    assert built.notes == ("Joint j is left out: nobody is not a link.",)
 
 
 def test_a_robot_that_hangs_on_the_world_is_not_free() -> None:

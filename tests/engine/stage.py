@@ -16,7 +16,7 @@ from checker.settings import Settings
 
 
 class Wheel:
-    """A part that a rule asks for; one that is not an answer to `part` is not at hand."""
+    """A part that a rule asks for; one that is not an answer to `part` is not available."""
 
     def __init__(self, line: int = 1) -> None:
         self.place = Place("model.sdf", line, 1, line, 5, element=f"wheel[{line}]")

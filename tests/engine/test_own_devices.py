@@ -39,7 +39,7 @@ def test_a_robot_is_judged_by_the_users_devices(tmp_path: Path) -> None:
         "lidar 'acme_l1' has 1 rows, expected 8 (Acme L1)",
     }
     assert {str(finding.severity) for finding in report.findings} == {"warning"}
-    assert "1 of its own devices" in settings.description
+    assert "own devices: 1" in settings.description
 
 
 def test_other_devices_are_another_report(tmp_path: Path) -> None:
@@ -53,8 +53,8 @@ def test_other_devices_are_another_report(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("devices = 3", "devices is no list of tables"),
-        ("devices = [3]", "device 1 is no table"),
+        ("devices = 3", "devices is not a list of at most"),
+        ("devices = [3]", "device 1 is not a table"),
         (OWN.replace('id = "acme_l1"\n', ""), "device 1 has no 'id'"),
         (OWN + OWN.replace("rows = 8", "row = 8"), "device 2 has the unknown values.row"),
         (OWN.replace("[- ]?", "[- ]*"), "device 1 has '*' in its match"),

@@ -1,4 +1,4 @@
-"""The parts of a package: what they hold, and what they say when something is not at hand."""
+"""The parts of a package: what they hold, and what they say when something is not available."""
 
 from __future__ import annotations
 
@@ -89,16 +89,16 @@ UNREAD = {
         {"launch/vehicle_topics.launch": None},
         "launch/vehicle_topics.launch does not exist",
     ),
-    "a package that is not at hand": (
+    "a package that is not available": (
         {"launch/spawner.rb": SPAWNER.replace(f"{NAME} vehicle", "acme_topics vehicle")},
-        "package acme_topics is not at hand",
+        "package acme_topics is not available",
     ),
-    "an include that is not at hand": (
+    "an include that is not available": (
         {
             "launch/vehicle_topics.launch": '<launch><arg name="name"/><arg name="world_name"/>'
             '<include file="$(find acme)/launch/a.launch"/></launch>'
         },
-        "package acme is not at hand",
+        "package acme is not available",
     ),
     "a command that cannot be read": (
         {"launch/spawner.rb": SPAWNER.replace(ROS, f"{ROS}  system('rm')\n")},

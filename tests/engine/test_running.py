@@ -30,8 +30,8 @@ def looking(wheel: Wheel, context: Context) -> Findings:
 
 
 def looking_away(wheel: Wheel) -> Findings:
-    yield unchecked("the mesh is not at hand")
-    yield unchecked("the mesh is not at hand")
+    yield unchecked("the mesh is not available")
+    yield unchecked("the mesh is not available")
     yield finding(wheel.place, "seen all the same")
 
 
@@ -72,7 +72,7 @@ def test_a_part_that_is_not_at_hand_is_the_reason_not_to_look(
 def test_a_rule_can_say_what_it_could_not_look_at_and_go_on() -> None:
     outcome = run(rule_of(looking_away))
     assert reported(outcome) == ["TST009"]
-    reason = NotChecked("TST009", "the mesh is not at hand", Cause.NOT_AT_HAND)
+    reason = NotChecked("TST009", "the mesh is not available", Cause.NOT_AT_HAND)
     assert outcome.not_checked == (reason,)
 
 

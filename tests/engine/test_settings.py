@@ -137,7 +137,7 @@ def test_the_command_line_replaces_what_it_names() -> None:
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("profile = !", "is no TOML: Invalid value (at line 1, column 11)"),
+        ("profile = !", "is not TOML: Invalid value (at line 1, column 11)"),
         (f"profile = {'[' * 3000}", "is nested too deeply"),
         ("colour = 1", "unknown key 'colour', expected one of profile, select, ignore, "),
         ("profile = 'mars'", "profile is 'mars', expected one of subt, sdf, urdf, "),
@@ -167,12 +167,12 @@ def test_the_command_line_replaces_what_it_names() -> None:
         ),
         (
             "rules.SEN005.unnamed = [1]",
-            "rules.SEN005.unnamed is [1], expected a list in which each is a text",
+            "rules.SEN005.unnamed is [1], expected a list in which each is a string",
         ),
         ("rules.SEN005.count = 1.5", "rules.SEN005.count is 1.5, expected a whole number"),
         ("rules.SEN005.count = true", "rules.SEN005.count is True, expected a whole number"),
         ("rules.SEN005.strict = 1", "rules.SEN005.strict is 1, expected true or false"),
-        ("rules.SEN005.word = 1", "rules.SEN005.word is 1, expected a text"),
+        ("rules.SEN005.word = 1", "rules.SEN005.word is 1, expected a string"),
         ("rules.SEN005.names = 'a'", "rules.SEN005.names is 'a', expected a list in which each is"),
         ("rules.SEN005.names = [1]", "rules.SEN005.names is [1], expected a list in which each is"),
     ],

@@ -61,7 +61,7 @@ BODIES = {
     "a sum that grows": "x = 2**999; while true; x = ([x] * 1000).sum; end",
     "a sum beyond floats": "x = 2**999; 15.times { x = ([x] * 1000).sum }; x.to_f",
     "a quotient without end": "(1e308 / 1e-10).floor.to_s",
-    "an index that is no number": "[1][0.0 / 0].to_s",
+    "an index that is not a number": "[1][0.0 / 0].to_s",
     "an integer without end": "1e400.to_i.to_s",
     "no text, many times": "x = '' * 10**30; 1",
     "no items, many times": "x = [] * 10**30; 1",

@@ -90,7 +90,7 @@ def test_a_folder_that_is_read_only(open_folder: Path) -> None:
     for path in (package, *package.rglob("*")):
         path.chmod(path.stat().st_mode | stat.S_IWUSR)
     assert said.startswith("NotWritten: ")
-    assert "Permission denied; files are replaced whole, so none is half written" in said
+    assert "Permission denied; no file is half written" in said
     assert contents(package) == before
 
 
@@ -115,7 +115,7 @@ def test_a_disk_that_is_full(small_disk: Path) -> None:
     with filler.open("wb", buffering=0) as stream, suppress(OSError):
         while True:
             stream.write(bytes(4096))
-    with pytest.raises(CheckerError, match="No space left on device; files are replaced whole"):
+    with pytest.raises(CheckerError, match="No space left on device; no file is half written"):
         written(package, fixed)
     assert contents(package) == before
     filler.unlink()

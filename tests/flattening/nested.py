@@ -145,7 +145,7 @@ def nests(draw: st.DrawFn, versions: tuple[str, ...]) -> tuple[str, dict[str, st
 
 def read(text: str, files: Mapping[str, str] = NOTHING) -> Robot:
     documents = {uri: document(inside, uri) for uri, inside in files.items()}
-    (robot,) = read_sdf(document(text), lambda uri: documents.get(uri.value, "is not at hand"))
+    (robot,) = read_sdf(document(text), lambda uri: documents.get(uri.value, "is not available"))
     return robot
 
 

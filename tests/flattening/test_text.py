@@ -172,7 +172,7 @@ def test_one_file_may_be_included_twice_and_its_paths_start_at_the_robot() -> No
 @pytest.mark.parametrize(
     ("inside", "reason"),
     [
-        ("<include><uri>model://arm</uri></include>", "model://arm is included and not at hand"),
+        ("<include><uri>model://arm</uri></include>", "model://arm is included, but not available"),
         ("<include><uri>new.sdf</uri></include>", "new.sdf is written in SDF 1.7, not in 1.6"),
         ("<model name='a'><link name=''/></model>", "a part has no name of its own"),
         ("<model name='a'><link name='b'/><link name='b'/></model>", "two parts are called a::b"),

@@ -125,9 +125,13 @@ def test_a_single_model_file(store: Store, samples: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "reason"),
     [
-        ("notes.zip", b"These are my notes.\n", r"notes\.zip is no zip archive.*download it again"),
-        ("notes.tar.gz", b"These are my notes.\n", r"notes\.tar\.gz is no tar\.gz archive"),
-        ("empty.zip", b"PK\5\6" + bytes(18), r"empty\.zip holds no files; pack the package"),
+        (
+            "notes.zip",
+            b"These are my notes.\n",
+            r"notes\.zip is not a zip archive.*download it again",
+        ),
+        ("notes.tar.gz", b"These are my notes.\n", r"notes\.tar\.gz is not a tar\.gz archive"),
+        ("empty.zip", b"PK\5\6" + bytes(18), r"empty\.zip contains no files; pack the package"),
     ],
 )
 def test_what_is_no_archive(name: str, content: bytes, reason: str, store: Store) -> None:
@@ -165,7 +169,7 @@ def forget(store: Store, order: Order) -> None:
 def test_an_upload_that_is_gone(store: Store) -> None:
     order = given(store, "model.sdf", b"<sdf/>")
     forget(store, order)
-    assert check(store, order) == Refused("the upload is no longer there; upload it again")
+    assert check(store, order) == Refused("the upload no longer exists; upload the package again")
 
 
 def test_the_same_upload_is_checked_once(store: Store, samples: Path) -> None:
@@ -259,7 +263,11 @@ def test_the_child_is_killed(
         (StageLimits(seconds=0.1), b"<sdf/>", "it took longer than 0.1 s and was stopped"),
         # A small model is checked in the memory that was taken before there was a limit.
         (StageLimits(seconds=60.0, memory=60_000_000), LARGE, "it "),
-        (StageLimits(seconds=60.0, file_bytes=2_000), b"<sdf/>", "it failed inside"),
+        (
+            StageLimits(seconds=60.0, file_bytes=2_000),
+            b"<sdf/>",
+            "it failed with an internal error",
+        ),
     ],
 )
 def test_a_limit_is_reached(limits: StageLimits, model: bytes, reason: str, store: Store) -> None:

@@ -63,7 +63,9 @@ class TestACheck:
         assert site.state(refused).words == REFUSAL
         assert site.end(died).stage is Stage.FAILED
         assert site.state(died).words == DEATH
-        assert site.end(raised).words.startswith("the checker could not finish: it failed inside")
+        assert site.end(raised).words.startswith(
+            "the checker could not finish: it failed with an internal error"
+        )
         assert site.begun()[f"trial {site.state(died).order.name}"] == 0
         assert site.stages(died) == [(1, "queued"), (2, "static"), (3, "failed")]
 
@@ -142,7 +144,7 @@ class TestAKilledWorker:
         assert site.begun()[f"{stage} {name}"] == 2
         other = Stage.TRIAL if stage is Stage.STATIC else Stage.STATIC
         assert site.begun()[f"{other} {name}"] == 1
-        again = [event.words for event in site.jobs.events(id) if "begins again" in event.words]
+        again = [event.words for event in site.jobs.events(id) if "starts again" in event.words]
         assert len(again) == 1
         told = [event for event in site.jobs.events(id) if event.words not in again]
         assert [event.stage.value for event in told] == [stage for _, stage in WHOLE]
@@ -190,7 +192,7 @@ class TestAKilledWorker:
         site.worker("slot-1")
         state = site.end(id)
         assert state.stage is Stage.FAILED
-        assert state.words == "the checker could not finish: its worker died three times"
+        assert state.words == "the checker could not finish: its worker process ended three times"
         read = site.jobs.events(id)[2]
         assert (read.stage, read.data["result"]) == (Stage.TRIAL, state.result)
         assert site.jobs.result(id) == ""
@@ -240,7 +242,10 @@ class TestAGracefulStop:
         site.in_hand(id, Stage.STATIC)
         worker.send_signal(signal.SIGTERM)
         assert worker.wait(30) == 0
-        assert (site.state(id).stage, site.state(id).words) == (Stage.STATIC, "waits for its turn")
+        assert (site.state(id).stage, site.state(id).words) == (
+            Stage.STATIC,
+            "waiting in the queue",
+        )
         assert site.jobs.alive().waiting == {"static": 1, "trial": 0}
         site.worker()
         assert site.end(id).stage is Stage.DONE
@@ -258,7 +263,7 @@ class TestAGracefulStop:
         id = site.submit("trial:1.5")
         for _ in range(3):
             worker = site.worker(grace_seconds=0.1)
-            site.until(id, lambda state: state.words == "the robot is tried on the course")
+            site.until(id, lambda state: state.words == "the trial is running")
             worker.send_signal(signal.SIGINT)
             assert worker.wait(30) == 0
             assert site.state(id).stage is Stage.TRIAL

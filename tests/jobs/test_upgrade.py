@@ -24,14 +24,14 @@ CHECK = """INSERT INTO subt_checks (id, upload, name, profile, stage, words, cre
     result, packages, worker, turn, losses) VALUES (:id, :upload, :name, '', :stage, :words,
     :created, 4e9, '', '[]', :worker, :turn, '[]')"""
 EVENT = """INSERT INTO subt_events (check_id, number, key, stage, words, time, data)
-    VALUES (:id, 1, 'queued', 'queued', 'waits for its turn', 1e9, '{}')"""
+    VALUES (:id, 1, 'queued', 'queued', 'waiting in the queue', 1e9, '{}')"""
 TAKEN = """UPDATE {0}workflow_status SET status = 'PENDING', executor_id = 'dead'
     WHERE workflow_uuid = :id"""
 STAGES = {
-    "waits": ("queued", "waits for its turn", "", Stage.STATIC),
+    "waits": ("queued", "waiting in the queue", "", Stage.STATIC),
     "is read": ("static", "the rules look at it", "dead", Stage.STATIC),
-    "waits for its trial": ("trial", "the trial waits for its turn", "", Stage.TRIAL),
-    "is tried": ("trial", "the robot is tried on the course", "dead", Stage.TRIAL),
+    "waits for its trial": ("trial", "the trial is waiting in the queue", "", Stage.TRIAL),
+    "is tried": ("trial", "the trial is running", "dead", Stage.TRIAL),
     "is over": ("failed", "the checker could not finish", "", None),
 }
 """Stage, words, worker and queue of checks as version 0.1.0 left them."""
@@ -117,7 +117,10 @@ def test_old_links_lead_to_their_checks(site: Site, ids: dict[str, str]) -> None
     assert [state.id for state in states.values()] == list(ids.values())
     assert [state.order.name for state in states.values()] == [f"{n}.zip" for n in range(5)]
     assert [state.ahead for state in states.values()] == [0, 1, 0, 1, 0]
-    words = ["waits for its turn"] * 2 + ["the trial waits for its turn", "waits for its turn"]
+    words = ["waiting in the queue"] * 2 + [
+        "the trial is waiting in the queue",
+        "waiting in the queue",
+    ]
     assert [state.words for state in states.values()] == [*words, "the checker could not finish"]
     assert all(site.stages(id) == [(1, "queued")] for id in ids.values())
     assert all(site.jobs.status(key_of_check(id)) is None for id in ids.values())
@@ -141,7 +144,7 @@ def test_checks_that_were_not_over_are_gone_on_with(site: Site, ids: dict[str, s
             (Stage.FAILED, False) if over else (Stage.DONE, True)
         )
     told = [event.words for id in ids.values() for event in site.jobs.events(id)]
-    assert not any("begins again" in words for words in told)
+    assert not any("starts again" in words for words in told)
     assert set(site.begun().values()) == {1}
 
 

@@ -33,7 +33,7 @@ def expand() -> Expand:
         def read_launch(package: str, path: str, from_file: str) -> XmlDocument | str:
             assert from_file == "launch/main.launch" or from_file in documents
             if package == "elsewhere":
-                return "package elsewhere is not at hand"
+                return "package elsewhere is not available"
             path = f"../{package}/{path}" if package else path
             return documents.get(path) or MissingLaunchFile(f"{path} does not exist")
 

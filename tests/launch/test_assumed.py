@@ -28,7 +28,7 @@ def expand(content: str) -> LaunchGraph:
 
 
 def not_at_hand(package: str, path: str, from_file: str) -> XmlDocument | str:
-    return f"{path} of {package}, included by {from_file}, is not at hand"
+    return f"{path} of {package}, included by {from_file}, is not available"
 
 
 def include(file: str, **arguments: str) -> str:

@@ -48,7 +48,7 @@ def expand(path: Path, **arguments: str) -> LaunchGraph:
     def read_launch(package: str, file: str, from_file: str) -> XmlDocument | str:
         assert from_file
         if package:
-            return f"package {package} is not at hand"
+            return f"package {package} is not available"
         target = folder / file
         return read(target, file) if target.exists() else MissingLaunchFile(file)
 

@@ -190,7 +190,7 @@ def test_a_file_of_a_package_that_is_not_at_hand_is_recorded_with_its_args(expan
     assert (include.package, include.file) == ("elsewhere", "launch/all_robots.launch")
     assert dict(include.arguments) == {"name": "X1"}
     assert include.namespace == "/X1"
-    assert include.reason == "package elsewhere is not at hand"
+    assert include.reason == "package elsewhere is not available"
     assert graph.faults == ()
 
 

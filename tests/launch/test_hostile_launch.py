@@ -55,7 +55,7 @@ def test_a_file_that_includes_itself_with_a_growing_arg_is_not_followed_for_ever
         '<arg name="n" value="$(arg n)$(arg n)"/></include>'
     )
     report = checked(tmp_path, {TOPICS: text})
-    assert "not read to its end" in reasons(report, "ROS010")
+    assert "not read completely" in reasons(report, "ROS010")
 
 
 def test_a_long_chain_of_includes_is_followed_to_a_limit(tmp_path):
@@ -65,7 +65,7 @@ def test_a_long_chain_of_includes_is_followed_to_a_limit(tmp_path):
     }
     files[TOPICS] = launch('<include file="$(dirname)/l0.launch"/>')
     package = checked(tmp_path, files, "ROS010")
-    assert f"deeper than {MAX_DEPTH} levels" in reasons(package, "ROS010")
+    assert f"more than {MAX_DEPTH} levels" in reasons(package, "ROS010")
 
 
 def test_a_file_that_includes_another_many_times_over_ends(tmp_path, monkeypatch):
@@ -85,7 +85,7 @@ def test_a_file_that_includes_another_many_times_over_ends(tmp_path, monkeypatch
         return charge(reader, element, steps)
 
     monkeypatch.setattr(Reader, "charge", count)
-    assert "steps to follow" in reasons(checked(tmp_path, files, "ROS010"), "ROS010")
+    assert "steps to evaluate" in reasons(checked(tmp_path, files, "ROS010"), "ROS010")
     assert 0 < followed["include"] <= 3 * MAX_STEPS
 
 

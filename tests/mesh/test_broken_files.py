@@ -34,7 +34,7 @@ def test_empty(suffix: str) -> None:
 def test_a_billion_triangles_in_84_bytes() -> None:
     data = binary_stl([], declared=1_000_000_000).replace(b"solid", b"-----")
     reason = fault(data, "a.stl")
-    assert reason == "is cut off: it declares 1,000,000,000 triangles, its 84 bytes hold 0"
+    assert reason == "is cut off: it declares 1,000,000,000 triangles, but its 84 bytes contain 0"
 
 
 def test_a_binary_stl_cut_off() -> None:
@@ -56,22 +56,22 @@ def test_an_stl_as_text_cut_off() -> None:
 
 
 def test_words_for_numbers() -> None:
-    assert "no number" in fault(text_stl(CUBE).replace(b"0.5", b"half", 1), "a.stl")
+    assert "not a number" in fault(text_stl(CUBE).replace(b"0.5", b"half", 1), "a.stl")
 
 
 @pytest.mark.parametrize("write", [binary_stl, text_stl])
 def test_a_corner_that_is_no_number(write: object) -> None:
-    assert "nowhere: triangle 1" in fault(write(NOWHERE), "a.stl")  # type: ignore[operator]
+    assert "without a finite position: triangle 1" in fault(write(NOWHERE), "a.stl")  # type: ignore[operator]
 
 
 def test_a_corner_out_of_all_bounds() -> None:
     assert "1e+300" in fault(obj(FAR), "a.obj")
-    assert "nowhere" in fault(dae(FAR), "a.dae")
+    assert "without a finite position" in fault(dae(FAR), "a.dae")
 
 
 @pytest.mark.parametrize("data", [b"solid nothing\nendsolid\n", binary_stl([])])
 def test_no_triangles(data: bytes) -> None:
-    assert fault(data, "a.stl") == "holds no triangles"
+    assert fault(data, "a.stl") == "contains no triangles"
 
 
 def test_faces_of_corners_that_are_not_there() -> None:
@@ -82,7 +82,7 @@ def test_faces_of_corners_that_are_not_there() -> None:
 
 
 def test_another_format_of_that_name() -> None:
-    assert "no COLLADA" in fault(b"<robot/>", "a.dae")
+    assert "not a COLLADA" in fault(b"<robot/>", "a.dae")
     assert "not well-formed" in fault(binary_stl(CUBE), "a.dae")
     assert "Git LFS" in fault(b"version https://git-lfs.github.com/spec/v1\noid sha256:0", "a.dae")
 

@@ -33,12 +33,12 @@ Files = Mapping[str, str]
 @pytest.mark.parametrize(
     ("files", "said"),
     [
-        ({"CMakeLists.txt": "project(rover)"}, "holds no robot in URDF"),
-        ({"urdf/a.urdf": urdf("")}, "holds no robot in URDF"),
-        ({"model.sdf": "<sdf version='1.6'/>"}, "has an SDF model already (model.sdf)"),
+        ({"CMakeLists.txt": "project(rover)"}, "contains no robot in URDF"),
+        ({"urdf/a.urdf": urdf("")}, "contains no robot in URDF"),
+        ({"model.sdf": "<sdf version='1.6'/>"}, "already has an SDF model (model.sdf)"),
         (
             {"urdf/a.urdf": ROBOT, "urdf/b.urdf": ROBOT},
-            "describes several robots: urdf/a.urdf, urdf/b.urdf; choose by --urdf",
+            "describes several robots: urdf/a.urdf, urdf/b.urdf; choose one with --urdf",
         ),
         (
             {"urdf/a.urdf": "<robot name='a'><link"},
@@ -53,15 +53,15 @@ Files = Mapping[str, str]
                 "urdf/a.urdf.xacro": f"<robot name='a' {XACRO}><link name='$(arg which)'/>"
                 "<link name='b'/></robot>"
             },
-            "give it by --args name:=value",
+            "give it with --args name:=value",
         ),
         (
             {"urdf/a.urdf": ROBOT.replace("left_rear", "left_rear#{`id`}")},
-            "has a name that launch files cannot hold",
+            "is a name that launch files cannot contain",
         ),
         (
             {"urdf/a.urdf": urdf(body("base_link")).replace("rover", "№")},
-            "'№' is no name for a package; give --robot",
+            "'№' is not a package name; give --robot",
         ),
     ],
     ids=[
@@ -86,7 +86,7 @@ def test_one_of_two_robots_can_be_chosen(write: Write, tmp_path: Path) -> None:
 
 def test_a_file_that_is_chosen_and_not_there(write: Write, tmp_path: Path) -> None:
     source = write({"urdf/a.urdf": ROBOT})
-    with pytest.raises(NotMigrated, match=r"other.urdf is no file of .*; found: urdf/a.urdf"):
+    with pytest.raises(NotMigrated, match=r"other.urdf is not a file of .*; found: urdf/a.urdf"):
         migrate(source, tmp_path / "made", Wishes(urdf="other.urdf"))
 
 
@@ -124,20 +124,20 @@ def test_a_mesh_that_is_not_there_is_said(write: Write, tmp_path: Path) -> None:
     box = '<box size="0.6 0.3 0.1"/></geometry></visual>'
     source = write(body().replace(box, f"{mesh}</geometry></visual>") + FOUR)
     made = migrate(source, tmp_path / "made", ACME)
-    assert any("lies in elsewhere, which is not at hand" in each for each in made.open_points)
+    assert any("is in elsewhere, which is not available" in each for each in made.open_points)
 
 
 def test_the_destination_holds_something(write: Write, tmp_path: Path) -> None:
     (tmp_path / "made").mkdir()
     (tmp_path / "made/notes.txt").write_text("mine", "utf-8")
-    with pytest.raises(NotMigrated, match=r"made is not empty \(it holds notes.txt\)"):
+    with pytest.raises(NotMigrated, match=r"made is not empty \(it contains notes.txt\)"):
         migrate(write({"urdf/a.urdf": ROBOT}), tmp_path / "made", ACME)
     assert [each.name for each in (tmp_path / "made").iterdir()] == ["notes.txt"]
 
 
 def test_the_destination_lies_inside_the_source(write: Write) -> None:
     source = write({"urdf/a.urdf": ROBOT})
-    with pytest.raises(NotMigrated, match="lies inside package rover_description"):
+    with pytest.raises(NotMigrated, match="is inside package rover_description"):
         migrate(source, source / "made", ACME)
     assert not (source / "made").exists()
 
@@ -152,7 +152,7 @@ def test_a_license_of_several_lines_stays_in_its_line(write: Write, tmp_path: Pa
 
 def test_the_destination_is_a_file(write: Write, tmp_path: Path) -> None:
     (tmp_path / "made").write_text("mine", "utf-8")
-    with pytest.raises(NotMigrated, match="is no folder"):
+    with pytest.raises(NotMigrated, match="is not a folder"):
         migrate(write({"urdf/a.urdf": ROBOT}), tmp_path / "made", ACME)
 
 

@@ -19,7 +19,7 @@ FLAT = "v 0 0 0\nv 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\nf 1 3 4\n"
 ROBOT = """<sdf version="1.6"><model name="m"><link name="l"><visual name="v"><geometry>
 <mesh><uri>a.obj</uri></mesh></geometry></visual></link></model></sdf>"""
 LIMITS = Limits(60.0, 16_000_000_000, draws=True)
-NO_OPENGL = "no OpenGL is at hand (EGL or OSMesa)"
+NO_OPENGL = "OpenGL is not available (EGL or OSMesa)"
 
 
 def request_of(folder: Path, mesh: str) -> bytes:

@@ -81,7 +81,7 @@ def test_wheels_that_turn_the_other_way_are_turned_round(write: Write, tmp_path:
     backwards = wheel("left", 0, 0.2, axis="0 -1 0") + wheel("right", 0, -0.2)
     made = migrate(write(body() + backwards), tmp_path / "made", ACME)
     assert (made.folder / "model.sdf").read_text("utf-8").count("<xyz>0 1 0</xyz>") == 2
-    assert any("left_joint are turned round" in note for note in made.notes)
+    assert any("left_joint are reversed" in note for note in made.notes)
 
 
 def test_it_drives_in_the_trial(write: Write, tmp_path: Path) -> None:
@@ -126,17 +126,17 @@ def test_wheels_that_the_old_plugin_names(write: Write, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("robot", "wishes", "said"),
     [
-        (body() + FOUR + wheel("left_spare", 0, 0.2), ACME, "without partner: left_spare_joint"),
+        (body() + FOUR + wheel("left_spare", 0, 0.2), ACME, "without a partner: left_spare_joint"),
         (body() + wheel("one", 0, 0.2), ACME, "left: one_joint; right: none"),
         (
             body() + FOUR,
             Wishes(left_wheels=("nobody",), right_wheels=("right_rear_joint",)),
-            "'nobody' is no joint that turns a wheel; joints that turn: left_front_joint",
+            "'nobody' is not a joint that turns a wheel; joints that turn: left_front_joint",
         ),
         (
             body() + FOUR,
             Wishes(left_wheels=("right_rear_joint",), right_wheels=("left_rear_joint",)),
-            "are sides swapped",
+            "are the sides swapped",
         ),
         (body() + FOUR, Wishes(left_wheels=("left_rear_joint",)), "no wheel on the right"),
     ],
@@ -182,7 +182,7 @@ def test_what_the_rules_can_mend_is_mended(write: Write, tmp_path: Path) -> None
       <diffuse>255 255 255 1</diffuse></light></gazebo>"""
     made = migrate(write(body() + FOUR + light), tmp_path / "made", ACME)
     assert "<diffuse>1 1 1 1</diffuse>" in (made.folder / "model.sdf").read_text("utf-8")
-    assert any(note.startswith("SDF016 is mended") for note in made.notes)
+    assert any(note.startswith("SDF016 is fixed") for note in made.notes)
 
 
 def test_plugins_of_unknown_purpose_are_left_to_the_author(write: Write, tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from tests.migrate.conftest import speed_ratio
 
 NAME = "acme_husky_sensor_config_2"
 LEFT_TO_THE_AUTHOR = {
-    "DOC002": "everything that says TODO",
+    "DOC002": "every TODO",
     "DOC007": "what the real robot costs",
     "DOC008": "datasheets",
 }

@@ -28,7 +28,7 @@ def sdf(content: str, version: str = "1.6", files: Mapping[str, str] = {}) -> Ro
     """Read a model's content; `files` are what includes find by their URI."""
     documents = {uri: document(text, uri) for uri, text in files.items()}
     text = f'<sdf version="{version}"><model name="robot">{content}</model></sdf>'
-    (robot,) = read_sdf(document(text), lambda uri: documents.get(uri.value, "is not at hand"))
+    (robot,) = read_sdf(document(text), lambda uri: documents.get(uri.value, "is not available"))
     return robot
 
 

@@ -47,8 +47,8 @@ UNKNOWN = {
 
 FAULTS = {
     "explorer_ds1_sensor_config_1": [
-        "<pose> holds 7, expected 6 numbers",
-        "<pose> holds 8, expected 6 numbers",
+        "<pose> has 7 values, expected 6 numbers",
+        "<pose> has 8 values, expected 6 numbers",
     ]
 }
 

@@ -39,8 +39,8 @@ def test_a_device_of_a_user() -> None:
     ("change", "problem"),
     [
         ({"colour": "red"}, "has the unknown key 'colour'"),
-        ({"name": 5}, "has the name 5, expected a text"),
-        ({"sdf_types": "gpu_lidar"}, "has the sdf_types 'gpu_lidar', expected a list of texts"),
+        ({"name": 5}, "has the name 5, expected a string"),
+        ({"sdf_types": "gpu_lidar"}, "has the sdf_types 'gpu_lidar', expected a list of strings"),
         ({"values": []}, "has the values [], expected a table"),
         ({"values": {"row": 8}}, "has the unknown values.row"),
         ({"values": {"rows": "8"}}, "has the values.rows '8', expected a number"),
@@ -52,7 +52,7 @@ def test_a_device_of_a_user() -> None:
         ({"values": {"samples_by_rate": {"fast": [1]}}}, "expected a table from rates to samples"),
         ({"body": {"mass_kg": 0}}, "has the body.mass_kg 0, expected a positive number"),
         ({"body": {"size_mm": {"x": 1}}}, "expected a table of x, y and z, or of diameter"),
-        ({"source_detail": {"rows": 5}}, "expected a table of texts"),
+        ({"source_detail": {"rows": 5}}, "expected a table of strings"),
     ],
 )
 def test_what_is_wrong_is_said(change: dict[str, Any], problem: str) -> None:
@@ -62,7 +62,7 @@ def test_what_is_wrong_is_said(change: dict[str, Any], problem: str) -> None:
 def test_what_is_missing_is_said() -> None:
     without = {key: value for key, value in DEVICE.items() if key != "match"}
     assert problem_of_device(without) == "has no 'match'"
-    assert problem_of_device("acme") == "is no table"
+    assert problem_of_device("acme") == "is not a table"
 
 
 @pytest.mark.parametrize(
@@ -75,7 +75,7 @@ def test_what_is_missing_is_said() -> None:
         ("(?=a)", "'(?'"),
         (r"(a)\1", r"\1"),
         ("a?" * 11, "more than 10"),
-        ("(a", "no regular expression"),
+        ("(a", "not a regular expression"),
     ],
 )
 def test_an_expression_that_may_take_long_is_refused(match: str, problem: str) -> None:

@@ -56,7 +56,7 @@ def test_a_number(word: str, value: float) -> None:
 def test_a_pose_has_six_numbers(numbers: str, count: int) -> None:
     robot = sdf(f'<link name="a"><pose>{numbers}</pose></link>')
     (fault,) = robot.faults
-    assert fault.message == f"<pose> holds {count}, expected 6 numbers"
+    assert fault.message == f"<pose> has {count} values, expected 6 numbers"
     assert fault.span.text == numbers
     expected = pose(1, 2, 3, 0, 0, 0) if count > 1 else pose(1, 0, 0, 0, 0, 0)
     assert_pose(robot.pose_of("a"), expected)
@@ -86,7 +86,7 @@ def test_a_quaternion_of_tiny_numbers_still_turns() -> None:
 def test_a_quaternion_of_zeros_is_a_fault() -> None:
     inside = '<pose rotation_format="quat_xyzw">1 2 3 0 0 0 0</pose>'
     robot = sdf(f'<link name="a">{inside}</link>', "1.9")
-    assert messages(robot) == ["a quaternion of zeros is no rotation"]
+    assert messages(robot) == ["a quaternion of zeros is not a rotation"]
     assert_pose(robot.pose_of("a"), pose(1, 2, 3, 0, 0, 0))
 
 

@@ -109,7 +109,7 @@ def test_an_include_that_is_not_at_hand_is_remembered() -> None:
 @pytest.mark.parametrize(
     ("files", "says"),
     [
-        ({"a": "<sdf version='1.8'/>"}, "a holds no <model>"),
+        ({"a": "<sdf version='1.8'/>"}, "a contains no <model>"),
         ({"a": '<sdf><model name="m"><include><uri>a</uri></include></model></sdf>'}, "itself"),
     ],
 )
@@ -129,7 +129,7 @@ def test_includes_that_double_at_each_level_end() -> None:
 
 def test_models_nested_too_deep_are_a_fault() -> None:
     robot = sdf('<model name="m">' * 60 + "</model>" * 60, "1.8")
-    assert messages(robot) == ["models are nested deeper than 40 levels"]
+    assert messages(robot) == ["models are nested more than 40 levels deep"]
 
 
 def test_the_frame_of_a_nested_model_has_a_name_outside_of_it() -> None:

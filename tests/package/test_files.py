@@ -92,7 +92,7 @@ def test_pipe_is_never_opened(rover: Path) -> None:
     os.mkfifo(rover / "pipe.sdf")
     package = package_at(rover)
     assert package.index.entries["pipe.sdf"].kind is EntryKind.SPECIAL
-    assert package.read("pipe.sdf") == NotReadable("pipe.sdf", "is no regular file")
+    assert package.read("pipe.sdf") == NotReadable("pipe.sdf", "is not a regular file")
     assert package.xml_files == ("model.sdf",)
 
 
@@ -108,13 +108,13 @@ def test_ten_thousand_files_are_indexed_in_a_breath(rover: Path) -> None:
 def test_limits_are_said(rover: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("checker.package.walk.MAX_ENTRIES", 2)
     (fault,) = package_at(rover).index.faults
-    assert fault.reason == "holds more than 2 files; the rest is not looked at"
+    assert fault.reason == "contains more than 2 files; the rest is not checked"
 
 
 def test_depth_is_bounded(rover: Path) -> None:
     (rover / "/".join(["d"] * 60)).mkdir(parents=True)
     (fault,) = package_at(rover).index.faults
-    assert fault.reason == "lies more than 50 folders deep"
+    assert fault.reason == "is more than 50 folders deep"
 
 
 def test_name_that_is_no_utf8(rover: Path) -> None:
@@ -192,7 +192,7 @@ def test_sparse_file_of_200_mb_is_not_read(rover: Path) -> None:
         file.truncate(200_000_000)
     package = package_at(rover)
     assert package.index.entries["big.sdf"].size == 200_000_000
-    expected = "has 200.0 MB, more than the 20 MB that are read"
+    expected = "has 200.0 MB, more than the limit of 20 MB"
     assert package.read("big.sdf") == NotReadable("big.sdf", expected)
 
 
@@ -211,7 +211,7 @@ def test_bytes_that_are_no_text(rover: Path, data: bytes) -> None:
 
 
 def test_folder_is_no_text(rover: Path) -> None:
-    assert package_at(rover).read("meshes") == NotReadable("meshes", "is no regular file")
+    assert package_at(rover).read("meshes") == NotReadable("meshes", "is not a regular file")
 
 
 def test_place_of_the_folder(rover: Path) -> None:

@@ -272,7 +272,7 @@ def test_circle_of_siblings(write: Write) -> None:
 def test_sibling_at_the_end_of_a_chain_is_not_at_hand(write: Write) -> None:
     files = {f"{TWO}/{SPAWNER}": ROSLAUNCH.format(ONE), f"{THREE}/{SPAWNER}": ROSLAUNCH.format(TWO)}
     three = package(write, files, THREE)
-    reason = f"model is inherited from {ONE}, which is not at hand"
+    reason = f"model is inherited from {ONE}, which is not available"
     assert three.model_path == Missing("model", reason, ONE)
     assert all(item.package_name == ONE and not item.at_hand for item in three.inherited)
 

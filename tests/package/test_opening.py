@@ -73,7 +73,7 @@ def test_what_is_left_out_beside_packages_is_said(write: Write) -> None:
     with open_input(space) as opened:
         assert [package.name for package in opened.packages] == ["rover"]
         assert {(item.name, item.reason.split(";")[0]) for item in opened.skipped} == {
-            ("notes", "holds no package"),
+            ("notes", "contains no package"),
             ("alias", "is a link"),
         }
 
@@ -117,7 +117,7 @@ def test_empty_folder(tmp_path: Path) -> None:
 
 
 def test_folder_without_a_package(write: Write) -> None:
-    assert "holds no package" in complaint(write({"notes/README.md": "hello"})).reason
+    assert "contains no package" in complaint(write({"notes/README.md": "hello"})).reason
 
 
 def test_folder_within_a_package_names_the_package(write: Write) -> None:
@@ -127,7 +127,7 @@ def test_folder_within_a_package_names_the_package(write: Write) -> None:
 
 @pytest.mark.parametrize("name", ["rover.rar", "README.md", "rover.tar.xz", "rover"])
 def test_file_of_another_kind(write: Write, name: str) -> None:
-    assert "no package, archive or model" in complaint(write({name: "hello"}) / name).reason
+    assert "not a package, archive or model" in complaint(write({name: "hello"}) / name).reason
 
 
 def test_link_in_a_circle(tmp_path: Path) -> None:
@@ -139,8 +139,8 @@ def test_link_in_a_circle(tmp_path: Path) -> None:
 def test_pipe_is_not_opened(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "rover.zip")
     os.mkfifo(tmp_path / "rover.sdf")
-    assert complaint(tmp_path / "rover.zip").reason == "is no regular file"
-    assert "no package, archive" in complaint(tmp_path / "rover.sdf").reason
+    assert complaint(tmp_path / "rover.zip").reason == "is not a regular file"
+    assert "not a package, archive" in complaint(tmp_path / "rover.sdf").reason
 
 
 def as_nobody(statement: str, *arguments: Path) -> str:

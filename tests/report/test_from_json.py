@@ -158,10 +158,10 @@ def test_members_that_came_later_may_be_missing() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "is no JSON"),
-        ("<html>", "is no JSON"),
-        ("[" * 100_000, "is no JSON"),
-        ('{"schema_version": ' + "9" * 5000 + "}", "is no JSON"),
+        ("", "is not JSON"),
+        ("<html>", "is not JSON"),
+        ("[" * 100_000, "is not JSON"),
+        ('{"schema_version": ' + "9" * 5000 + "}", "is not JSON"),
         ("null", "schema_version is None"),
         ("{}", "schema_version is None"),
         ('{"schema_version": "2"}', "schema_version is '2', expected '1'"),
@@ -203,7 +203,7 @@ def test_what_is_no_report_is_refused(text: str, said: str) -> None:
 def test_a_report_with_a_member_of_another_kind_is_refused(
     change: Callable[[dict[str, Any]], object],
 ) -> None:
-    with pytest.raises(NoReport, match=r"a report is none: (Expected|Object missing|Invalid)"):
+    with pytest.raises(NoReport, match=r"the report is invalid: (Expected|Object missing|Invalid)"):
         report_from_json(changed(change))
 
 

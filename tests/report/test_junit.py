@@ -15,7 +15,7 @@ from tests.report.any_report import REPORTS, many
 (PACKAGE,) = many(2).packages
 ERROR = PACKAGE.findings[0]
 WARNING = replace(ERROR, rule="GEO001", severity=Severity.WARNING, message="it floats")
-UNSEEN = NotChecked("SEN001", "the model is not at hand", Cause.NOT_AT_HAND)
+UNSEEN = NotChecked("SEN001", "the model is not available", Cause.NOT_AT_HAND)
 
 
 def suite_of(package: PackageReport) -> TestSuite:
@@ -60,7 +60,7 @@ def test_a_lesser_finding_is_told_unless_it_fails_the_run() -> None:
 def test_what_was_not_checked_is_skipped_and_a_crash_is_an_error() -> None:
     case = case_of(replace(PACKAGE, not_checked=(UNSEEN,), looked=("SEN001",)), "SEN001")
     assert case.is_skipped
-    assert case.result[0].message == "the model is not at hand"
+    assert case.result[0].message == "the model is not available"
     crash = NotChecked("SEN002", "SEN002 could not run", Cause.CRASHED)
     assert case_of(replace(PACKAGE, not_checked=(crash,)), "SEN002").is_error
 
@@ -69,7 +69,7 @@ def test_a_rule_that_found_something_and_could_not_see_the_rest_fails() -> None:
     unseen = replace(UNSEEN, rule="SDF004")
     case = case_of(replace(PACKAGE, not_checked=(unseen,)), "SDF004")
     assert case.is_failure
-    assert "not checked: the model is not at hand" in str(case.system_out)
+    assert "not checked: the model is not available" in str(case.system_out)
 
 
 def test_an_input_that_was_not_opened_is_an_error() -> None:

@@ -43,7 +43,7 @@ def text_in(html: str) -> str:
 
 
 def test_one_package_has_its_verdict_findings_and_the_rest_folded() -> None:
-    unseen = NotChecked("SEN001", "the model is not at hand", Cause.NOT_AT_HAND)
+    unseen = NotChecked("SEN001", "the model is not available", Cause.NOT_AT_HAND)
     aside = Suppressed(FAULT, SuppressedBy.COMMENT, "it is so")
     package = replace(
         PACKAGE,
@@ -61,7 +61,7 @@ def test_one_package_has_its_verdict_findings_and_the_rest_folded() -> None:
         "it is red (and 1 more place) |\n"
     ) in written
     assert "- **SDF004** It is ignored. **Fix:** take it out.\n" in written
-    assert "- SEN001: the model is not at hand\n" in written
+    assert "- SEN001: the model is not available\n" in written
     assert "- mass 18.5 kg\n" in written
     assert "(comment: it is so)\n" in written
     assert written.count("<details>") == written.count("</details>") == 4

@@ -223,7 +223,7 @@ def test_what_is_in_the_baseline_is_unchanged_and_the_rest_new() -> None:
 
 def test_what_could_not_be_looked_at_is_a_notification() -> None:
     unseen = (
-        NotChecked("SEN001", "the model is not at hand", Cause.NOT_AT_HAND),
+        NotChecked("SEN001", "the model is not available", Cause.NOT_AT_HAND),
         NotChecked("SEN002", "switched off", Cause.SWITCHED_OFF),
         NotChecked("SEN003", "SEN003 could not run", Cause.CRASHED),
     )

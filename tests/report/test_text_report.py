@@ -153,24 +153,24 @@ def test_findings_in_a_sibling_that_is_checked_too_are_shown_there() -> None:
     assert "models/base/model.sdf:141:19 error" in unsaid
     own = replace(PACKAGE, name="base", path="models/base", findings=(FAULT,))
     both = text(own, package)
-    assert "1 finding in base: see there" in both
+    assert "1 finding in base: listed there" in both
     assert both.count("models/base/model.sdf:141:19") == 1
     assert "rover: Not ready: 1 error to fix" in both
 
 
 def test_what_was_not_checked_is_grouped_by_its_reason() -> None:
     reasons = [
-        NotChecked("SEN001", "the model is not at hand", Cause.NOT_AT_HAND),
-        NotChecked("SEN002", "the model is not at hand", Cause.NOT_AT_HAND),
+        NotChecked("SEN001", "the model is not available", Cause.NOT_AT_HAND),
+        NotChecked("SEN002", "the model is not available", Cause.NOT_AT_HAND),
         NotChecked("SEN003", "switched off", Cause.SWITCHED_OFF),
         NotChecked("SEN004", "the package carries no robot", Cause.NOT_APPLICABLE),
     ]
     shown = text(replace(PACKAGE, not_checked=tuple(reasons)))
-    assert "not checked: SEN001, SEN002: the model is not at hand\n" in shown
+    assert "not checked: SEN001, SEN002: the model is not available\n" in shown
     assert "not checked: SEN003: switched off\n" in shown
     assert "SEN004" not in shown
     assert shown.endswith(
-        "rover: Incomplete: no error, but 2 rules could not look: the model is not at hand "
+        "rover: Incomplete: no error, but 2 rules not checked: the model is not available "
         "(1 rule switched off)\n"
     )
 
@@ -189,7 +189,7 @@ def test_inherited_parts_name_their_source() -> None:
     )
     shown = text(replace(PACKAGE, inherited=parts))
     assert "inherited from base: model and launch/a.launch\n" in shown
-    assert "inherited from gone (not at hand): spawner\n" in shown
+    assert "inherited from gone (not available): spawner\n" in shown
 
 
 def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
@@ -197,7 +197,7 @@ def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
         replace(PACKAGE, findings=(FAULT,)),
         replace(PACKAGE, name="long_name"),
         not_opened=(
-            NotOpened("models/docs", "holds no package", failed=False),
+            NotOpened("models/docs", "contains no package", failed=False),
             NotOpened("nowhere", "does not exist", failed=True),
         ),
     )
@@ -206,7 +206,7 @@ def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
         "long_name  ready          0 error     0 warning     0 info",
         "2 packages, 1 ready",
         "",
-        "not looked at: models/docs holds no package",
+        "not opened: models/docs contains no package",
     ]
 
 

@@ -68,16 +68,16 @@ def test_figures_that_only_inform_are_left_to_the_json() -> None:
 
 def test_a_refusal_takes_the_place_of_the_table() -> None:
     assert lines(refused="'base' has no mass", course=[]) == [
-        "trial: MuJoCo does not take the model: 'base' has no mass"
+        "trial: MuJoCo refuses the model: 'base' has no mass"
     ]
 
 
 def test_notes_and_repairs_are_said() -> None:
-    repairs = [{"part": "tip", "what": "has no mass, 0.001 kg taken", "serious": True}] * 2
+    repairs = [{"part": "tip", "what": "has no mass; 0.001 kg is used", "serious": True}] * 2
     said = lines(notes=["A mesh is left out: arm."], repairs=repairs)
     assert said[1:] == [
         "    note: A mesh is left out: arm.",
-        "    2 repairs so that it could go on: tip has no mass, 0.001 kg taken",
+        "    2 repairs to make the trial possible: tip has no mass; 0.001 kg is used",
     ]
 
 

@@ -71,13 +71,15 @@ def test_a_second_time_changes_nothing(robots: Path) -> None:
     init(robots)
     before = {path: path.read_bytes() for path in robots.glob("*.*") if path.is_file()}
     said = init(robots)
-    assert re.fullmatch(r"left .*subt-check\.toml as it is\nleft .* as it is: it has .*\n", said)
+    settings = r".*subt-check\.toml already exists and is not changed\n"
+    assert re.fullmatch(rf"{settings}.* already has the hook .* and is not changed\n", said)
     assert {path: path.read_bytes() for path in before} == before
 
 
 def test_settings_above_are_left_to_rule(robots: Path) -> None:
     (robots / "pyproject.toml").write_text("[tool.subt-check]\nprofile = 'sdf'\n")
-    assert init(robots / "models").startswith(f"left {robots}/pyproject.toml as it is\n")
+    kept = f"{robots}/pyproject.toml already exists and is not changed\n"
+    assert init(robots / "models").startswith(kept)
     assert not (robots / "models/subt-check.toml").exists()
 
 
@@ -111,7 +113,7 @@ UNSAFE = {
 def test_where_it_is_not_safe_the_lines_are_printed(robots: Path, text: str) -> None:
     (robots / HOOKS_FILE).write_text(text)
     said = init(robots)
-    assert "is not in a form to which it can be added safely; add this to its list" in said
+    assert "has a form to which the hook cannot be added safely; add this to its list" in said
     assert said.endswith(hook_entry())
     assert (robots / HOOKS_FILE).read_text("utf-8") == text
 
@@ -140,7 +142,7 @@ def test_something_else_in_place_of_the_settings(robots: Path, in_the_way: str) 
     else:
         (robots / "subt-check.toml").mkdir()
     left, hooked = init(robots).splitlines()
-    assert left == f"left {robots}/subt-check.toml as it is: it is no file that holds settings"
+    assert left == f"{robots}/subt-check.toml is not changed: it is not a settings file"
     assert hooked.startswith(f"wrote {robots}/{HOOKS_FILE} with the hook subt-check")
     assert not (robots.parent / "gone").exists()
 
@@ -156,7 +158,7 @@ def test_something_else_in_place_of_the_hooks(robots: Path, in_the_way: str) -> 
 
 
 def test_without_a_repository_there_is_no_hook(tmp_path: Path) -> None:
-    assert f"added no hook: {tmp_path} lies in no git repository" in init(tmp_path)
+    assert f"added no hook: {tmp_path} is not in a git repository" in init(tmp_path)
     assert (tmp_path / "subt-check.toml").is_file()
     assert not (tmp_path / HOOKS_FILE).exists()
 
@@ -164,7 +166,7 @@ def test_without_a_repository_there_is_no_hook(tmp_path: Path) -> None:
 def test_what_is_no_folder_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "model.sdf").write_text(SDF_FILE)
     assert main(["init", str(tmp_path / "model.sdf")]) == 2
-    assert "is no folder; give the folder that holds the packages" in capsys.readouterr().err
+    assert "is not a folder; give the folder that contains the packages" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("guessed", ["", *PROFILES])
@@ -199,7 +201,9 @@ def test_the_profile_is_guessed_from_what_is_there(tmp_path: Path) -> None:
     shutil.copytree(SAMPLES / GOOD, tmp_path / "urdf" / GOOD)
     both = guessed_profile(tmp_path / "urdf")
     assert both.profile == ""
-    assert both.reason.startswith("1 package for subt, 1 package for urdf; each is judged by")
+    assert both.reason.startswith(
+        "1 package for subt, 1 package for urdf; each is checked with the profile"
+    )
 
 
 def test_without_a_guess_the_profile_is_a_comment(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ def test_without_the_extra_one_sentence_says_how_to_get_it(
     said = capsys.readouterr()
     assert said.out == ""
     assert said.err == (
-        "subt-check: a_library_that_nobody_has is not installed, which the service needs; "
+        "subt-check: the service needs a_library_that_nobody_has, which is not installed; "
         "run: pip install 'subt-check[service]'\n"
     )
 

@@ -74,14 +74,16 @@ def test_without_sandbox_others_are_not_let_in(who: dict[str, str]) -> None:
     assert "install bubblewrap" in said
     assert "--without-sandbox" in said
     assert len(said) < 900
-    with pytest.raises(CheckerError, match="process that keeps them ends at once"):
+    with pytest.raises(CheckerError, match="process that provides them ends immediately"):
         risk_of(who, lambda: ())
 
 
 @pytest.mark.parametrize("who", [OPEN, TOKENS])
 def test_the_risk_is_taken_aloud(who: dict[str, str]) -> None:
     taken = who | {"SUBT_CHECK_WITHOUT_SANDBOX": "1"}
-    assert "reads all that this user can, uploads of others too" in risk_of(taken, lambda: NONE)
+    assert "can read all files of this user, including uploads of others" in risk_of(
+        taken, lambda: NONE
+    )
     sandbox = (*NONE, Layer(LANDLOCK, True, "version 1", hides=True))
     assert risk_of(taken, lambda: sandbox) == risk_of(who, lambda: sandbox) == ""
 
@@ -96,15 +98,15 @@ def test_of_this_machine_alone_nothing_is_asked() -> None:
 @linux
 def test_a_machine_without_sandbox_serves_others_only_on_purpose(serve: Serve) -> None:
     serving = serve("--public", program=BARE)
-    refused(serving, "no layer hides files from what others upload (namespaces: ")
+    refused(serving, "no sandbox layer hides files from uploads (namespaces: ")
     assert "landlock: the kernel has no Landlock" in serving.told
     serving = serve("--public", "--without-sandbox", "--workers", 1, program=BARE)
     url = serving.url
-    assert "uploads of others too (--without-sandbox)\n" in serving.told
+    assert "including uploads of others (--without-sandbox)\n" in serving.told
     wait_for(lambda: get(url, "/readyz")[0] == 200)
     (sandbox,) = json.loads(get(url, "/readyz")[1])["sandbox"].values()
     assert sandbox == [SECCOMP]
-    assert "what takes over a check reads all that this user can" in serving.told
+    assert "an upload that takes control of a check can read all files" in serving.told
     assert serving.stop() == 0
 
 
@@ -117,6 +119,6 @@ def test_a_machine_without_sandbox_serves_itself(serve: Serve) -> None:
 
 def test_a_worker_says_its_sandbox_in_one_line(serve: Serve) -> None:
     serving = serve("--workers", 1)
-    wait_for(lambda: "waits for checks" in serving.told)
+    wait_for(lambda: "is waiting for checks" in serving.told)
     (line,) = (each for each in serving.told.splitlines() if "layers of the sandbox: " in each)
     assert " INFO " in line

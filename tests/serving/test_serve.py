@@ -38,7 +38,7 @@ def get(url: str, path: str, **headers: str) -> tuple[int, bytes]:
 def test_its_first_line_is_its_address(serve: Serve) -> None:
     serving = serve("--workers", 0)
     assert serving.url.startswith("http://127.0.0.1:")
-    assert serving.said == f"subt-check serves at {serving.url}\n"
+    assert serving.said == f"the service runs at {serving.url}\n"
     assert get(serving.url, "/healthz") == (200, b'{"status":"ok"}')
     assert not serving.workers()
     assert all(line.startswith('{"time"') for line in serving.told.splitlines())
@@ -75,7 +75,7 @@ def test_a_worker_that_dies_is_followed_by_another_of_its_name(serve: Serve) -> 
     os.kill(dead, signal.SIGKILL)
     wait_for(lambda: len(set(serving.workers()) - {dead}) == 2)
     assert {command_of(each).split()[-1] for each in serving.workers()} == names
-    assert "was ended by SIGKILL; it starts again in 1 s\n" in serving.told
+    assert "was ended by SIGKILL; it restarts in 1 s\n" in serving.told
 
 
 def test_a_web_server_that_dies_is_followed_by_another_at_its_address(serve: Serve) -> None:
@@ -89,7 +89,7 @@ def test_a_web_server_that_dies_is_followed_by_another_at_its_address(serve: Ser
     # Who asks meanwhile waits.
     assert get(url, "/healthz")[0] == 200
     assert serving.web() != [dead]
-    assert "the web server was ended by SIGKILL; it starts again" in serving.told
+    assert "the web server was ended by SIGKILL; it restarts" in serving.told
     wait_for(lambda: f"{counted} 2.0" in get(url, "/metrics")[1].decode())
 
 
@@ -132,7 +132,7 @@ def test_a_second_signal_ends_all_at_once(serve: Serve) -> None:
     # A worker that does not hear.
     os.kill(serving.workers()[0], signal.SIGSTOP)
     serving.process.send_signal(signal.SIGTERM)
-    wait_for(lambda: "a second signal ends it at once" in serving.told)
+    wait_for(lambda: "a second signal ends it immediately" in serving.told)
     assert serving.process.poll() is None
     serving.process.send_signal(signal.SIGTERM)
     assert serving.process.wait(SECONDS) == 3
@@ -159,14 +159,14 @@ def test_others_are_let_in_only_on_purpose(serve: Serve) -> None:
     refused(
         serve("--host", EVERYWHERE), "can be reached from other machines; set SUBT_CHECK_TOKENS"
     )
-    refused(serve("--host", "::"), "or let everybody by --public")
+    refused(serve("--host", "::"), "or allow everybody with --public")
 
 
 def test_everybody_is_let_in_by_name(serve: Serve) -> None:
     serving = serve("--host", EVERYWHERE, "--public", "--workers", 0)
     port = urlsplit(serving.url).port
     assert serving.url == f"http://0.0.0.0:{port}"
-    assert "everybody who reaches it may upload (--public)\n" in serving.told
+    assert "everybody who can reach the service may upload (--public)\n" in serving.told
     assert get(f"http://127.0.0.1:{port}", "/", Host="check.example")[0] == 200
 
 
@@ -185,7 +185,11 @@ def test_with_tokens_any_address_is_fine(serve: Serve) -> None:
         (("--host", "192.0.2.1"), {}, "choose another --host or --port"),
         ((), {"SUBT_CHECK_UPLOAD_LIMIT": "much"}, "SUBT_CHECK_UPLOAD_LIMIT is 'much'"),
         (("--base-url", "here"), {}, "SUBT_CHECK_BASE_URL is 'here'"),
-        ((), {"SUBT_CHECK_DATABASE_URL": "sqlite://"}, "SUBT_CHECK_DATABASE_URL is no address"),
+        (
+            (),
+            {"SUBT_CHECK_DATABASE_URL": "sqlite://"},
+            "SUBT_CHECK_DATABASE_URL is not the address",
+        ),
     ],
 )
 def test_what_makes_no_sense_is_refused(
@@ -211,7 +215,7 @@ def test_a_place_for_data_that_is_none_is_refused(serve: Serve, tmp_path: Path) 
     (tmp_path / "file").write_text("", "utf-8")
     for place in ("file", "file/data", "/proc/data"):
         serving = serve("--workers", 0, "--data", tmp_path / place)
-        refused(serving, f"{tmp_path / place} cannot hold the data of the service")
+        refused(serving, f"{tmp_path / place} cannot be used for the service's data")
 
 
 @pytest.mark.parametrize(("options", "believed"), [((), False), (("--behind-proxy",), True)])

@@ -37,9 +37,7 @@ def test_one_that_dies_waits_longer_each_time(tmp_path: Path) -> None:
     stop.set()
     keeper.join()
     waits = ["0.3", "0.6", "1", "1", "1"]
-    assert said[:5] == [
-        f"the clerk ended with exit code 7; it starts again in {w} s" for w in waits
-    ]
+    assert said[:5] == [f"the clerk ended with exit code 7; it restarts in {w} s" for w in waits]
     started = times(tmp_path / "stamps")
     pauses = [later - sooner for sooner, later in pairwise(started)]
     assert all(pause >= float(wait) for pause, wait in zip(pauses, waits, strict=False))

@@ -37,8 +37,8 @@ def test_a_whole_file_has_no_fault_whatever_stands_behind_it(behind: bytes) -> N
         (b"version https://git-lfs.github.com/spec/v1", "Git LFS"),
         (b"hello", "no PNG"),
         (SIGNATURE, "cut off"),
-        (SIGNATURE + HEADER + END, "holds no picture"),
-        (SIGNATURE + PIXELS + END, "holds no picture"),
+        (SIGNATURE + HEADER + END, "contains no picture"),
+        (SIGNATURE + PIXELS + END, "contains no picture"),
         (SIGNATURE + HEADER + PIXELS, "cut off"),
     ],
 )

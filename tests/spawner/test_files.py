@@ -61,7 +61,7 @@ def test_a_missing_file_can_be_rescued(emit):
 
 def test_a_missing_package_is_named_even_inside_a_rescue(emit):
     text = "def f\n  require_relative '../../base/launch/c'\nrescue LoadError\n  ''\nend"
-    assert emit(text).reason == "package base is not at hand"
+    assert emit(text).reason == "package base is not available"
 
 
 def test_files_that_load_each_other_end(emit):

@@ -27,7 +27,7 @@ HOSTILE = {
     "`ls`": "runs the command 'ls'",
     "`rospack find a; rm b`": "runs the command 'rospack find a; rm b'",
     "%x(ls)": "runs the command 'ls'",
-    "`rospack find other_robot`.chomp": "package other_robot is not at hand",
+    "`rospack find other_robot`.chomp": "package other_robot is not available",
     "File.write('/tmp/x', 'y')": "calls File.write",
     "File.open('/tmp/x', 'w') { |f| f << 'y' }": "calls File.open",
     "File.read('/etc/passwd')": "outside the workspace",
@@ -73,7 +73,7 @@ HOSTILE = {
     "begin; raise Exception, 'x'; rescue; 1; end": "raises Exception: x",
     "YAML.load('[' * 100)": "nested too deeply",
     'YAML.load("a: &x 1\\nb: *x")': "uses an alias",
-    'YAML.load("a: [")': "no YAML",
+    'YAML.load("a: [")': "not readable YAML",
     "YAML.load(\"a: !ruby/object:A {}\")['a'].x": "calls Hash#x",
     "YAML.load(\"a: !!python/object/apply:os.system [ls]\")['a'].x": "calls Array#x",
     'YAML.load("a: 2001-01-01")': "timestamp",
@@ -189,7 +189,7 @@ def test_what_stands_outside_the_functions_counts_for_both(workspace):
     spawner = workspace("system('ls')\ndef spawner(a)\n  'x'\nend\n").spawner()
     assert isinstance(spawner.spawn, Unread)
     assert [(u.reason, u.span.line) for u in spawner.unread] == [
-        ("calls system, which is not read", 1)
+        ("calls system, which is not supported", 1)
     ]
     assert list(spawner.functions) == ["spawner"]
 

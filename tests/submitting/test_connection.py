@@ -146,7 +146,7 @@ def test_a_token_is_not_carried_elsewhere(
     other = start_service(in_turn(answer(200, {"id": "x" * 22})))
     service = start_service(in_turn(answer(status, "x", Location=f"{other.url}/\x1bx")))
     upload = Upload(model) if method == "POST" else None
-    with pytest.raises(CheckerError, match=r"sends on to http.*give its address") as raised:
+    with pytest.raises(CheckerError, match=r"redirects to http.*give this address") as raised:
         connection_to(service, "secret").ask(method, "/api/checks", upload)
     assert str(raised.value).isprintable()
     assert not other.asked

@@ -42,7 +42,9 @@ def test_an_address(text: str, server: Server) -> None:
     ],
 )
 def test_what_is_no_address(text: str) -> None:
-    with pytest.raises(CheckerError, match=r"is no address of a service, .* https://check\.exam"):
+    with pytest.raises(
+        CheckerError, match=r"is not the address of a service, .* https://check\.exam"
+    ):
         parse_server(text)
 
 

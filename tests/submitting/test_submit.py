@@ -73,18 +73,16 @@ def test_a_folder_is_sent_as_an_archive_of_its_name(
     assert b'name="profile"\r\n\r\nsdf\r\n' in sent.body
     assert b'filename="rover.zip"' in sent.body
     assert b"PK\x03\x04" in sent.body
-    assert "rover: 1 link left out, as archives hold none: link\n" in done.stderr
+    assert "rover: 1 link left out, because archives cannot contain them: link\n" in done.stderr
 
 
 def test_a_model_file_of_a_package_is_sent_with_a_warning(
     start_service: StartService, submit: Submit, tmp_path: Path, model: Path
 ) -> None:
     service = start_service(checking(DONE))
-    assert "sent alone" not in submit(model, "--server", service.url).stderr
+    assert "without its meshes" not in submit(model, "--server", service.url).stderr
     (tmp_path / "model.config").write_text("<model/>", "utf-8")
-    assert (
-        "robot.sdf is sent alone; for its meshes" in submit(model, "--server", service.url).stderr
-    )
+    assert "robot.sdf is sent without its meshes;" in submit(model, "--server", service.url).stderr
     assert b"<model name='robot'/>" in service.asked[0].body
 
 
@@ -132,18 +130,18 @@ def refused(done: subprocess.CompletedProcess[str], reason: str) -> None:
 @pytest.mark.parametrize(
     ("status", "said", "reason"),
     [
-        (401, {"error": "A token is wanted.", "advice": "Bring one."}, "wanted. Bring one."),
+        (401, {"error": "A token is needed.", "advice": "Bring one."}, "needed. Bring one."),
         (
             413,
             {"error": "Too large.\x1b[31m", "advice": None},
             "Too large.\N{REPLACEMENT CHARACTER}",
         ),
         (415, {"error": "x" * 100_000, "advice": ""}, "xxx…"),
-        (500, "<h1>Oops</h1>", "answers 500, and not as the service of subt-check does"),
-        (200, "<h1>Welcome</h1>", "answers 200, and not as the service of subt-check does"),
-        (201, {"id": "../../x"}, "answers 201, and not as"),
-        (201, {"id": 3}, "answers 201, and not as"),
-        (201, [], "answers 201, and not as"),
+        (500, "<h1>Oops</h1>", "answers 500, but not like a subt-check service"),
+        (200, "<h1>Welcome</h1>", "answers 200, but not like a subt-check service"),
+        (201, {"id": "../../x"}, "answers 201, but not like"),
+        (201, {"id": 3}, "answers 201, but not like"),
+        (201, [], "answers 201, but not like"),
     ],
 )
 def test_an_upload_that_is_not_taken(
@@ -167,8 +165,8 @@ def test_a_package_that_the_check_refuses(
     [
         ({"stage": "failed", "words": "the checker could not finish: it died"}, "finish: it died"),
         ({"stage": "cancelled", "words": ""}, "the check was cancelled"),
-        ({"mood": "good"}, "answers 200, and not as the service"),
-        ({"stage": 7}, "answers 200, and not as the service"),
+        ({"mood": "good"}, "answers 200, but not like"),
+        ({"stage": 7}, "answers 200, but not like"),
     ],
 )
 def test_a_check_that_does_not_finish(
@@ -183,9 +181,9 @@ def test_a_check_that_does_not_finish(
 @pytest.mark.parametrize(
     ("report", "reason"),
     [
-        ("<html>", "what should be a report is no JSON"),
+        ("<html>", "the report is not JSON"),
         ('{"schema_version": "7"}', "schema_version is '7', expected '1'"),
-        ("[" * 100_000, "what should be a report is no JSON"),
+        ("[" * 100_000, "the report is not JSON"),
     ],
 )
 def test_a_report_that_is_none(
@@ -246,7 +244,7 @@ def test_a_token_in_clear_over_a_network_is_warned_of(submit: Submit, model: Pat
 @pytest.mark.parametrize("token", ["two words", "lin\re", "prüfung"])
 def test_a_token_that_is_none(submit: Submit, model: Path, token: str) -> None:
     done = submit(model, "--server", "http://nobody.invalid", "--token", token)
-    refused(done, "the token holds other than ASCII letters, digits and signs")
+    refused(done, "the token contains characters that are not ASCII letters, digits or signs")
 
 
 def at_a_terminal(model: Path, service: Service) -> tuple[subprocess.Popen[bytes], int]:
@@ -270,7 +268,7 @@ def read_until(terminal: int, words: str) -> str:
 
 @pytest.mark.parametrize(
     ("typed", "said"),
-    [(b"y\n", "the check is cancelled"), (b"\n", "the check goes on at http://127.0.0.1:")],
+    [(b"y\n", "the check is cancelled"), (b"\n", "the check continues at http://127.0.0.1:")],
 )
 def test_who_interrupts_is_asked_whether_the_check_shall_end(
     start_service: StartService, model: Path, typed: bytes, said: str
@@ -305,5 +303,5 @@ def test_without_a_terminal_the_check_goes_on(
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
     assert process.wait(20) == 2
-    assert f"the check goes on at {service.url}/checks/{ID}\n" in said.read_text("utf-8")
+    assert f"the check continues at {service.url}/checks/{ID}\n" in said.read_text("utf-8")
     assert not [line for line in service.lines if line.startswith("DELETE")]

@@ -122,8 +122,10 @@ def test_links_are_left_out_and_named(tmp_path: Path) -> None:
     os.mkfifo(package / "pipe")
     archive, words = packed(package)
     assert archive.namelist() == ["rover/model.sdf"]
-    assert "5 links left out, as archives hold none: a, b, c�[31m and 2 more" in words
-    assert "1 special file left out, as archives hold none: pipe" in words
+    assert (
+        "5 links left out, because archives cannot contain them: a, b, c�[31m and 2 more" in words
+    )
+    assert "1 special file left out, because archives cannot contain them: pipe" in words
 
 
 def test_the_same_content_makes_the_same_archive(tmp_path: Path) -> None:
@@ -140,7 +142,7 @@ def test_the_same_content_makes_the_same_archive(tmp_path: Path) -> None:
 def test_more_files_than_allowed_are_refused_before_they_are_packed(tmp_path: Path) -> None:
     package = written(tmp_path / "rover", a_sdf=b"", b_sdf=b"", c_sdf=b"")
     assert packed(package, ArchiveLimits(entries=3))[0].namelist()
-    with pytest.raises(UnreadableInput, match="holds 3 files and folders, expected 2 or fewer"):
+    with pytest.raises(UnreadableInput, match="contains 3 files and folders, expected 2 or fewer"):
         packed(package, ArchiveLimits(entries=2))
 
 
@@ -148,7 +150,7 @@ def test_more_bytes_than_allowed_are_refused_before_they_are_packed(tmp_path: Pa
     package = written(tmp_path / "rover", model_sdf=b"<sdf/>")
     with (package / "sparse.stl").open("wb") as file:
         file.truncate(3_000_000_000)
-    with pytest.raises(UnreadableInput, match="holds 3000 MB, expected 500 or less"):
+    with pytest.raises(UnreadableInput, match="has 3000 MB, expected 500 MB or less"):
         packed(package)
 
 

@@ -45,7 +45,7 @@ def test_the_verdict_and_the_exit_code_count_what_is_left(
 
 def test_a_baseline_is_written_and_holds(rover: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([NAME, *CHOSEN, "--write-baseline"]) == 0
-    assert capsys.readouterr().out == f"{FILE} holds 1 finding of 1 package\n"
+    assert capsys.readouterr().out == f"{FILE} contains 1 finding of 1 package\n"
     chosen = [NAME, *CHOSEN, "--baseline", FILE]
     assert main(chosen) == 0
     assert "suppressed: 1 finding by the baseline\n" in capsys.readouterr().out
@@ -72,7 +72,7 @@ def test_writing_anew_keeps_reasons_and_what_was_not_checked(rover: Path) -> Non
     content = json.loads(Path("b.json").read_text("utf-8"))
     (entry,) = content["packages"][NAME]
     entry["reason"] = "next year"
-    unseen = {**entry, "rule": "GEO001", "message": "not looked at"}
+    unseen = {**entry, "rule": "GEO001", "message": "not checked"}
     gone = {**entry, "rule": "OLD001", "message": "no rule any more"}
     content["packages"] = {NAME: [entry, unseen, gone], "other": [unseen]}
     Path("b.json").write_text(json.dumps(content), "utf-8")
@@ -93,7 +93,7 @@ def test_the_file_that_the_settings_name_is_written(
 ) -> None:
     (rover / "subt-check.toml").write_text('baseline = "own.json"\n', "utf-8")
     assert main([NAME, *CHOSEN, "--write-baseline"]) == 0
-    assert capsys.readouterr().out == f"{NAME}/own.json holds 1 finding of 1 package\n"
+    assert capsys.readouterr().out == f"{NAME}/own.json contains 1 finding of 1 package\n"
     assert main([NAME, *CHOSEN]) == 0
     assert main([NAME, *CHOSEN, "--write-baseline"]) == 0
 
@@ -116,7 +116,7 @@ def test_no_file_in_an_archive_is_written(rover: Path) -> None:
 def test_packages_of_one_name_are_refused(rover: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shutil.copytree(rover, f"other/{NAME}")
     assert main([NAME, f"other/{NAME}", *CHOSEN, "--write-baseline"]) == 2
-    said = f"subt-check: {NAME} and other/{NAME} are packages of one name, {NAME}, by which a "
+    said = f"subt-check: {NAME} and other/{NAME} are packages with the same name, {NAME}, which a "
     assert capsys.readouterr().err.startswith(said)
     assert not Path(FILE).exists()
 
@@ -148,13 +148,13 @@ def test_another_file_is_neither_read_nor_overwritten(
     Path("b.json").write_text(content, "utf-8")
     assert main([NAME, *CHOSEN, "--baseline", "b.json"]) == 2
     assert main([str(rover), *CHOSEN, "--baseline", "b.json", "--write-baseline"]) == 2
-    assert "b.json: is no baseline" in capsys.readouterr().err
+    assert "b.json: is not a baseline" in capsys.readouterr().err
     assert Path("b.json").read_text("utf-8") == content
 
 
 def test_a_baseline_that_is_not_there(rover: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([str(rover), *CHOSEN, "--baseline", "none.json"]) == 2
-    assert "none.json: does not exist; --write-baseline" in capsys.readouterr().err
+    assert "none.json: does not exist; create it with --write-baseline" in capsys.readouterr().err
 
 
 def test_nothing_is_remembered_across_baselines(

@@ -64,7 +64,7 @@ def test_a_reason_has_a_word(text: str) -> None:
 )
 def test_another_form_names_no_rule(text: str) -> None:
     comment = only(f"<!-- subt-check: {text} -->")
-    assert (comment.names, comment.fault) == ((), "no ignore[RULE] stands in it")
+    assert (comment.names, comment.fault) == ((), "it contains no ignore[RULE]")
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_another_form_names_no_rule(text: str) -> None:
 )
 def test_a_mark_without_its_colon_is_at_fault(file: str, text: str) -> None:
     comment = only(text, file)
-    assert (comment.names, comment.fault) == ((), "no colon stands behind subt-check")
+    assert (comment.names, comment.fault) == ((), "a colon is missing after subt-check")
 
 
 def test_a_mark_in_its_form_is_without_fault() -> None:

@@ -86,8 +86,8 @@ def test_a_mark_without_its_colon_is_said(tmp_path: Path) -> None:
     report = checked(axle(f"{mark}\n{TYRE}"), tmp_path)
     assert {each.rule for each in report.findings} == {"CFG003", "KIN001"}
     (fault,) = (each for each in report.findings if each.rule == "CFG003")
-    expected = "no colon stands behind subt-check, expected 'subt-check: ignore[RULE] reason'"
-    assert fault.message == f"comment has no effect: {expected}"
+    expected = "a colon is missing after subt-check, expected 'subt-check: ignore[RULE] reason'"
+    assert fault.message == f"the comment has no effect: {expected}"
 
 
 def test_a_rule_in_use_and_one_that_is_not(tmp_path: Path) -> None:

@@ -81,16 +81,16 @@ def test_the_folder_is_a_dot() -> None:
 @pytest.mark.parametrize(
     ("value", "problem"),
     [
-        ("SEN005", "no list"),
-        ([{"rule": "SEN005", "reason": REASON}] * 201, "no list"),
-        (["SEN005"], "suppress 1 is no table"),
+        ("SEN005", "not a list"),
+        ([{"rule": "SEN005", "reason": REASON}] * 201, "not a list"),
+        (["SEN005"], "suppress 1 is not a table"),
         ([{"rule": "SEN005", "reason": "x"}, {"rule": "SEN005"}], "suppress 2 has no reason"),
         ([{"rule": "SEN005", "reason": " "}], "has no reason"),
         ([{"rule": "SEN005", "reason": "x" * 1_001}], "of more than 1000 characters"),
         ([{"rule": "A", "reason": "x", "file": "*" * 1_001}], "has file of more than 1000"),
         ([{"rule": "A", "reason": "x", "element": "e" * 1_001}], "has element of more than 1000"),
         ([{"reason": "x"}], "has no rule"),
-        ([{"rule": "SEN005", "reason": 7}], "reason = 7, expected a text"),
+        ([{"rule": "SEN005", "reason": 7}], "reason = 7, expected a string"),
         ([{"rule": "SEN005", "reason": "x", "line": "7"}], "has 'line', expected rule, file"),
     ],
 )
@@ -105,8 +105,8 @@ def test_entries_of_another_form_are_refused(value: object, problem: str, tmp_pa
         ("SEN999", r"there is no rule 'SEN999'"),
         ("unknown-joint-ends", r"no rule 'unknown-joint-ends'; did you mean unknown-joint-end\?"),
         ("KIM", r"there is no rule 'KIM'; `subt-check rules` lists them"),
-        ("KIN", r"suppress names the group 'KIN'; entries name single rules"),
-        ("kin", r"suppress names the group 'kin'; entries name single rules"),
+        ("KIN", r"suppress names the group 'KIN'; expected a single rule"),
+        ("kin", r"suppress names the group 'kin'; expected a single rule"),
     ],
 )
 def test_an_entry_for_no_single_rule_is_refused(rule: str, problem: str, tmp_path: Path) -> None:

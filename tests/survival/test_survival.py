@@ -27,7 +27,7 @@ from tests.web.service import zip_of
 
 WHOLE = ["queued", "static", "trial", "trial", "done"]
 MODEL = "broken_ouster_description"
-AGAIN = "begins again"
+AGAIN = "starts again"
 """In the words of an event that tells of a worker that died."""
 
 

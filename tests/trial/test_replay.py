@@ -83,4 +83,4 @@ def test_robots_of_very_many_moving_links_have_no_replay() -> None:
     trial = start_trial(star(TRACKED + 1), NO_CACHE).result()
     assert isinstance(trial, Trial)
     assert trial.replay is None
-    assert f"more than {TRACKED} links move: there is no replay of the trial" in trial.notes
+    assert f"more than {TRACKED} links move, so there is no replay of the trial" in trial.notes

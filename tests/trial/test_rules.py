@@ -164,15 +164,17 @@ def test_drift_says_what_the_centre_of_mass_explains(
         com_offset_side=side,
         com_offset_front=front,
     )
-    assert said.startswith("drifts 1.2 m while turning in place, expected at most 0.5 m: ")
+    assert said.startswith(
+        "the robot drifts 1.2 m while turning in place, expected at most 0.5 m: "
+    )
     assert words in said
 
 
 REPAIRS = (
     Repair("left_front_joint", "has an axis of length 0 and is held fixed", serious=True),
-    Repair("left_front", "has a zero principal moment, 1e-7 kg·m² taken", serious=True),
-    Repair("left_rear", "has a negative mass, 0.001 kg taken", serious=True),
-    Repair("right_rear", "has a pose that is not known, the origin taken"),
+    Repair("left_front", "has a zero principal moment; 1e-7 kg·m² is used", serious=True),
+    Repair("left_rear", "has a negative mass; 0.001 kg is used", serious=True),
+    Repair("right_rear", "has an unknown pose; the origin is used"),
 )
 
 
@@ -205,5 +207,5 @@ def test_a_figure_that_moves_with_the_time_step_is_named() -> None:
     once, again = trial_of(speed_ratio=1.0, turn_drift=0.1), trial_of(speed_ratio=0.8)
     (found,) = RULES["TRI016"].check(RepeatedTrial(rover(), once, again))
     assert not isinstance(found, Unchecked)
-    assert "speed reached / commanded is 1 and then 0.8" in found.message
+    assert "speed reached / commanded changes from 1 to 0.8" in found.message
     assert not list(RULES["TRI016"].check(RepeatedTrial(rover(), once, once)))

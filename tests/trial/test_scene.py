@@ -131,7 +131,7 @@ FLAT = tuple((x, y, 0.0) for x, y, _ in CUBE)
 @pytest.mark.parametrize(
     ("mesh", "said", "serious"),
     [
-        (MeshFault(MeshTrouble.MISSING, "is missing"), "is of a mesh that is missing", True),
+        (MeshFault(MeshTrouble.MISSING, "is missing"), "uses a mesh that is missing", True),
         (Mesh("a.dae", "dae", 2, (0, 0, 0), (1, 1, 0), hull=FLAT), "without volume", True),
         (Mesh("a.dae", "dae", 0, (0, 0, 0), (0, 0, 0)), "without volume", True),
     ],
@@ -148,7 +148,7 @@ def test_a_mesh_that_cannot_be_had_is_left_out(
 
 @pytest.mark.parametrize("trouble", [MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED])
 def test_without_a_mesh_that_it_may_stand_on_there_is_no_trial(trouble: MeshTrouble) -> None:
-    assert meshed(MeshFault(trouble, "was not looked for")).unusable.endswith("was not looked for")
+    assert meshed(MeshFault(trouble, "was not searched")).unusable.endswith("was not searched")
 
 
 def test_bodies_stand_where_the_file_poses_the_links() -> None:
@@ -216,7 +216,7 @@ def test_friction_of_two_directions_is_noted() -> None:
     anisotropic = surface("<ode><mu>0.5</mu><mu2>1</mu2></ode>")
     scene = scene_of(link("a", collision(box(1, 1, 1), rest=anisotropic)))
     assert scene.notes == (
-        "Friction is 0.5 in its first direction and 1 in its second; the trial takes 0.5 for "
+        "Friction is 0.5 in its first direction and 1 in its second; the trial uses 0.5 for "
         "both: a.",
     )
 
@@ -260,7 +260,7 @@ def test_servos_are_velocity_servos_of_the_joints_asked_for() -> None:
     scene = scene_of(content, servos=["b_joint", "c_joint", "nothing", "b_joint"])
     model, data = compiled(scene)
     assert list(scene.actuators) == ["b_joint"]
-    assert "Joints to drive neither turn nor slide: c_joint, nothing." in scene.notes
+    assert "Driven joints neither turn nor slide: c_joint, nothing." in scene.notes
     actuator = model.actuator(scene.actuators["b_joint"]).id
     assert model.actuator_trnid[actuator, 0] == model.joint(scene.joints["b_joint"]).id
     model.actuator_gainprm[actuator, 0], model.actuator_biasprm[actuator, 2] = 50.0, -50.0
@@ -316,7 +316,7 @@ def test_the_root_is_the_link_that_carries_most_of_the_mass() -> None:
         (link("a") + "<static>true</static>", "the robot is static"),
         (
             link("a") + "<include><uri>model://arm</uri></include>",
-            "parts of the robot are not at hand: model://arm is included and not at hand",
+            "parts of the robot are not available: model://arm is included, but not available",
         ),
     ],
 )

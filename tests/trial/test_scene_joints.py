@@ -51,7 +51,7 @@ def test_types_that_move(type: str, rest: str, types: list[int]) -> None:
 def test_other_types_are_held_fixed(type: str) -> None:
     scene = jointed(type, AXIS)
     assert types_of(scene) == []
-    assert scene.notes == (f"Joints are held fixed, being of type {type!r}: b_joint.",)
+    assert scene.notes == (f"Joints of type {type!r} are held fixed: b_joint.",)
     assert not scene.joints
     assert scene.welded == {"a": "a", "b": "a", "world": "world"}
 
@@ -80,7 +80,7 @@ def test_a_limit_on_one_side() -> None:
 def test_limits_that_leave_no_range_hold_the_joint() -> None:
     scene = jointed("revolute", limited("0", "0"))
     assert types_of(scene) == []
-    assert scene.notes == ("Joints whose limits leave them no range are held fixed: b_joint.",)
+    assert scene.notes == ("Joints whose limits allow no range are held fixed: b_joint.",)
     assert not scene.repairs
 
 
@@ -97,7 +97,7 @@ def test_limits_the_wrong_way_round_are_left_out() -> None:
 
 def test_a_start_beyond_the_limits_is_noted() -> None:
     scene = jointed("revolute", limited("0.5", "1"))
-    assert scene.notes == ("Joints start at 0, which is beyond their limits: b_joint.",)
+    assert scene.notes == ("Joints start at 0, which is outside their limits: b_joint.",)
 
 
 def test_damping_friction_and_spring() -> None:
@@ -249,7 +249,7 @@ def test_a_loop_is_cut_and_named() -> None:
     scene = scene_of(content + joint("c", parent="b", name="second"))
     (repair,) = scene.repairs
     assert repair.part == "second"
-    assert repair.what == "ties b and c, which hangs on another link already, and is left out"
+    assert repair.what == "connects b with c, which already has a parent, and is left out"
     assert not repair.serious
     assert ("b", "c") in scene.tied
     compiled(scene)
@@ -266,5 +266,5 @@ def test_links_that_hang_on_one_another_in_a_circle() -> None:
 def test_a_joint_with_an_unknown_end_is_left_out() -> None:
     scene = scene_of(link("a") + link("b") + joint("b", parent="nowhere"))
     (repair,) = scene.repairs
-    assert repair.what == "ties 'nowhere', which is no link, and is left out"
+    assert repair.what == "connects 'nowhere', which is not a link, and is left out"
     assert set(scene.free_joints) == {"a", "b"}

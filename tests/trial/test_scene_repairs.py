@@ -56,7 +56,7 @@ def test_inertia_turns_with_its_pose() -> None:
 
 def test_a_zero_principal_moment() -> None:
     scene, repair = repaired(link("a", BALL + inertial(1, 1, 1, 0)))
-    assert repair == Repair("a", "has a zero principal moment, 1e-07 kg·m² taken", serious=True)
+    assert repair == Repair("a", "has a zero principal moment; 1e-07 kg·m² is used", serious=True)
     assert moments(scene, "a") == [1e-7, 1, 1]
 
 
@@ -145,11 +145,11 @@ def test_a_plate_is_sound_however_it_is_turned(
 @pytest.mark.parametrize(
     ("mass", "what"),
     [
-        ("0", "has no mass, 0.001 kg taken"),
-        ("-3", "has a negative mass, 0.001 kg taken"),
-        ("nan", "has no mass, 0.001 kg taken"),
-        ("inf", "has a mass that is no usable number, 0.001 kg taken"),
-        ("1e300", "has a mass that is no usable number, 1e+12 kg taken"),
+        ("0", "has no mass; 0.001 kg is used"),
+        ("-3", "has a negative mass; 0.001 kg is used"),
+        ("nan", "has no mass; 0.001 kg is used"),
+        ("inf", "has a mass that is not a usable number; 0.001 kg is used"),
+        ("1e300", "has a mass that is not a usable number; 1e+12 kg is used"),
     ],
 )
 def test_masses(mass: str, what: str) -> None:
@@ -193,14 +193,14 @@ def test_places_beyond_measure(place: str) -> None:
     assert {repair.part for repair in scene.repairs} == {"b"}
     part = scene_of(link("a", BALL + collision(box(1, 1, 1), place)))
     assert compiled(part)[0].ngeom == 2
-    assert part.repairs[0].what.endswith("has a place that is not known and is left out")
+    assert part.repairs[0].what.endswith("has an unknown place and is left out")
 
 
 def test_a_link_posed_in_an_unknown_frame() -> None:
     content = '<link name="b"><pose relative_to="nowhere"/></link>'
     scene = scene_of(link("a") + content + joint("b", type="fixed"), "1.9")
     compiled(scene)
-    what = "has a pose that is not known, that of the link it hangs on taken"
+    what = "has an unknown pose; the pose of its parent link is used"
     assert scene.repairs == (Repair("b", what),)
 
 

@@ -127,7 +127,7 @@ def test_a_package_that_is_not_at_hand_is_no_fault(describe: Describe) -> None:
     body = f'<xacro:include filename="$(find elsewhere)/a.xacro"/>{BASE}'
     files = files_of(describe({FILE: robot(body)}))
     assert not files.faults
-    assert "elsewhere is not at hand" in files.unread[0]
+    assert "elsewhere is not available" in files.unread[0]
 
 
 @pytest.mark.parametrize("only", ["urdf/acme.urdf.xacro"])

@@ -43,7 +43,7 @@ def fault(describe: Describe, body: str, **more: str) -> XacroFault:
     ("body", "kind", "said"),
     [
         ("<a b=\"${open('/etc/passwd').read()}\"/>", EXPANSION, "'open' is not defined"),
-        ('<a b="$(find ../../..)/x"/>', EXPANSION, "no name of a package"),
+        ('<a b="$(find ../../..)/x"/>', EXPANSION, "is not a package name"),
         ('<a b="$(env HOME)"/>', XacroFaultKind.ENVIRONMENT, "HOME"),
         ("<a b=\"$(eval env('HOME'))\"/>", EXPANSION, ""),
         ("<a b=\"$(eval open('/etc/passwd'))\"/>", EXPANSION, ""),

@@ -112,9 +112,9 @@ def test_an_answer_is_kept_and_holds_while_nothing_changes(
         (
             mesh("meshes/a.stl", more="<submesh><name>lid</name></submesh>"),
             PLATE,
-            "meshes/a.stl is used in part only (<submesh>)",
+            "meshes/a.stl is only partly used (<submesh>)",
         ),
-        (solid("<polyline/>"), PLATE, "a visual of kind polyline is not looked at"),
+        (solid("<polyline/>"), PLATE, "a visual of kind polyline is not checked"),
     ],
 )
 def test_what_cannot_be_looked_at_is_said(
@@ -141,4 +141,4 @@ def test_a_child_that_fails_leaves_a_reason(
     monkeypatch.setattr(sensor_views, "MEMORY", 1_000_000)
     found = views(mesh("meshes/a.stl"), tmp_path, {"meshes/a.stl": PLATE})
     assert not found.views
-    assert found.unseen[0].startswith("what the sensors see was not worked out")
+    assert found.unseen[0].startswith("the views of the sensors were not computed")

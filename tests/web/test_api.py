@@ -288,7 +288,7 @@ def test_streams_are_bounded_and_end_with_their_readers(store: Store) -> None:
             assert (one.status_code, two.status_code) == (200, 200)
             refused = client.get(address)
             assert refused.status_code == 503
-            assert refused.json()["error"] == "Too many checks are watched."
+            assert refused.json()["error"] == "Too many pages follow checks."
 
         def is_free() -> bool:
             with client.stream("GET", address) as again:

@@ -94,7 +94,7 @@ def test_it_is_not_ready_for_others_with_a_worker_without_sandbox(
 ) -> None:
     answer = client_for(tmp_path, Engine(told=told), **allowed).get("/readyz")
     assert answer.status_code == status
-    assert ("no layer that hides files" in answer.text) == (status == 503)
+    assert ("no sandbox layer that hides files" in answer.text) == (status == 503)
 
 
 def test_sandbox_are_named_to_this_machine_and_to_tokens(tmp_path: Path) -> None:
@@ -225,7 +225,7 @@ def test_a_fault_of_ours_is_logged_and_not_shown(
     with caplog.at_level(logging.INFO, "subt-check"):
         answer = client_for(tmp_path, Broken()).get(path)
     assert answer.status_code == 500
-    assert answer.json()["error"] == "The service has a fault."
+    assert answer.json()["error"] == "The service has an internal error."
     assert answer.headers["x-content-type-options"] == "nosniff"
     assert "ZeroDivisionError" in caplog.text
 

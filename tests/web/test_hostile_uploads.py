@@ -113,4 +113,4 @@ def test_an_archive(tmp_path: Path, case: str) -> None:
 def test_what_is_no_archive_and_no_model(tmp_path: Path, case: str) -> None:
     status, error = refusal(tmp_path, *OTHERS[case])
     assert status == 415
-    assert "ends in none of" in error or "is named like" in error
+    assert "does not end in" in error or "has the name of" in error

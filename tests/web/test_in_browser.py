@@ -170,7 +170,7 @@ def text(path: Path) -> Path:
 
 @pytest.mark.parametrize("javascript", [True, False])
 @pytest.mark.parametrize(
-    ("make", "said"), [(bomb, "200 times the size"), (text, "does not begin like one")]
+    ("make", "said"), [(bomb, "200 times the size"), (text, "but not its content")]
 )
 def test_what_is_no_package_is_refused_with_the_reason(
     chromium: Browser, address: str, tmp_path: Path, make: object, said: str, javascript: bool

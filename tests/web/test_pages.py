@@ -111,7 +111,7 @@ def test_a_refused_form_is_answered_by_a_page(client: Client) -> None:
     ("state", "said"),
     [
         (replace(QUEUED, ahead=3), "Waiting: 3 checks ahead"),
-        (QUEUED, "Waiting: it begins in a moment"),
+        (QUEUED, "Waiting: it starts in a moment"),
         (replace(QUEUED, stage=Stage.STATIC, words="the rules look"), "Checking: the rules look"),
         (
             replace(QUEUED, stage=Stage.TRIAL, result=KEY, packages=(ROVER,)),
@@ -141,7 +141,7 @@ def test_each_stage_is_said_in_a_sentence(
 
 @pytest.mark.parametrize(
     ("stage", "advice"),
-    [(Stage.REFUSED, "Mend that"), (Stage.FAILED, "tell whoever runs")],
+    [(Stage.REFUSED, "Correct this"), (Stage.FAILED, "tell the operator")],
 )
 def test_a_check_without_a_report_says_what_to_do(stage: Stage, advice: str) -> None:
     assert advice in headline(replace(QUEUED, stage=stage, words="so it is"), ()).advice

@@ -136,7 +136,7 @@ def test_a_page_that_is_not_there_is_for_everybody(chromium: Browser, board: Boa
         answer = page.goto(f"{board.address}/checks/guessed")
         assert answer is not None
         assert answer.status == 404
-        assert page.locator("h1").inner_text() == "There is nothing at this address."
+        assert page.locator("h1").inner_text() == "Nothing is at this address."
         assert axe_violations(page) == []
     finally:
         page.close()
@@ -249,7 +249,7 @@ def test_a_folder_is_packed_by_the_page(chromium: Browser, board: Board, package
         page.goto(board.address)
         page.get_by_label("or package folder").set_input_files(package)
         page.get_by_text(f"{number} files").wait_for()
-        page.get_by_label("Judge as").select_option("sdf")
+        page.get_by_label("Profile").select_option("sdf")
         page.get_by_role("button", name="Check").click()
         page.wait_for_url(f"**/checks/{ID}")
         assert board.jobs.states[ID].order == replace(first, profile="sdf")
@@ -307,17 +307,17 @@ def test_what_is_beyond_the_limits_is_not_sent(
         page.goto(board.address)
         said = page.get_by_role("alert")
         page.get_by_role("button", name="Check").press("Enter")
-        said.get_by_text("Nothing is chosen").wait_for()
+        said.get_by_text("No file is chosen").wait_for()
         page.get_by_label("or package folder").set_input_files(large)
-        said.get_by_text("up to 2 MB can be sent").wait_for()
+        said.get_by_text("at most 2 MB can be sent").wait_for()
         page.get_by_label("or package folder").set_input_files(many)
         said.get_by_text("more than 5000 files").wait_for()
         page.get_by_label("or package folder").set_input_files(empty)
-        said.get_by_text("no files in it").wait_for()
+        said.get_by_text("contains no files").wait_for()
         page.get_by_label("Archive or model file").set_input_files(wrong)
-        said.get_by_text("“notes.txt” is none of .zip").wait_for()
+        said.get_by_text("“notes.txt” does not end in .zip").wait_for()
         page.get_by_role("button", name="Check").press("Enter")
-        assert said.inner_text().startswith("“notes.txt” is none of .zip")
+        assert said.inner_text().startswith("“notes.txt” does not end in .zip")
         assert axe_violations(page) == []
     assert board.jobs.states == {}
 
@@ -325,7 +325,7 @@ def test_what_is_beyond_the_limits_is_not_sent(
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
-        ("notes.zip", b"hello" * 9, "notes.zip is named like a zip archive, but"),
+        ("notes.zip", b"hello" * 9, "notes.zip has the name of a zip archive, but"),
         ("empty.zip", b"", "empty.zip is empty."),
     ],
 )

@@ -93,8 +93,8 @@ MANY = [(f"rover/{number}", b"") for number in range(5_001)]
         ("case.zip", zipped(("rover/a", b"x"), ("rover/A", b"x")), "upper and lower case"),
         ("many.zip", zipped(*MANY), "5000 entries"),
         ("link.tar.gz", linked(), "is a symbolic link"),
-        ("empty.zip", zipped(), "holds no files"),
-        ("cut.zip", GOOD[:40], "no zip archive, or a truncated one"),
+        ("empty.zip", zipped(), "contains no files"),
+        ("cut.zip", GOOD[:40], "not a zip archive, or is cut off"),
     ],
 )
 def test_an_archive_that_may_do_harm_is_refused_with_its_reason(

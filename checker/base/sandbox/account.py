@@ -49,7 +49,7 @@ def become(account: int, needed: Iterable[str], folder: str = "") -> None:
     except NotHeld:
         raise
     except OSError as error:
-        raise NotHeld(f"the system lets it become no other user ({error.strerror})") from None
+        raise NotHeld(f"the system does not let it change its user ({error.strerror})") from None
     finally:
         give_up_rights()
 

@@ -61,7 +61,7 @@ class Files:
                 return os.pread(self._descriptor, length, at)
             case str(reason):
                 return NotReadable(name, reason)
-        return NotReadable(name, "was not handed over")
+        return NotReadable(name, "was not passed to this process")
 
     def copy(self, name: str, to: BinaryIO) -> None:
         """Write what is in a file into another one; nothing where it could not be read."""
@@ -90,7 +90,7 @@ def write(file: BinaryIO, message: bytes, contents: Iterable[tuple[str, Content]
     at = 0
     for name, content in contents:
         if isinstance(content, bytes) and at + len(content) > FILES_LIMIT:
-            content = NotReadable(name, "is too much together with the others")  # noqa: PLW2901
+            content = NotReadable(name, "is too large together with the other files")  # noqa: PLW2901
         if isinstance(content, NotReadable):
             table[name] = content.reason
         else:
@@ -130,7 +130,7 @@ def read(descriptor: int, limit: int) -> tuple[bytes, Files]:
     if len(tail) < _TAIL or at < 0:
         raise Damaged("is cut off")
     if message > limit or table > TABLE_LIMIT or at > FILES_LIMIT:
-        raise Damaged(f"has {size / 1e6:.1f} MB, more than is read")
+        raise Damaged(f"has {size / 1e6:.1f} MB, which is more than the limit")
     said = os.pread(descriptor, message, at)
     return said, Files(_checked(os.pread(descriptor, table, at + message), at), descriptor)
 

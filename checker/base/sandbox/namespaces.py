@@ -113,9 +113,9 @@ def leave_network() -> None:
     flags = _UTS | _IPC | _NET | (0 if user == 0 else _USER)
     libc = ctypes.CDLL(None, use_errno=True)
     if not hasattr(libc, "unshare"):
-        raise NotHeld("the system has no namespaces")
+        raise NotHeld("the system does not support namespaces")
     if libc.unshare(flags) != 0:
-        raise NotHeld(f"the system allows no namespaces ({os.strerror(ctypes.get_errno())})")
+        raise NotHeld(f"the system does not allow namespaces ({os.strerror(ctypes.get_errno())})")
     if flags & _USER:
         # In its own view it would be nobody.
         with suppress(OSError):

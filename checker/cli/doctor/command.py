@@ -16,7 +16,11 @@ def doctor() -> int:
     for result in chain(installation(), sandbox(), surroundings()):
         show(f"{result}\n")
         well = well and result.state is not State.PROBLEM
-    last = _self_test() if well else Result(State.NOTE, "self-test is left out", "mend that first")
+    last = (
+        _self_test()
+        if well
+        else Result(State.NOTE, "the self-test is skipped", "correct the above first")
+    )
     show(f"{last}\n")
     well = well and last.state is not State.PROBLEM
     show(f"{'everything that is needed works' if well else 'something needed does not work'}\n")
@@ -28,5 +32,5 @@ def _self_test() -> Result:
     try:
         from checker.cli.doctor.self_test import self_test
     except ImportError as error:
-        return Result(State.PROBLEM, f"self-test cannot begin: {error}", INSTALL_AGAIN)
+        return Result(State.PROBLEM, f"the self-test cannot start: {error}", INSTALL_AGAIN)
     return self_test()

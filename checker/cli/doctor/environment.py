@@ -23,7 +23,7 @@ from checker.cli.doctor.result import INSTALL_AGAIN, Result, State
 
 
 _ADVICE = {
-    ACCOUNT: "a service that root starts has it, a command for oneself can do without",
+    ACCOUNT: "a service started by root has it; a command for your own packages does not need it",
     LANDLOCK: "use Linux 5.13 or newer with `landlock` among the names in "
     "/sys/kernel/security/lsm, and in a container rules that allow its system calls",
     SECCOMP: "use Linux on x86-64 or arm64 with CONFIG_SECCOMP_FILTER",
@@ -35,7 +35,7 @@ def sandbox() -> Iterator[Result]:
     with closing(OwnLauncher()) as starter:
         layers = starter.layers
     if not layers:
-        yield Result(State.PROBLEM, "sandbox: its first process ends at once", INSTALL_AGAIN)
+        yield Result(State.PROBLEM, "sandbox: its first process ends immediately", INSTALL_AGAIN)
     yield from map(result, layers)
 
 
@@ -44,7 +44,7 @@ def result(layer: Layer) -> Result:
     words = plain(shortened(layer.words, 200))
     if layer.held and (layer.hides or layer.name == SECCOMP):
         return Result(State.OK, f"sandbox: {layer.name} ({words})")
-    part = f"{layer.name} in part" if layer.held else f"no {layer.name}"
+    part = f"{layer.name} partly" if layer.held else f"no {layer.name}"
     advice = _namespaces_advice() if layer.name == NAMESPACES else _ADVICE[layer.name]
     return Result(State.NOTE, f"sandbox: {part} ({words})", advice)
 
@@ -53,7 +53,10 @@ def _namespaces_advice() -> str:
     if shutil.which("bwrap") is None:
         return "apt install bubblewrap"
     reason = plain(shortened(bubblewrap(), 200))
-    return f"let this user make namespaces, in a container by its rules ({reason})"
+    return (
+        "allow this user to create namespaces; in a container, change the container's rules "
+        f"({reason})"
+    )
 
 
 _ENTRIES_LIMIT = 100_000
@@ -75,8 +78,8 @@ def _cache(folder: Path) -> Result:
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        what = f"{place} cannot be written to ({error.strerror}), so nothing is remembered"
-        return Result(State.NOTE, what, "let SUBT_CHECK_CACHE name a folder that can")
+        what = f"{place} cannot be written to ({error.strerror}), so the cache is not used"
+        return Result(State.NOTE, what, "set SUBT_CHECK_CACHE to a writable folder")
     sizes = [_size(path) for path in islice(folder.glob("*/??/*.json"), _ENTRIES_LIMIT)]
     used = f"{len(sizes)} entries, {sum(sizes) / 1e6:.1f} of {SIZE_LIMIT / 1e6:.0f} MB"
     return Result(State.OK, f"{place}: {used}")
@@ -92,8 +95,8 @@ def _size(path: Path) -> int:
 def _drawing() -> Result:
     said = ask("checker.cli.doctor.opengl_frame", b"", _LIMITS)
     if not isinstance(said, Died) and said != b"none":
-        return Result(State.OK, f"pictures: MuJoCo draws by {said.decode()}")
-    reason = f"the child that draws {said.reason}" if isinstance(said, Died) else "no OpenGL"
+        return Result(State.OK, f"pictures: MuJoCo draws with {said.decode()}")
+    reason = f"the process that draws {said.reason}" if isinstance(said, Died) else "no OpenGL"
     packages = "libegl1, libopengl0 and libgl1-mesa-dri, or libosmesa6"
     advice = f"install EGL or OSMesa (Debian: {packages}) for reports with pictures"
     return Result(State.NOTE, f"pictures: {reason}", advice)

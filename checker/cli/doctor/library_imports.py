@@ -31,7 +31,7 @@ def import_troubles(distributions: Iterable[str]) -> dict[str, str]:
     """
     said = ask(__name__, json.dumps(list(distributions)).encode(), _LIMITS)
     if isinstance(said, Died):
-        return {"libraries": f"the child that imports them {said.reason}"}
+        return {"libraries": f"the process that imports them {said.reason}"}
     troubles: dict[str, str] = json.loads(said)
     return troubles
 

@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from checker.base.record import Record
 
-INSTALL_AGAIN = "install subt-check again, with its libraries"
+INSTALL_AGAIN = "install subt-check and its libraries again"
 
 
 class State(StrEnum):

@@ -29,16 +29,16 @@ def self_test() -> Result:
         (package,) = report.packages
         FORMATS["html"](report, Manner(Palette(enabled=False), str(sample())))
     except ImportError as error:
-        return Result(State.PROBLEM, f"self-test fails: {plain(str(error))}", INSTALL_AGAIN)
+        return Result(State.PROBLEM, f"the self-test fails: {plain(str(error))}", INSTALL_AGAIN)
     except Exception as error:  # noqa: BLE001 - whatever it is, it is what was looked for
         reason = plain(shortened(f"{type(error).__name__}: {error}", 300))
-        return Result(State.PROBLEM, f"self-test fails: {reason}", _REPORT_IT)
+        return Result(State.PROBLEM, f"the self-test fails: {reason}", _REPORT_IT)
     trouble = _trouble(package)
     if trouble:
         advice = INSTALL_AGAIN if _IMPORT_ERROR.search(trouble) else _REPORT_IT
-        return Result(State.PROBLEM, f"self-test fails: {trouble}", advice)
+        return Result(State.PROBLEM, f"the self-test fails: {trouble}", advice)
     took = f"{perf_counter() - started:.1f} s"
-    return Result(State.OK, f"self-test: a robot is checked, weighed and driven in {took}")
+    return Result(State.OK, f"self-test: a sample robot is checked, weighed and driven in {took}")
 
 
 def sample() -> Path:
@@ -54,5 +54,5 @@ def _trouble(report: PackageReport) -> str:
         reason = first.reason.partition("; please report")[0]
         return plain(shortened(f"{first.rule} does not run: {reason}", 300))
     if report.verdict is not VerdictKind.READY:
-        return f"{report.findings[0].rule} is reported for a robot without faults"
+        return f"{report.findings[0].rule} is reported for a robot without errors"
     return "" if report.trial else "the robot is not driven"

@@ -103,7 +103,7 @@ class Reader:
         """Count steps, and say whether there are any left; the last one is a fault, once."""
         before, self._steps = self._steps, self._steps - steps
         if before > 0 >= self._steps:
-            message = f"the launch file takes more than {MAX_STEPS} steps to follow"
+            message = f"the launch file takes more than {MAX_STEPS} steps to evaluate"
             self.fault(LaunchFaultKind.LIMIT, element, message)
         return self._steps > 0
 
@@ -147,7 +147,7 @@ class Reader:
         if not is_known(condition.value):
             self.undecided.append(condition)
             return
-        message = f"{attribute}={condition.value!r} is none of true, false, 1, 0"
+        message = f"{attribute}={condition.value!r} is not true, false, 1 or 0"
         self.fault(LaunchFaultKind.CONDITION, condition.span, message)
 
 

@@ -108,7 +108,7 @@ class _Expansion:
     def expand(self, parent: Element, scope: Scope) -> bool:
         """Follow the elements below one; False when a limit keeps it from seeing them all."""
         if scope.depth > MAX_DEPTH:
-            message = f"groups and files are nested deeper than {MAX_DEPTH} levels"
+            message = f"groups and files are nested more than {MAX_DEPTH} levels deep"
             self._reader.fault(LaunchFaultKind.LIMIT, parent, message)
             return False
         for element in parent.children:
@@ -247,7 +247,7 @@ class _Expansion:
             if isinstance(read, Bridge):
                 self._bridges.append(read)
             elif is_known(read.value):
-                message = f"{read.value!r} does not read as topic@ros_type[ign_type"
+                message = f"{read.value!r} is not of the form topic@ros_type[ign_type"
                 self._reader.fault(LaunchFaultKind.BRIDGE, read.span, message)
 
     def _include(self, element: Element, scope: Scope) -> None:

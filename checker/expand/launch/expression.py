@@ -77,7 +77,7 @@ def evaluate(expression: str, args: Mapping[str, str]) -> Value | Unknown | Expr
     try:
         tree = ast.parse(expression.strip(), mode="eval")
     except (SyntaxError, ValueError):
-        return ExpressionFault(f"{expression.strip()!r} is no Python expression")
+        return ExpressionFault(f"{expression.strip()!r} is not a Python expression")
     except (RecursionError, MemoryError):
         return Unknown()
     try:
@@ -170,5 +170,5 @@ def _binary(op: ast.operator, left: Value, right: Value) -> Value:
 
 def _number(value: Value) -> float:
     if isinstance(value, str):
-        raise TypeError(f"{value!r} is no number")
+        raise TypeError(f"{value!r} is not a number")
     return value

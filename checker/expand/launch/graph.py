@@ -56,7 +56,7 @@ class LaunchFaultKind(enum.Enum):
     MISSING_FILE = "an included file does not exist"
     INCLUDE_LOOP = "a file includes itself"
     BRIDGE = "an argument of a bridge cannot be read"
-    LIMIT = "the launch file is larger than this reader follows"
+    LIMIT = "the launch file is larger than this reader supports"
 
 
 class LaunchFault(Record, eq=False):
@@ -249,7 +249,7 @@ class LaunchGraph(Record, eq=False, dict=True):
             if param.name.endswith("/config_file")
         ]
         reasons += [
-            f"node {node.name!r} of package {node.package} may pass topics of Gazebo itself"
+            f"node {node.name!r} of package {node.package} may bridge topics of Gazebo itself"
             for node in self.nodes
             if node.package not in PASSES_NOTHING
         ]

@@ -64,7 +64,7 @@ def _expanded(package: Package, paths: Sequence[str], files: LaunchFiles) -> lis
 
 
 def _started(command: LaunchCommand, span: Span, files: LaunchFiles) -> LaunchGraph:
-    """Expand the file that a command names; one that is not at hand is an unresolved include."""
+    """Expand the file that a command names; one that is not available is an unresolved include."""
     document = files.find(command.package, command.file)
     if isinstance(document, XmlDocument):
         # A command that forgets an argument (SPW013) must not hide what the file bridges.
@@ -123,11 +123,11 @@ class LaunchFiles(Record):
             return self._read(path)
         prefix = self._folder(package)
         if prefix is None:
-            return f"package {package} is not at hand"
+            return f"package {package} is not available"
         return self._read(posixpath.join(prefix, path))
 
     def path_of(self, text: str) -> str | None:
-        """Return the path of `$(find package)/path`; None when the package is not at hand."""
+        """Return the path of `$(find package)/path`; None when the package is not available."""
         package, path = target_of(text.strip())
         prefix = self._folder(package) if package else ""
         if prefix is None or not path:
@@ -138,7 +138,7 @@ class LaunchFiles(Record):
         """Return the launch file of a command: roslaunch looks for it anywhere in the package."""
         prefix = self._folder(package)
         if prefix is None:
-            return f"package {package} is not at hand"
+            return f"package {package} is not available"
         holder = self.package if not prefix else self.package.workspace.package(package)
         files = holder.index.files if holder else ()
         named = (each.path for each in files if posixpath.basename(each.path) == file)
@@ -211,7 +211,7 @@ def launch_entries(package: Package) -> LaunchEntries:
         graphs[document.source.file] = graph
         parts += len(graph.nodes) + len(graph.params) + len(graph.includes)
         if parts > MAX_PARTS or any(f.kind is LaunchFaultKind.LIMIT for f in graph.faults):
-            unread.append(f"{document.source.file} and what follows is too much to read")
+            unread.append(f"{document.source.file} and the following files are too large to read")
             break
     included = {each.file for graph in graphs.values() for each in graph.includes}
     first = [file for file in graphs if file not in included] or list(graphs)

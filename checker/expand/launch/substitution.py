@@ -80,12 +80,12 @@ def _value(content: str, args: Mapping[str, str], directory: str) -> str | Subst
         return directory
     if command in _MACHINE and words:
         return None
-    message = f"$({content}) is no substitution that roslaunch knows"
+    message = f"$({content}) is not a substitution of roslaunch"
     return SubstitutionFault(LaunchFaultKind.SUBSTITUTION, 0, 0, message)
 
 
 def _too_long(text: str) -> Substituted:
-    message = f"the text grows beyond {MAX_LENGTH} characters"
+    message = f"the text has more than {MAX_LENGTH} characters"
     return Substituted(text, (SubstitutionFault(LaunchFaultKind.LIMIT, 0, len(text), message),))
 
 

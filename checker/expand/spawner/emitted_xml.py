@@ -116,5 +116,5 @@ def emitted_xml(
         )
     document = parse_fragments(emitted)
     if isinstance(document, XmlFault):
-        return NotAtHand(f"what {function} emits is not well-formed: {document.message}")
+        return NotAtHand(f"the XML that {function} emits is not well-formed: {document.message}")
     return kind(emitted, document)

@@ -164,7 +164,7 @@ def _parsed(call: Call, source: SourceText, span: Span | None = None) -> Value:
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         where = getattr(error, "problem_mark", None)
         line = f" in line {where.line + 1}" if where else ""
-        raise call.refuse(f"but {source.file} is no YAML that can be read{line}") from None
+        raise call.refuse(f"but {source.file} is not YAML that can be read{line}") from None
 
 
 def _check_events(call: Call, source: SourceText, events: Any) -> None:
@@ -197,15 +197,15 @@ def _yaml_value(
             result.entries[key_of(key, call.run.budget)] = (key, value)
         return Value(result, call.run.influences)
     if len(node.value) > MAX_NUMBER_LENGTH and not node.tag.endswith(":str"):
-        raise call.refuse(f"but {source.file} holds a number that is too long")
+        raise call.refuse(f"but {source.file} contains a number that is too long")
     data = maker.construct_object(node)
     if isinstance(data, str):
         here = span or Span(source, node.start_mark.index, node.end_mark.index)
         return Value(RubyString(computed(data, here, call.run.influences)), call.run.influences)
     if isinstance(data, int) and data.bit_length() > MAX_INTEGER_BITS:
-        raise call.refuse(f"but {source.file} holds an integer that is too large")
+        raise call.refuse(f"but {source.file} contains an integer that is too large")
     if data is not None and not isinstance(data, (bool, int, float)):
-        raise call.refuse(f"but {source.file} holds a value of the type {node.tag}")
+        raise call.refuse(f"but {source.file} contains a value of the type {node.tag}")
     return Value(data, call.run.influences)
 
 

@@ -54,7 +54,7 @@ class Budget:
             LimitReached: The string is too long, or no steps are left.
         """
         if length > MAX_TEXT_LENGTH:
-            raise LimitReached(f"makes a text of more than {MAX_TEXT_LENGTH} characters")
+            raise LimitReached(f"makes a string of more than {MAX_TEXT_LENGTH} characters")
         self.spend(length // CHARACTERS_PER_STEP + pieces // ITEMS_PER_STEP)
 
     def spend_parsing(self, length: int) -> None:

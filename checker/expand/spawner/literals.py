@@ -68,7 +68,7 @@ def _unescaped(source: SourceText, found: re.Match[str]) -> str:
     body = whole[1:]
     if body in _NOT_READ:
         span = Span(source, found.start(), found.end())
-        raise Unreadable(span, f"uses the escape {whole}, which is not read")
+        raise Unreadable(span, f"uses the escape {whole}, which is not supported")
     return _ESCAPES.get(body, body)
 
 

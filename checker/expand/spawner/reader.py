@@ -197,7 +197,7 @@ class _Program:
         given = [_ruby(argument) for argument in arguments[: function.most]]
         result = entry_call(run, function, given, span)
         if not isinstance(result.data, RubyString):
-            return Unread(span, f"returns {class_name(result.data)} instead of a text")
+            return Unread(span, f"returns {class_name(result.data)} instead of a string")
         return EmittedText.of(run.traced(result, span), span)
 
 

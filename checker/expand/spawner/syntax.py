@@ -45,7 +45,7 @@ def _stray_end(
     """The parser takes an `end` that closes nothing for a name, which no name can be."""
     for node in tree.parts:
         if node.type == "identifier" and node.start < first and node.text == "end":
-            return node.span, "this end closes nothing"
+            return node.span, "this end has nothing to close"
     return None
 
 

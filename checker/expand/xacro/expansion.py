@@ -156,13 +156,13 @@ class Expansions:
         shown = self._shown(file)
         if "xml" in answer:
             document = expanded_document(answer, self._gathered, file)
-            return document or Unread(f"{shown} was expanded into what cannot be read")
+            return document or Unread(f"the expanded text of {shown} cannot be read")
         if "kind" in answer:
             return self._fault(file, answer)
         if "refused" in answer:
             return Unread(f"{shown} is not expanded: {self._refusal(answer)}")
         if "missing" in answer:
-            return Unread(f"{shown} includes too many files by computed names")
+            return Unread(f"{shown} includes too many files with computed names")
         return Unread(f"{shown} is not expanded: {answer.get('unread', 'no answer came')}")
 
     def _shown(self, file: str) -> str:
@@ -211,4 +211,4 @@ def _read(said: bytes | Died, number: int) -> list[dict[str, Any]]:
         answers = None
     if isinstance(answers, list) and len(answers) == number and all(map(is_answer, answers)):
         return answers
-    return [{"unread": "the process that expands it answered with nonsense"}] * number
+    return [{"unread": "the process that expands it sent an invalid answer"}] * number

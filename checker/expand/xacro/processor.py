@@ -103,7 +103,7 @@ def _message(error: BaseException) -> str:
     expression = next(filter(None, suffixes), "")
     inner = causes[-1]
     if isinstance(inner, MemoryError):
-        said = "needs more memory than it may have"
+        said = "needs more memory than allowed"
     elif isinstance(inner, RecursionError):
         said = _TOO_DEEP
     elif isinstance(inner, substitution_args.ArgException):
@@ -180,7 +180,7 @@ class _Expansion:
             )
         package = path.removeprefix(f"{ROOT}/").partition("/")[0]
         if package in self._given["beyond"]:
-            raise _Stopped({"unread": f"{package} is not at hand"})
+            raise _Stopped({"unread": f"{package} is not available"})
         if path in self._given["absent"] or not path.startswith(f"{ROOT}/"):
             raise FileNotFoundError(path)
         raise _Stopped({"missing": path})
@@ -188,7 +188,7 @@ class _Expansion:
     def _parse(self, given: Any, path: str | None = None) -> Any:
         """Return a text as a document whose elements know where they stand."""
         if path is None:
-            raise ValueError("only files that were handed over are read")
+            raise ValueError("only files of the package are read")
         del given
         try:
             # Our own reader has been through the text: no document types, no entities, no depth.
@@ -309,7 +309,7 @@ def _elements(root: Any) -> list[Any]:
 
 def _folder_of_package(name: str) -> str:
     if not _PACKAGE.fullmatch(name):
-        raise substitution_args.SubstitutionException(f"{name[:80]!r} is no name of a package")
+        raise substitution_args.SubstitutionException(f"{name[:80]!r} is not a package name")
     return f"{ROOT}/{name}"
 
 
@@ -318,7 +318,7 @@ class _NeedsEnvironment(Exception):
 
 
 def _refuse_environment(name: str) -> str:
-    message = f"it depends on the environment variable {name[:80]!r}, which may not be set"
+    message = f"it depends on the environment variable {name[:80]!r}, which is not available"
     raise _NeedsEnvironment(message)
 
 

@@ -79,7 +79,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     for job in given["jobs"]:
         seconds = min(SECONDS_FOR_ONE, int(until - monotonic()))
         if seconds < _SHORTEST:
-            done.append({"unread": f"the others took {SECONDS_FOR_ALL:g} s"})
+            done.append({"unread": f"the other files took {SECONDS_FOR_ALL:g} s"})
             continue
         result = apart(lambda job=job: work(job), seconds)  # type: ignore[misc]
         if isinstance(result, Ended):

@@ -41,9 +41,9 @@ def _obstacles(robot: Robot) -> Iterator[str]:
     yield from _other_versions(robot)
     for name in robot.frame_graph.nodes:
         if robot.pose_of(name) is None:
-            yield f"nobody can tell where {name} is"
+            yield f"the place of {name} is not known"
     if sum(len(model.definition.whole_span.text) for model in robot.models) > LIMIT:
-        yield f"its nested models hold more than {LIMIT} characters"
+        yield f"its nested models have more than {LIMIT} characters"
 
 
 def _other_versions(robot: Robot) -> Iterator[str]:

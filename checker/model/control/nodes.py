@@ -121,7 +121,7 @@ def read_spawned(node: Node) -> Iterator[Spawned | str]:
     namespace = resolve_name(options.get("--namespace", ""), node.namespace)
     for word in names:
         if not is_known(word.value) or not is_known(namespace):
-            yield f"node {node.name} starts {word.value[:80]}, which is known at launch only"
+            yield f"node {node.name} starts {word.value[:80]}, which is known only at launch"
         elif word.value.endswith((".yaml", ".yml")):
             yield f"node {node.name} starts the controllers of {word.value[:80]}"
         else:

@@ -61,12 +61,12 @@ class Parameters:
 
     def _load(self, param: Param, files: LaunchFiles) -> None:
         if not is_known(param.name):
-            self.unread.append(f"namespace {param.name} is known at launch only")
+            self.unread.append(f"namespace {param.name} is known only at launch")
         elif param.kind == "yaml" and param.text is not None:
             if param.text is not param.span:
                 self._read(text_excerpt(param.text), param.name, param.span)
         elif (path := files.path_of(param.value)) is None:
-            self.unread.append(f"parameter file {param.value} is not at hand")
+            self.unread.append(f"parameter file {param.value} is not available")
         else:
             self._load_file(path, param)
 
@@ -78,7 +78,7 @@ class Parameters:
         elif self.package.exists(path):
             self.unread.append(f"{path} {source.reason}")
         else:
-            said = f"{path} is loaded as parameters and does not exist"
+            said = f"{path} is loaded as parameters, but does not exist"
             self.faults.append(ParameterFault(param.span, said))
 
     def _document(self, source: SourceText) -> YamlDocument:
@@ -115,7 +115,9 @@ class Parameters:
         """Count values, and say whether there are not too many by now."""
         self._values += values
         if self._values > MAX_VALUES:
-            self.unread.append(f"{file} is not read: all parameters are over {MAX_VALUES} values")
+            self.unread.append(
+                f"{file} is not read: the parameters have more than {MAX_VALUES} values"
+            )
         return self._values <= MAX_VALUES
 
     def look_around(self) -> None:

@@ -118,7 +118,7 @@ def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlL
     listeners = (read_listener(node) for node in graph.nodes)
     models = (read_model(node) for node in graph.nodes)
     topics = (published_states(node) for node in graph.nodes)
-    unread += (f"whether {each.value} holds is known at launch only" for each in graph.undecided)
+    unread += (f"whether {each.value} is true is known only at launch" for each in graph.undecided)
     return ControlLaunch(
         entry.file,
         tuple(_spawned(graph.nodes, unread)),
@@ -157,4 +157,4 @@ def _missing(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
         for found in _DESCRIPTION.finditer(text[:_LONGEST]):
             path = files.path_of(found.group())
             if path is not None and not package.exists(path):
-                yield ParameterFault(span, f"{path} is read as a description and does not exist")
+                yield ParameterFault(span, f"{path} is read as a description, but does not exist")

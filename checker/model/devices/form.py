@@ -102,7 +102,7 @@ _BODY: Mapping[str, _Form] = {
 def problem_of_device(entry: object) -> str:
     """Say what is wrong with a description of a device; empty when nothing is."""
     if not isinstance(entry, dict):
-        return "is no table"
+        return "is not a table"
     keys = _problem_of_keys(entry)
     if keys:
         return keys
@@ -119,12 +119,12 @@ def _problem_of_keys(entry: Mapping[str, Any]) -> str:
             return f"has the unknown key {key!r}, expected one of {', '.join(_KNOWN)}"
     for key in _TEXTS:
         if not isinstance(entry.get(key, ""), str):
-            return f"has the {key} {_shown(entry[key])}, expected a text"
+            return f"has the {key} {_shown(entry[key])}, expected a string"
     if not _is_texts(entry["sdf_types"]):
-        return f"has the sdf_types {_shown(entry['sdf_types'])}, expected a list of texts"
+        return f"has the sdf_types {_shown(entry['sdf_types'])}, expected a list of strings"
     details = entry.get("source_detail", {})
     if not isinstance(details, dict) or not _is_texts(list(details.values())):
-        return f"has the source_detail {_shown(details)}, expected a table of texts"
+        return f"has the source_detail {_shown(details)}, expected a table of strings"
     return ""
 
 
@@ -161,13 +161,15 @@ def problem_of_match(match: str) -> str:
     if not match or len(match) > MAX_MATCH:
         return f"has a match of {len(match)} characters, expected 1 to {MAX_MATCH}"
     if refused := _REFUSED.search(bare):
-        return f"has {refused.group()!r} in its match, expected neither repetition nor look-around"
+        return (
+            f"has {refused.group()!r} in its match, but repetition and look-around are not allowed"
+        )
     if len(_CHOICE.findall(bare.replace("(?:", "("))) > MAX_CHOICES:
         return f"has more than {MAX_CHOICES} of '?' and '|' in its match"
     try:
         expression(match)
     except (re.error, OverflowError, RecursionError) as error:
-        return f"has the match {match!r}, which is no regular expression: {error}"
+        return f"has the match {match!r}, which is not a regular expression: {error}"
     return ""
 
 

@@ -33,7 +33,7 @@ def rotation_from_quaternion(w: float, x: float, y: float, z: float) -> Rotation
     """
     norm = math.hypot(w, x, y, z)
     if norm == 0.0:
-        raise ValueError("a quaternion of zeros is no rotation")
+        raise ValueError("a quaternion of zeros is not a rotation")
     w, x, y, z = w / norm, x / norm, y / norm, z / norm
     return (
         (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),

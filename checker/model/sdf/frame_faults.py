@@ -42,7 +42,7 @@ def world_frame_faults(document: XmlDocument) -> Iterator[Fault]:
         relative_to = _relative_to(model)
         if relative_to is not None:
             message = f"the pose of the outermost model is relative to {relative_to.value!r}"
-            yield _fault(relative_to, f"{message}: there is no frame around it")
+            yield _fault(relative_to, f"{message}, but there is no frame around it")
 
 
 class _Scopes:
@@ -94,7 +94,7 @@ def _in_world(world: Element, scopes: _Scopes) -> Iterator[Fault]:
             posed[name] = frame.value
     named = scopes.named(world)
     for name in dict.fromkeys((*_circular(attached), *_circular(posed))):
-        yield _fault(named[name], f"{named[name].tag} {name!r} depends on itself for its place")
+        yield _fault(named[name], f"{named[name].tag} {name!r} refers to itself for its place")
 
 
 def _placement(model: Element, scopes: _Scopes) -> Iterator[Fault]:
@@ -183,7 +183,7 @@ def _attachments(robot: Robot) -> Iterator[Fault]:
             at = attached[at]
         done.update(path)
         if at in path and any(frames[each].pose.relative_to for each in path):
-            message = f"frame {at!r} is attached to itself, over {attached[at]!r}"
+            message = f"frame {at!r} is attached to itself through {attached[at]!r}"
             yield Fault(FaultKind.FRAME, frames[at].span, message)
 
 

@@ -21,7 +21,7 @@ class ModelIncludes(Record):
         """Return the file, or say why it cannot be read; relative URIs start at the includer."""
         path = self._path(uri.value, posixpath.dirname(uri.span.source.file))
         if path is None:
-            return f"{uri.value} is not at hand"
+            return f"{uri.value} is not available"
         document = self.package.xml(path)
         return document if isinstance(document, XmlDocument) else f"{path} cannot be read"
 

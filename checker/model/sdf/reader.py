@@ -34,7 +34,7 @@ The URI's place tells the file that includes, where relative URIs start.
 
 def not_at_hand(uri: Located[str]) -> XmlDocument | str:
     """Read no include at all."""
-    return f"{uri.value} is not at hand"
+    return f"{uri.value} is not available"
 
 
 def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tuple[Robot, ...]:
@@ -128,7 +128,7 @@ class _Collected:
     def _refusal(self, document: XmlDocument, model: Element | None) -> str:
         """Say why an include is not read; empty when it is."""
         if model is None:
-            return "holds no <model>"
+            return "contains no <model>"
         if document in self.open_files:
             return "includes itself"
         if self.includes > MAX_INCLUDES:
@@ -145,7 +145,7 @@ class _Collected:
     ) -> None:
         """Read a model inside another; `placed` is the element that poses and names it."""
         if depth > MAX_NESTING:
-            message = f"models are nested deeper than {MAX_NESTING} levels"
+            message = f"models are nested more than {MAX_NESTING} levels deep"
             scope.values.fault(FaultKind.INCLUDE, placed.span, message)
             return
         name = _name_of(model, placed, scope)

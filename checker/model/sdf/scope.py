@@ -77,6 +77,8 @@ class Scope(Record):
         quaternion: tuple[float, float, float, float],
     ) -> Transform:
         if not any(quaternion):
-            self.values.fault(FaultKind.VALUE, element.span, "a quaternion of zeros is no rotation")
+            self.values.fault(
+                FaultKind.VALUE, element.span, "a quaternion of zeros is not a rotation"
+            )
             return Transform(translation=xyz)
         return Transform(rotation_from_quaternion(*quaternion), xyz)

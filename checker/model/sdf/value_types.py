@@ -74,15 +74,17 @@ def _numbers(
     reader = ValueReader()
     numbers = reader.numbers_in(text)
     for fault in reader.faults[:_MOST]:
-        yield Misread(fault.span, f"holds {_short(fault.span.text)}, which is no number")
+        yield Misread(fault.span, f"contains {_short(fault.span.text)}, which is not a number")
     if len(numbers) not in counts:
         expected = " or ".join(str(count) for count in counts)
         plural = "" if expected == "1" else "s"
-        yield Misread(text.span, f"holds {len(numbers)} words, expected {expected} number{plural}")
+        yield Misread(
+            text.span, f"contains {len(numbers)} words, expected {expected} number{plural}"
+        )
     elif finite:
         infinite = (number for number in numbers if not math.isfinite(number.value))
         yield from (
-            Misread(number.span, f"holds {number.value:g}, expected a finite number")
+            Misread(number.span, f"contains {number.value:g}, expected a finite number")
             for number in infinite
         )
 
@@ -113,7 +115,7 @@ def _time(text: Located[str]) -> list[Misread]:
     words = text.value.split()
     if len(words) == 2 and all(_INTEGER.match(word) for word in words):
         return []
-    return [Misread(text.span, "is no time, expected whole seconds and nanoseconds")]
+    return [Misread(text.span, "is not a time, expected whole seconds and nanoseconds")]
 
 
 def _short(text: str) -> str:

@@ -146,7 +146,7 @@ class Specification(Record, eq=False, dict=True):
         """Why its end is not known, as the end of a sentence; empty when all of it is read."""
         if len(self.source.text) <= MAX_LENGTH:
             return ""
-        return f"{self.source.file} is read up to character {MAX_LENGTH:,} only"
+        return f"{self.source.file} is read only up to character {MAX_LENGTH:,}"
 
     def stretch_of(self, section: Section) -> Span:
         """Return a section from its heading to the next one of its level or above."""

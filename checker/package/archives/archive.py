@@ -58,7 +58,7 @@ def _check(info: zipfile.ZipInfo, index: ArchiveIndex) -> None:
     if info.flag_bits & _ENCRYPTED:
         raise index.refusal(name, "is encrypted")
     if info.compress_type not in _METHODS:
-        raise index.refusal(name, "is packed by another method than deflate")
+        raise index.refusal(name, "is compressed with another method than deflate")
     if stat.S_IFMT(info.external_attr >> 16) not in _UNIX_KINDS:
         raise index.refusal(name, "is a link or a device")
     if _is_folder(info) and info.file_size:
@@ -164,7 +164,7 @@ def _checked_index(
         index = ArchiveIndex(archive, size, limits or ArchiveLimits())
         read_index(source, index)
         if all(member.is_folder for member in index.members):
-            raise UnreadableInput(archive, "holds no files", "pack the package folder itself")
+            raise UnreadableInput(archive, "contains no files", "pack the package folder itself")
         yield index, contents
 
 
@@ -180,7 +180,7 @@ def _write(path: Path, member: Member, content: _Readable) -> None:
                 break
             file.write(piece)
     if left:
-        raise DamagedArchive(f"says that '{member.path}' has {member.size} bytes, which is not so")
+        raise DamagedArchive(f"says that '{member.path}' has {member.size} bytes, but it has not")
 
 
 @contextmanager
@@ -190,7 +190,7 @@ def _damage_reported(archive: Path, form: str) -> Iterator[None]:
     except DamagedArchive as error:
         raise _damaged(archive, f"is a damaged {form} archive: it {error}") from None
     except _DAMAGE as error:
-        raise _damaged(archive, f"is no {form} archive, or a truncated one ({error})") from None
+        raise _damaged(archive, f"is not a {form} archive, or is cut off ({error})") from None
     except OSError as error:
         reason = f"cannot be unpacked: {error.strerror or error}"
         raise UnreadableInput(archive, reason, "check the file and the free disk space") from None

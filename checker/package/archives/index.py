@@ -90,7 +90,7 @@ class ArchiveIndex:
             RefusedArchive: The entry is not allowed.
         """
         if len(self.members) >= self.limits.entries:
-            raise self.refusal(name, f"is one more than the {self.limits.entries} entries allowed")
+            raise self.refusal(name, f"exceeds the limit of {self.limits.entries} entries")
         path = self._checked_path(name)
         if not path:
             if is_folder:
@@ -110,7 +110,7 @@ class ArchiveIndex:
         return RefusedArchive(
             self.archive,
             f"is not unpacked: its entry '{shown}' {reason}",
-            "pack the package folder again, plain files and folders only",
+            "pack the package folder again, with plain files and folders only",
         )
 
     def _checked_path(self, name: str) -> str:
@@ -123,12 +123,12 @@ class ArchiveIndex:
         path = plain_path(name)
         parts = path.split("/")
         if ".." in parts:
-            raise self.refusal(name, "leads out of the archive by '..'")
+            raise self.refusal(name, "leads out of the archive with '..'")
         longest = max(len(part.encode()) for part in parts)
         if longest > self.limits.name_bytes or len(path.encode()) > self.limits.path_bytes:
             raise self.refusal(name, "has a name that is too long")
         if len(parts) > self.limits.depth:
-            raise self.refusal(name, f"lies more than {self.limits.depth} folders deep")
+            raise self.refusal(name, f"is more than {self.limits.depth} folders deep")
         return path
 
     def _claim(self, name: str, path: str, is_folder: bool) -> None:

@@ -177,13 +177,13 @@ def _number(field: bytes) -> int:
         return int.from_bytes(field[1:], "big")
     match = _OCTAL.match(field)
     if match is None:
-        raise DamagedArchive("has an entry with a broken number")
+        raise DamagedArchive("has an entry with an invalid number")
     return int(match[1] or b"0", 8)
 
 
 def _decimal(text: bytes) -> int:
     if not (text.isdigit() and len(text) < 20):
-        raise DamagedArchive("has an entry with a broken number")
+        raise DamagedArchive("has an entry with an invalid number")
     return int(text)
 
 
@@ -206,7 +206,7 @@ def _pax_records(data: bytes) -> dict[str, bytes]:
         length = _decimal(digits)
         record = data[at + len(digits) + 1 : at + length]
         if length < len(digits) + 4 or not record.endswith(b"\n"):
-            raise DamagedArchive("has a broken extended header")
+            raise DamagedArchive("has an invalid extended header")
         key, _, value = record[:-1].partition(b"=")
         records[key.decode("utf-8", "replace")] = value
         at += length

@@ -107,11 +107,11 @@ class _Builder:
         self.model: Any = pin.Model()
         self.degrees: list[Degree] = []
         self.notes = [
-            f"Joint {tie.joint.scoped_name} is left out: {tie.child} hangs on another link."
+            f"Joint {tie.joint.scoped_name} is left out: {tie.child} already has a parent."
             for tie in hanging.left_out
         ]
         self.notes += [
-            f"Joint {broken.joint.scoped_name} is left out: {broken.missing.value} is no link."
+            f"Joint {broken.joint.scoped_name} is left out: {broken.missing.value} is not a link."
             for broken in robot.tree.broken
         ]
         self.carriers = {WORLD: 0}
@@ -155,7 +155,7 @@ class _Builder:
         carrier = self.carriers[tie.parent]
         motions = motions_of(self.robot, tie.joint)
         if not motions and tie.joint.type.value != "fixed":
-            self.notes.append(f"Joint {tie.joint.scoped_name} is held fixed.")
+            self.notes.append(f"Joint {tie.joint.scoped_name} is treated as fixed.")
         at = self.robot.pose_of_joint(tie.joint) or self.poses[name]
         frame = Transform(self.poses[name].rotation, at.translation)
         for motion in motions:

@@ -35,7 +35,7 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
     """
     # A zero byte stands between the letters of UTF-16.
     if _DOCTYPE.search(data.replace(b"\0", b"")):
-        reason = "declares a document type (<!DOCTYPE>), which is not read here"
+        reason = "declares a document type (<!DOCTYPE>), which is not supported"
         raise NoSurface(reason, MeshTrouble.NOT_LOOKED_AT)
     defects = []
     try:
@@ -50,7 +50,7 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
         shown = value[0].decode("utf-8", "replace")[:60] if value else ""
         defects.append(f"its XML is not well-formed: `<` in an attribute's value {shown}")
     if root is None or local_name(root) != "COLLADA":
-        raise NoSurface("is XML, but no COLLADA file")
+        raise NoSurface("is XML, but not a COLLADA file")
     return root, defects
 
 

@@ -36,7 +36,7 @@ def read_dae(data: bytes) -> Surface:
     if not len(corners):
         if is_skinned:
             raise NoSurface("is a mesh with a skeleton", MeshTrouble.NOT_LOOKED_AT)
-        raise NoSurface(f"holds no triangles{': ' + faults[0] if faults else ''}")
+        raise NoSurface(f"contains no triangles{': ' + faults[0] if faults else ''}")
     defects = [*defects, *unit_defects, *faults[:5]]
     return Surface(corners * metres, metres, textures, defects=tuple(defects), parts=parts)
 
@@ -101,7 +101,7 @@ def metres_per_unit(root: etree._Element) -> tuple[float, list[str]]:
         metres = math.nan
     if 0.0 < metres < math.inf:
         return metres, []
-    return 1.0, [f'Its <unit meter="{written[:40]}"> is no positive number.']
+    return 1.0, [f'Its <unit meter="{written[:40]}"> is not a positive number.']
 
 
 def _textures(root: etree._Element) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ SECONDS_FOR_ONE = 20
 SECONDS_FOR_ALL = 90
 """By the clock, for the files of one robot; those left then are not looked at."""
 
-LATE = f"was not read: the others took {SECONDS_FOR_ALL} s"
+LATE = f"was not read: the other files took {SECONDS_FOR_ALL} s"
 """Why a file was not looked at when the time was over: the end of a sentence."""
 
 MEMORY = 1_000_000_000

@@ -138,7 +138,7 @@ def measure(surface: Surface, path: str, format: str) -> Mesh:
         NoSurface: It has no triangles, or a corner that is nowhere.
     """
     if not len(surface.corners):
-        raise NoSurface("holds no triangles")
+        raise NoSurface("contains no triangles")
     _refuse_lost_corners(surface.corners)
     joined = Joined.of(surface.corners)
     flat = _without_area(joined)
@@ -173,7 +173,9 @@ def _refuse_lost_corners(corners: NDArray[float64]) -> None:
     if lost.any():
         number = int(lost.argmax())
         written = ", ".join(f"{value:g}" for value in corners[number].flatten())
-        raise NoSurface(f"has a corner that is nowhere: triangle {number + 1:,} is {written}")
+        raise NoSurface(
+            f"has a corner without a finite position: triangle {number + 1:,} is {written}"
+        )
 
 
 def _with_three_corners(mesh: Joined) -> NDArray[bool_]:

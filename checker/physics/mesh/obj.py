@@ -41,7 +41,7 @@ def read_obj(data: bytes) -> Surface:
     import trimesh
 
     if not _CORNER.search(data):
-        raise NoSurface("is no OBJ file: it holds no corners (lines `v x y z`)")
+        raise NoSurface("is not an OBJ file: it contains no corners (lines `v x y z`)")
     # Without materials nothing but the file itself is looked at.
     loaded = trimesh.load(
         io.BytesIO(data), file_type="obj", process=False, skip_materials=True, group_material=False
@@ -49,7 +49,7 @@ def read_obj(data: bytes) -> Surface:
     if isinstance(loaded, trimesh.Scene):
         loaded = loaded.to_mesh()
     if not isinstance(loaded, trimesh.Trimesh):
-        raise NoSurface("holds no triangles")
+        raise NoSurface("contains no triangles")
     return Surface(
         loaded.vertices[loaded.faces],
         materials=_names(_MATERIALS, data),

@@ -36,7 +36,7 @@ from checker.source.text import Located
 
 _MATERIAL_FILES = 20
 """Of one mesh; they are read anew in each check."""
-_UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is no mesh of this robot")
+_UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is not a mesh of this robot")
 
 _Read = Mesh | MeshFault
 

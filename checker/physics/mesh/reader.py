@@ -43,11 +43,14 @@ def read_stl(data: bytes) -> Surface:
     if data.lstrip()[:5].lower() == b"solid" and b"\0" not in data:
         return _text(data)
     if len(data) < _HEADER:
-        raise NoSurface(f"is no STL file: it has {len(data)} bytes, its header alone takes 84")
+        raise NoSurface(
+            f"is not an STL file: it has {len(data)} bytes, but the header alone has 84"
+        )
     held = (len(data) - _HEADER) // _TRIANGLE
     if held < count:
         raise NoSurface(
-            f"is cut off: it declares {count:,} triangles, its {len(data):,} bytes hold {held:,}"
+            f"is cut off: it declares {count:,} triangles, but its {len(data):,} bytes contain "
+            f"{held:,}"
         )
     left = len(data) - _HEADER - count * _TRIANGLE
     return Surface(_binary(data, count), defects=(f"{left:,} bytes follow its last triangle",))
@@ -70,7 +73,7 @@ def _text(data: bytes) -> Surface:
     try:
         corners = np.array(numbers, np.float64).reshape(-1, 3, 3)
     except ValueError as error:
-        raise NoSurface(f"holds a corner that is no number: {error}") from None
+        raise NoSurface(f"contains a corner that is not a number: {error}") from None
     names = [name.decode("utf-8", "replace").strip() for name in _SOLID.findall(data)]
     defects = () if _END.search(data) else ("it does not end in `endsolid`",)
     return Surface(corners, defects=defects, parts=tuple(dict.fromkeys(names)))
@@ -116,12 +119,12 @@ def read_surface(data: bytes, path: str) -> Surface:
     suffix = path.rpartition(".")[2].lower()
     reader = _READERS.get(suffix)
     if reader is None:
-        reason = f"is of a format that is not read: .{suffix}"
+        reason = f"has a format that the checker does not read: .{suffix}"
         raise NoSurface(reason, MeshTrouble.UNSUPPORTED)
     if not data.strip():
         raise NoSurface("is empty")
     if data.startswith(_POINTER):
-        raise NoSurface("is a pointer of Git LFS, not the mesh")
+        raise NoSurface("is a Git LFS pointer, not the mesh")
     return _surface(reader, data)
 
 

@@ -28,4 +28,4 @@ def all_read(child: Child, number: int, decode: Callable[[Any], T]) -> list[T] |
         read = [decode(each) for each in from_json(answer)]
     except NONSENSE:
         read = []
-    return read if len(read) == number else "was not read: its reader answered with nonsense"
+    return read if len(read) == number else "was not read: its reader sent an invalid answer"

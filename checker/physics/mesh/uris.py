@@ -40,10 +40,10 @@ def file_behind(package: Package, folder: str, uri: str) -> MeshFile | MeshFault
         if other.casefold() != package.name.casefold():
             sibling = package.workspace.package(other)
             if sibling is None:
-                return _beyond(f"lies in {other}, which is not at hand")
+                return _beyond(f"is in {other}, which is not available")
             path = f"../{sibling.name}/{path}"
     elif _ELSEWHERE.match(uri):
-        return _beyond("lies outside the workspace")
+        return _beyond("is outside the workspace")
     else:
         path = posixpath.join(folder, uri)
     path = posixpath.normpath(path)
@@ -52,7 +52,7 @@ def file_behind(package: Package, folder: str, uri: str) -> MeshFile | MeshFault
         return MeshFile(path, entry.location)
     other = path.split("/")[1] if path.startswith("../") else ""
     if other and other != package.root.name and package.workspace.package(other) is None:
-        return _beyond(f"lies in {other}, which is not at hand")
+        return _beyond(f"is in {other}, which is not available")
     return MeshFault(MeshTrouble.MISSING, "does not exist")
 
 

@@ -61,7 +61,7 @@ class Pending:
             said = from_json(answer)
             trial = Trial.from_json(said)
         except NONSENSE:
-            return "the trial was answered with nonsense"
+            return "the trial sent an invalid answer"
         self._cache.put(_KIND, self._key, said)
         return trial
 
@@ -152,7 +152,10 @@ class Driving(Record, eq=False, dict=True):
     def obstacle(self) -> NotAtHand | None:
         """Why these robots cannot be driven at all."""
         if len(self.robots) > ROBOTS_LIMIT:
-            reason = f"the file holds {len(self.robots)} robots, at most {ROBOTS_LIMIT} are driven"
+            reason = (
+                f"the file contains {len(self.robots)} robots, but at most {ROBOTS_LIMIT} are "
+                "driven"
+            )
             return NotAtHand(reason)
         reasons = (_obstacle(robot) for robot in self.robots)
         return next((reason for reason in reasons if reason is not None), None)

@@ -53,7 +53,7 @@ def asked_of(robot: Robot, content: Content) -> Asked:
     visuals = [(link, visual) for link in robot.links for visual in link.visuals]
     unseen: list[str] = []
     if len(looking) > SENSORS or len(visuals) > VISUALS:
-        unseen.append(f"at most {SENSORS} sensors and {VISUALS} visuals are looked at")
+        unseen.append(f"at most {SENSORS} sensors and {VISUALS} visuals are checked")
         looking, visuals = looking[:SENSORS], visuals[:VISUALS]
     scene = _Scene({}, {}, unseen)
     if looking:
@@ -90,7 +90,7 @@ class _Scene(Record, eq=False):
         if visual.is_see_through or geometry.shape in ("", "empty"):
             return
         if pose is None or not all(map(math.isfinite, _numbers(pose))):
-            self.unseen.append(f"where visual {visual.name.value!r} is is not known")
+            self.unseen.append(f"the place of visual {visual.name.value!r} is not known")
         elif geometry.shape == "mesh" and geometry.uri is not None:
             self._add_mesh(number, visual, pose, content(geometry.uri))
         elif geometry.shape in SOLIDS:
@@ -104,7 +104,7 @@ class _Scene(Record, eq=False):
                 group["sizes"].append(sizes)
                 group["poses"].append(_numbers(pose))
         else:
-            said = f"a visual of kind {geometry.shape} is not looked at"
+            said = f"a visual of kind {geometry.shape} is not checked"
             self.unseen.append(said)
 
     def _add_mesh(
@@ -122,7 +122,7 @@ class _Scene(Record, eq=False):
         part, whole = _part(visual)
         scale = [each.value for each in visual.geometry.sizes.get("scale", ())]
         if not whole or len(scale) != 3 or not all(map(math.isfinite, scale)):
-            self.unseen.append(f"{named} is used in part only (<submesh>)")
+            self.unseen.append(f"{named} is only partly used (<submesh>)")
             return
         file, key = found
         mesh = {"file": str(file.location), "name": named.rpartition("/")[2], "part": part}

@@ -71,7 +71,7 @@ class Viewing:
     def views(self) -> tuple[SensorViews, ...]:
         """The robots with the views of their sensors."""
         if self._views is None:
-            said = (f"only the sensors of the first {_ROBOTS} robots are looked through",)
+            said = (f"only the views of the first {_ROBOTS} robots are checked",)
             self._views = tuple(
                 self._collected(self._begun(number))
                 if number < _ROBOTS
@@ -109,7 +109,7 @@ class Viewing:
             nothing = tuple(View(each, (), 0.0, None) for each in asked.sensors)
             return SensorViews(pending.robot, nothing, asked.unseen if asked.sensors else ())
         if pending.known is None:
-            with self.stages.stage("views", "looking through the sensors"):
+            with self.stages.stage("views", "computing the views of the sensors"):
                 told = _answered(pending)
             if isinstance(told, str):
                 return SensorViews(pending.robot, (), (told,))
@@ -127,12 +127,12 @@ def _answered(pending: _Pending) -> dict[str, Any] | str:
         return look(pending.asked.request)
     told = pending.child.answer()
     if isinstance(told, Died):
-        return f"what the sensors see was not worked out: it {told.reason}"
+        return f"the views of the sensors were not computed: the process {told.reason}"
     try:
         known = _checked(from_json(told), pending.asked)
     except ValueError:
         known = None
-    return known or "what the sensors see was not worked out: the answer was nonsense"
+    return known or "the views of the sensors were not computed: the answer is invalid"
 
 
 def _checked(told: Any, asked: Asked) -> dict[str, Any] | None:
@@ -179,4 +179,4 @@ def _content_of(robot: Robot) -> Content:
 
 
 def _not_looked_for(uri: Located[str]) -> MeshFault:  # noqa: ARG001 - as a `Content` has it
-    return MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not looked for")
+    return MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not searched")

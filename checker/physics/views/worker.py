@@ -33,7 +33,7 @@ SECONDS_FOR_ONE = 20
 """Processor time for one file and all that look at it."""
 SECONDS_FOR_ALL = 60
 """By the clock, for the files of one robot."""
-_LATE = f"was not looked at: the others took {SECONDS_FOR_ALL} s"
+_LATE = f"was not checked: the other sensors took {SECONDS_FOR_ALL} s"
 FARTHEST = 1e12
 """Metres; corners beyond are nowhere."""
 
@@ -155,7 +155,7 @@ def _mesh(
     except NoSurface as none:
         return none.reason
     if mesh["part"] not in ("", *surface.parts) or (mesh["part"] and len(surface.parts) > 1):
-        return "is used in part only (<submesh>)"
+        return "is only partly used (<submesh>)"
     corners = surface.corners[(np.abs(surface.corners) <= FARTHEST).all(axis=(1, 2))]
     found: list[Met] = []
     if not len(corners):

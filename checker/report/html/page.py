@@ -36,10 +36,10 @@ _TEXT_LIMIT = 600
 SHOWN = 300
 """Entries of a list; what goes beyond is counted."""
 _CAUSES = {
-    Cause.CRASHED: "went wrong",
-    Cause.NOT_AT_HAND: "not at hand",
+    Cause.CRASHED: "internal error",
+    Cause.NOT_AT_HAND: "not available",
     Cause.SWITCHED_OFF: "switched off",
-    Cause.NOT_APPLICABLE: "nothing to look at",
+    Cause.NOT_APPLICABLE: "not applicable",
 }
 """In words, what keeps a package from being ready first."""
 

@@ -77,9 +77,9 @@ def _frames(robot: Robot, notes: Notes) -> dict[str, Transform]:
         name = link.scoped_name
         pose = robot.pose_of(name)
         if name in known:
-            notes.say(f"of the links called {short(name)!r} only the first is shown")
+            notes.say(f"several links are called {short(name)!r}: only the first is shown")
         elif pose is None or not well_placed(pose):
-            notes.say(f"link {short(name)!r} is not shown: where it is is not known")
+            notes.say(f"link {short(name)!r} is not shown: its place is not known")
         else:
             known[name] = pose
     return known

@@ -59,7 +59,7 @@ class MeshFiles(Record, eq=False, dict=True):
         if isinstance(place, MeshFault):
             return place.reason
         asked = self._asked.get(place[0].path)
-        return "is no mesh of this robot" if asked is None else self._looked[asked.key]
+        return "is not a mesh of this robot" if asked is None else self._looked[asked.key]
 
     def begin(self) -> None:
         """Begin to read, while the caller does something else; `of` waits for it."""

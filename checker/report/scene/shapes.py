@@ -48,7 +48,7 @@ def drawn(showing: Showing, shape: Collision | Visual) -> Drawn | None:
     sizes = {name: [each.value for each in values] for name, values in geometry.sizes.items()}
     if not _sound(geometry, sizes):
         what = f"{shape.element.tag} {short(shape.name.value)!r}"
-        notes.say(f"{what} is not shown: its size is no number above 0")
+        notes.say(f"{what} is not shown: its size is not a number above 0")
         return None
     if geometry.shape == "mesh":
         x, y, z = sizes["scale"]
@@ -76,7 +76,7 @@ def _of_mesh(showing: Showing, shape: Collision | Visual) -> tuple[Surface, ...]
     name = short(posixpath.basename(geometry.uri.value) or geometry.uri.value)
     picks = geometry.element.child("submesh") is not None
     if picks and isinstance(showing.robot.mesh_of(shape), MeshFault):
-        notes.say(f"{name} is not shown where only a part of it is used (<submesh>)")
+        notes.say(f"{name} is not shown, because only a part of it is used (<submesh>)")
         return ()
     found = showing.surfaces.of(geometry.uri)
     if isinstance(found, str):
@@ -84,7 +84,7 @@ def _of_mesh(showing: Showing, shape: Collision | Visual) -> tuple[Surface, ...]
         return ()
     sound = tuple(surface for surface in found if _is_drawable(surface))
     if not sound:
-        notes.say(f"{name} is not shown: it holds no triangles that can be drawn")
+        notes.say(f"{name} is not shown: it contains no triangles that can be drawn")
     return sound
 
 

@@ -46,7 +46,7 @@ class Showing(Record, eq=False, dict=True):
         place = self._in_link(link, pose)
         if place is None:
             what = f"{part.element.tag} {short(part.name.value)!r}"
-            self.notes.say(f"{what} is not shown: where it is is not known")
+            self.notes.say(f"{what} is not shown: its place is not known")
         return place
 
     def centre_in_link(self, link: Link) -> Transform | None:

@@ -63,8 +63,8 @@ def read_baseline(path: Path) -> Baseline:
         data = read_bytes(path.resolve(strict=True), path.name, SIZE_LIMIT)
     except FileNotFoundError:
         if path.is_symlink():
-            return Baseline(path, "is a link that leads nowhere")
-        advice = f"--write-baseline --baseline {path} makes it"
+            return Baseline(path, "is a broken link")
+        advice = f"create it with --write-baseline --baseline {path}"
         return Baseline(path, f"does not exist; {advice}", missing=True)
     except (OSError, RuntimeError, ValueError) as error:
         # A path that is too long or a link that leads to itself.
@@ -75,7 +75,7 @@ def read_baseline(path: Path) -> Baseline:
         text = data.decode("utf-8")
         packages = _packages(json.loads(text))
     except (ValueError, RecursionError) as error:
-        return Baseline(path, f"is no baseline: {str(error)[:200]}")
+        return Baseline(path, f"is not a baseline: {str(error)[:200]}")
     return Baseline(path, digest=fingerprint(text), packages=packages)
 
 
@@ -91,18 +91,18 @@ def _packages(content: object) -> dict[str, tuple[BaselineEntry, ...]]:
         raise ValueError(f"it has version {content['version']!r}, expected {VERSION}")
     packages = content.get("packages")
     if not isinstance(packages, dict) or not all(isinstance(v, list) for v in packages.values()):
-        raise ValueError("packages is no table of lists")
+        raise ValueError("packages is not a table of lists")
     if (number := sum(map(len, packages.values()))) > ENTRIES_LIMIT:
-        raise ValueError(f"it has {number} entries, more than the {ENTRIES_LIMIT} that are read")
+        raise ValueError(f"it has {number} entries, more than the limit of {ENTRIES_LIMIT}")
     return {name: tuple(map(_entry, entries)) for name, entries in packages.items()}
 
 
 def _entry(said: Any) -> BaselineEntry:
     if not isinstance(said, dict):
-        raise ValueError(f"an entry is no table: {said!r}")
+        raise ValueError(f"an entry is not a table: {said!r}")
     texts = {name: said.get(name, "") for name in ("rule", "message", "key", "reason")}
     if not all(isinstance(text, str) for text in texts.values()):
-        raise ValueError(f"an entry holds what is no text: {said!r}")
+        raise ValueError(f"an entry contains a value that is not a string: {said!r}")
     for name in ("rule", "message"):
         if not texts[name]:
             raise ValueError(f"an entry has no {name}: {said!r}")
@@ -133,9 +133,9 @@ def baseline_text(packages: Mapping[str, Iterable[BaselineEntry]]) -> str:
         for name in sorted(packages)
     }
     if (number := sum(map(len, entries.values()))) > ENTRIES_LIMIT:
-        raise ValueError(f"would have {number} entries, more than the {ENTRIES_LIMIT} that it may")
+        raise ValueError(f"would have {number} entries, more than the limit of {ENTRIES_LIMIT}")
     text = json.dumps({"version": VERSION, "packages": entries}, indent=2) + "\n"
     if len(text) > SIZE_LIMIT:
-        size = f"{len(text) / 1e6:.1f} MB, more than the {SIZE_LIMIT / 1e6:g} MB that it may"
+        size = f"{len(text) / 1e6:.1f} MB, more than the limit of {SIZE_LIMIT / 1e6:g} MB"
         raise ValueError(f"would have {size}")
     return text

@@ -124,8 +124,8 @@ def _read(
     place = source.place(mark.start(), end)
     lines = tuple(sorted({place.line, place.end_line, below.get(place.line, place.line)}))
     if not mark[2]:
-        return Comment(place, (), "", lines, "no colon stands behind subt-check")
+        return Comment(place, (), "", lines, "a colon is missing after subt-check")
     words = [name.strip() for name in (bracket or "").split(",")] if ignores else []
     names = tuple(dict.fromkeys(filter(None, words)))[:NAMES_LIMIT]
     why = shortened(" ".join(reason.split()), REASON_LIMIT) if re.search(r"\w", reason) else ""
-    return Comment(place, names, why, lines, "" if names else "no ignore[RULE] stands in it")
+    return Comment(place, names, why, lines, "" if names else "it contains no ignore[RULE]")

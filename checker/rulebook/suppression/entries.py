@@ -49,18 +49,18 @@ def entries_of(value: object) -> tuple[SettingsEntry, ...]:
         ValueError: One is of another form; the text is a sentence that says which.
     """
     if not isinstance(value, list) or len(value) > ENTRIES_LIMIT:
-        raise ValueError(f"suppress is no list of tables, or one of more than {ENTRIES_LIMIT}")
+        raise ValueError(f"suppress is not a list of at most {ENTRIES_LIMIT} tables")
     return tuple(_entry(number, each) for number, each in enumerate(value, 1))
 
 
 def _entry(number: int, value: object) -> SettingsEntry:
     if not isinstance(value, dict):
-        raise ValueError(f"suppress {number} is no table")
+        raise ValueError(f"suppress {number} is not a table")
     for key, said in value.items():
         if key not in _KEYS:
             raise ValueError(f"suppress {number} has {key!r}, expected {', '.join(_KEYS)}")
         if not isinstance(said, str):
-            raise ValueError(f"suppress {number} has {key} = {said!r}, expected a text")
+            raise ValueError(f"suppress {number} has {key} = {said!r}, expected a string")
     for key, limit in _LIMITS.items():
         if len(value.get(key, "")) > limit:
             raise ValueError(f"suppress {number} has {key} of more than {limit} characters")

@@ -61,7 +61,7 @@ def _say(words: str) -> None:
 def _token(options: argparse.Namespace) -> str:
     token: str = options.token or os.environ.get("SUBT_CHECK_TOKEN", "")
     if not (token.isascii() and token.isprintable() and " " not in token):
-        raise CheckerError("the token holds other than ASCII letters, digits and signs")
+        raise CheckerError("the token contains characters that are not ASCII letters, digits or signs")
     return token
 
 
@@ -83,7 +83,7 @@ def _offer_to_cancel(check: Check) -> None:
                 check.cancel()
                 _say("the check is cancelled")
                 return
-    _say(f"the check goes on at {check.link}")
+    _say(f"the check continues at {check.link}")
 
 
 def _without_report(standing: Standing, server: Server) -> Report | None:

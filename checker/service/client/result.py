@@ -75,7 +75,7 @@ def _file(check: Check, *names: str) -> bytes:
         content = check.file(name)
         if content is not None:
             return content
-    raise CheckerError(f"{check.connection.server} has no {names[0]} of the check any more")
+    raise CheckerError(f"{check.connection.server} no longer has the {names[0]} of the check")
 
 
 def _write_all(check: Check, standing: Standing, folder: Path) -> None:

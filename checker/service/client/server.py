@@ -64,5 +64,5 @@ def parse_server(text: str) -> Server:
 def _no_server(text: str) -> CheckerError:
     shown = plain(shortened(text, 200))
     return CheckerError(
-        f"'{shown}' is no address of a service, expected one such as https://check.example"
+        f"'{shown}' is not the address of a service, expected for example https://check.example"
     )

@@ -92,7 +92,7 @@ def file_to_send(path: Path, say: Say) -> Iterator[Path]:
         _refuse_file(path)
         around = enclosing_package(path.resolve().parent)
         if around and path.name.lower().endswith(SINGLE_FILE_SUFFIXES):
-            say(f"{path} is sent alone; for its meshes, give the folder {around}")
+            say(f"{path} is sent without its meshes; to include them, give the folder {around}")
         yield path
         return
     with tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True) as own:
@@ -118,7 +118,7 @@ def _refuse_file(path: Path) -> None:
             raise UnreadableInput(path, "does not exist", "check the spelling")
         known = path.name.lower().endswith((*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES))
         if not known or not path.is_file():
-            raise UnreadableInput(path, "is no package, archive or model file", advice)
+            raise UnreadableInput(path, "is not a package, archive or model file", advice)
         with path.open("rb"):
             pass
     except (OSError, ValueError) as error:

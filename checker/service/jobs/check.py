@@ -91,7 +91,7 @@ def _checked(
 ) -> Outcome:
     upload = store.upload(order.upload)
     if upload is None:
-        return Refused("the upload is no longer there; upload it again")
+        return Refused("the upload no longer exists; upload the package again")
     request = {
         "name": order.name,
         "profile": order.profile,
@@ -134,7 +134,7 @@ def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLi
                 return _kept(store, order, checked, ended)
     last_words = repr(ended.answer[-FAULT_LIMIT:].decode(errors="replace"))
     how = "overdue" if ended.overdue else f"code {ended.code}"
-    _LOG.error("the child ended (%s) and said: %s", how, last_words)
+    _LOG.error("the child process ended (%s) with the output: %s", how, last_words)
     return Died(_cause(ended, limits))
 
 
@@ -147,7 +147,7 @@ def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome
             (made / SUMMARY).write_bytes(ended.answer)
             store.keep(checked.key, made)
         except ValueError as error:
-            _LOG.error("the child made what is no result: %s", plain(str(error)))
+            _LOG.error("the child process made an invalid result: %s", plain(str(error)))
             return Died(f"{UNFINISHED}: its report is too large or damaged")
         # Without them, the next check takes longer.
         with suppress(OSError):
@@ -162,20 +162,20 @@ def _write_result(folder: Path, files: Files) -> None:
         ValueError: The process that made them had no reason to make these.
     """
     if len(files.names) > _FILES_LIMIT:
-        raise ValueError(f"a result holds no more than {_FILES_LIMIT} files")
+        raise ValueError(f"a result has at most {_FILES_LIMIT} files")
     folder.mkdir()
     left = RESULT_LIMIT
     for name in files.names:
         left -= files.size(name)
         if left < 0:
-            raise ValueError(f"a result holds no more than {RESULT_LIMIT / 1e9:g} GB")
+            raise ValueError(f"a result has at most {RESULT_LIMIT / 1e9:g} GB")
         if ARTEFACT_NAME.fullmatch(name):
             path = folder / name
             path.parent.mkdir(exist_ok=True)
             with path.open("xb") as file:
                 files.copy(name, file)
         elif not is_part(name):
-            raise ValueError(f"a result does not hold {name[:200]!r}")
+            raise ValueError(f"{name[:200]!r} is not a file of a result")
 
 
 def _known_parts(store: Store, upload: str) -> Iterator[tuple[str, Content]]:

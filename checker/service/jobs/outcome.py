@@ -48,5 +48,7 @@ class Cancelled(Record):
 
 UNFINISHED = "the checker could not finish"
 """How people are told that they are not at fault."""
-FAILED_INSIDE = f"{UNFINISHED}: it failed inside; its operator finds the cause in the log"
+FAILED_INSIDE = (
+    f"{UNFINISHED}: it failed with an internal error; the operator finds the cause in the log"
+)
 Outcome = Checked | Refused | Died | Cancelled

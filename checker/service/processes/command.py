@@ -80,8 +80,8 @@ def worker(options: argparse.Namespace) -> int:
 def _refuse_without_extra() -> None:
     if missing := [name for name in _NEEDED if find_spec(name) is None]:
         raise CheckerError(
-            f"{missing[0]} is not installed, which the service needs; "
-            "run: pip install 'subt-check[service]'"
+            f"the service needs {missing[0]}, which is not installed; run: pip install "
+            "'subt-check[service]'"
         )
 
 
@@ -137,10 +137,11 @@ def _data_made(options: argparse.Namespace) -> Store:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         problem = "" if os.access(folder, os.W_OK | os.X_OK) else "permission denied"
     except OSError as error:
-        problem = error.strerror or "it cannot be made"
+        problem = error.strerror or "it cannot be created"
     if problem:
         raise CheckerError(
-            f"{folder} cannot hold the data of the service ({problem}); choose another by --data"
+            f"{folder} cannot be used for the service's data ({problem}); choose another with "
+            "--data"
         )
     store = Store(folder)
     store.tighten()
@@ -188,10 +189,10 @@ def _served(
             return web.exit_code or EXIT_CRASH  # it has said why
         stop.wait(0.05)
     if not stop.is_set():
-        show(f"subt-check serves at {address_of(bound)}\n")
+        show(f"the service runs at {address_of(bound)}\n")
         keep_running(processes, stop, pace, _say)
     bound.close()
-    _say("stops; a second signal ends it at once")
+    _say("stops; a second signal ends it immediately")
     return EXIT_CLEAN if stop_all(processes, at_once, pace) else EXIT_CRASH
 
 

@@ -61,11 +61,13 @@ def warning_of(bound: socket.socket, environment: Mapping[str, str]) -> str:
     if config.tokens:
         return ""
     if config.public:
-        return "without SUBT_CHECK_TOKENS, everybody who reaches it may upload (--public)"
+        return (
+            "without SUBT_CHECK_TOKENS, everybody who can reach the service may upload (--public)"
+        )
     if not is_loopback(bound.getsockname()[0]):
         raise CheckerError(
             f"{address_of(bound)} can be reached from other machines; set SUBT_CHECK_TOKENS to the "
-            "tokens of those who may upload, or let everybody by --public"
+            "tokens of those who may upload, or allow everybody with --public"
         )
     return ""
 
@@ -87,18 +89,23 @@ def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]
     if hides_files(found):
         return ""
     if config.without_sandbox:
-        return f"no layer hides files: {_RISK} (--without-sandbox)"
+        return f"no sandbox layer hides files: {_RISK} (--without-sandbox)"
     raise CheckerError(
-        f"no layer hides files from what others upload ({_missing(found)}); install bubblewrap or "
-        "use a kernel with Landlock, of which `subt-check doctor` tells more, or take the risk by "
+        f"no sandbox layer hides files from uploads ({_missing(found)}); install bubblewrap or use "
+        "a kernel with Landlock (`subt-check doctor` tells more), or accept the risk with "
         f"--without-sandbox: {_RISK}"
     )
 
 
-_RISK = "a package that takes over its reader reads all that this user can, uploads of others too"
+_RISK = (
+    "a package that takes control of its reader can read all files of this user, including uploads "
+    "of others"
+)
 
 
 def _missing(layers: Sequence[Layer]) -> str:
     """Return why none of the layers that could hide files does."""
     said = [f"{each.name}: {each.words}" for each in layers if each.name != SECCOMP]
-    return plain(shortened("; ".join(said) or "the process that keeps them ends at once", 300))
+    return plain(
+        shortened("; ".join(said) or "the process that provides them ends immediately", 300)
+    )

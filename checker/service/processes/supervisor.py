@@ -109,7 +109,7 @@ class Process:
         wait = min(pace.first_wait * 2.0**self._deaths, pace.longest_wait)
         self._deaths = min(self._deaths + 1, _DEATHS_COUNTED)
         self._next_start = now + wait
-        return f"it starts again in {wait:g} s"
+        return f"it restarts in {wait:g} s"
 
 
 def _how(code: int) -> str:

@@ -18,7 +18,7 @@ class UnknownKind(ValueError):
 
     def __init__(self) -> None:
         known = ", ".join(SUFFIXES[:-1])
-        super().__init__(f"the file's name ends in none of {known} and {SUFFIXES[-1]}")
+        super().__init__(f"the file's name does not end in {known} or {SUFFIXES[-1]}")
 
 
 def safe_name(given: str) -> str:

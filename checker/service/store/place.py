@@ -27,6 +27,6 @@ def data_folder() -> Path:
         return (Path(base).expanduser() / "subt-check").absolute()
     except RuntimeError:
         raise CheckerError(
-            "this user has no home folder to keep uploads and reports in; "
-            "set SUBT_CHECK_DATA to a folder that it may write"
+            "this user has no home folder for uploads and reports; set SUBT_CHECK_DATA to a "
+            "writable folder"
         ) from None

@@ -107,7 +107,7 @@ class Store(Record):
         """
         place = self._place("results", key)
         if place is None:
-            raise ValueError(f"{key!r} is no key of a result")
+            raise ValueError(f"{key!r} is not the key of a result")
         _check_result(folder)
         settle_below(folder)
         with self._alone():
@@ -215,7 +215,7 @@ def _check_result(folder: Path) -> None:
         ValueError: There is a link, a device, a name of no artefact, or too much of all.
     """
     if folder.is_symlink():
-        raise ValueError("a result is no link")
+        raise ValueError("a result is not a link")
     left = RESULT_LIMIT
     for path in folder.rglob("*"):
         name, found = path.relative_to(folder).as_posix(), path.lstat()
@@ -223,6 +223,6 @@ def _check_result(folder: Path) -> None:
             continue
         left -= found.st_size
         if not stat.S_ISREG(found.st_mode) or not _is_of_result(name):
-            raise ValueError(f"a result does not hold {name[:200]!r}")
+            raise ValueError(f"{name[:200]!r} is not a file of a result")
         if left < 0:
-            raise ValueError(f"a result holds no more than {RESULT_LIMIT / 1e9:g} GB")
+            raise ValueError(f"a result has at most {RESULT_LIMIT / 1e9:g} GB")

@@ -17,8 +17,8 @@ from checker.service.web.metrics import Metrics
 _METHODS = ("GET", "HEAD", "POST", "DELETE", "OPTIONS", "PUT", "PATCH")
 _FAULT = JSONResponse(
     Problem(
-        error="The service has a fault.",
-        advice="Try again later; if it stays, tell whoever runs this service.",
+        error="The service has an internal error.",
+        advice="Try again later; if it happens again, tell the operator of this service.",
     ).model_dump(),
     500,
 )

@@ -100,8 +100,10 @@ def _tokens(text: str) -> tuple[str, ...]:
     """Read tokens; what cannot stand in a header would lock its bearer out."""
     tokens = tuple(token.strip() for token in text.split(",") if token.strip())
     if not all(token.isascii() and token.isprintable() and " " not in token for token in tokens):
-        problem = "SUBT_CHECK_TOKENS holds other than ASCII letters, digits and signs"
-        raise InvalidSettings(None, f"{problem}; separate tokens by commas")
+        problem = (
+            "SUBT_CHECK_TOKENS contains characters that are not ASCII letters, digits or signs"
+        )
+        raise InvalidSettings(None, f"{problem}; separate tokens with commas")
     return tokens
 
 
@@ -114,6 +116,6 @@ def _base_url(text: str) -> str:
     except ValueError:
         fine = False
     if text.strip() and (not fine or parts.query or parts.fragment):
-        problem = f"SUBT_CHECK_BASE_URL is {text!r}, expected such as 'https://check.example'"
+        problem = f"SUBT_CHECK_BASE_URL is {text!r}, expected for example 'https://check.example'"
         raise InvalidSettings(None, problem)
     return text.strip().rstrip("/")

@@ -109,9 +109,9 @@ class Health(Record):
         if alive is None:
             yield "The database does not answer."
         elif not alive.living:
-            yield f"No worker has given a sign of life for {SILENCE_SECONDS:g} s."
+            yield f"No worker process has reported for {SILENCE_SECONDS:g} s."
         elif not (takes_risk or all(map(hides_files, alive.living.values()))):
-            yield "A worker has no layer that hides files from what it checks."
+            yield "A worker process has no sandbox layer that hides files from uploads."
 
     def _of_disk(self) -> Iterator[str]:
         """Yield sentences about what is amiss with the data folder."""

@@ -171,7 +171,7 @@ def test_inherited_parts_are_named_without_a_robot() -> None:
     parts = (InheritedPart("model.sdf", "rover_sensor_config_1", at_hand=False),)
     tree = page(replace(package("rover"), facts={}, inherited=parts))
     said = " ".join(" ".join(tree.xpath("//section[@id='facts']//text()")).split())
-    assert "inherited from rover_sensor_config_1 , which is not at hand" in said
+    assert "inherited from rover_sensor_config_1 , which is not available" in said
 
 
 def test_what_was_not_opened_is_named() -> None:

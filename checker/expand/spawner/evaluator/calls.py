@@ -25,7 +25,7 @@ _FIND = re.compile(r"\s*rospack find ([\w-]+)\s*")
 def _call(run: Interpreter, node: RubyNode) -> Value:
     name = node.fields.get("method")
     if name is None or name.type not in {"identifier", "constant"}:
-        raise Unreadable(node.span, f"uses '{node.text[:60]}', which is not read")
+        raise Unreadable(node.span, f"uses '{node.text[:60]}', which is not supported")
     receiver_node = node.fields.get("receiver")
     receiver = run.evaluate(receiver_node) if receiver_node else None
     sign = node.fields.get("operator")
@@ -44,7 +44,7 @@ def _call(run: Interpreter, node: RubyNode) -> Value:
 def _read_arguments(call: Call, node: RubyNode) -> None:
     arguments, block = node.fields.get("arguments"), node.fields.get("block")
     if arguments is not None and arguments.broken:
-        raise Unreadable(node.span, "holds Ruby that the parser does not understand")
+        raise Unreadable(node.span, "contains Ruby that the parser does not understand")
     if block is not None:
         call.block = Block(block, call.run.scope)
     plain = []
@@ -62,7 +62,7 @@ def _read_arguments(call: Call, node: RubyNode) -> None:
 def _named(run: Interpreter, pair: RubyNode) -> tuple[str, Value]:
     key, value = pair.fields["key"], pair.fields.get("value")
     if key.type != "hash_key_symbol" or value is None:
-        raise Unreadable(pair.span, f"passes {pair.text[:40]}, which is not read")
+        raise Unreadable(pair.span, f"passes {pair.text[:40]}, which is not supported")
     return key.text, run.evaluate(value)
 
 
@@ -84,7 +84,7 @@ def _call_bare(call: Call) -> Value:
         return _call_function(call, function)
     known = KERNEL.get(call.name)
     if known is None:
-        raise Unreadable(call.span, f"calls {call.name}, which is not read")
+        raise Unreadable(call.span, f"calls {call.name}, which is not supported")
     check_arity(call, known)
     return known(call, *call.arguments)
 
@@ -99,7 +99,7 @@ def _call_function(call: Call, function: Function, *, entry: bool = False) -> Va
     """Call a function of the spawner; `entry` notes the parameters' names on their values."""
     run, node = call.run, function.node
     if node.broken:
-        raise Unreadable(function.span, "holds Ruby that the parser does not understand")
+        raise Unreadable(function.span, "contains Ruby that the parser does not understand")
     if run.calls >= MAX_CALLS:
         raise Unreadable(call.span, f"calls functions more than {MAX_CALLS} deep")
     scope = Scope(function.path)
@@ -184,7 +184,7 @@ def _subshell(run: Interpreter, node: RubyNode) -> Value:
         raise Unreadable(node.span, f"runs the command '{command.strip()[:60]}'")
     folder = run.files.package_folder(found.group(1))
     if folder is None:
-        raise Unreadable(node.span, f"package {found.group(1)} is not at hand")
+        raise Unreadable(node.span, f"package {found.group(1)} is not available")
     return run.computed(absolute(folder) + "\n", node.span)
 
 

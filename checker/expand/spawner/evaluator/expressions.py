@@ -60,7 +60,7 @@ def string_content(run: Interpreter, node: RubyNode) -> TracedString:
     """Read a quoted literal of any kind."""
     quotes = node.children
     if len(quotes) < 2 or quotes[0].named or quotes[-1].named:
-        raise Unreadable(node.span, "holds a string that is not read")
+        raise Unreadable(node.span, "contains a string that is not supported")
     opening, closing = quotes[0].text, quotes[-1].text
     start, end = quotes[0].end, quotes[-1].start
     if opening.startswith(("'", "%q")):
@@ -93,7 +93,7 @@ def _assembled(
 
 def _interpolation(run: Interpreter, node: RubyNode) -> TracedString:
     if node.broken or any(not part.named and part.text not in "#{}" for part in node.children):
-        raise Unreadable(node.span, "holds Ruby that the parser does not understand")
+        raise Unreadable(node.span, "contains Ruby that the parser does not understand")
     value = run.run(node.parts)
     run.budget.spend()
     return run.written(value, node.span).computed_by(node.span)
@@ -102,7 +102,7 @@ def _interpolation(run: Interpreter, node: RubyNode) -> TracedString:
 def _heredoc(run: Interpreter, node: RubyNode) -> Value:
     parts = heredoc_parts(node)
     if parts is None or "`" in node.text:
-        raise Unreadable(node.span, "holds a heredoc that is not read")
+        raise Unreadable(node.span, "contains a heredoc that is not supported")
     content = _assembled(run, node, parts, RAW if "'" in node.text else DOUBLE_QUOTED)
     return run.string(content, frozen=len(parts) == 1 and _frozen_literals(run, node))
 
@@ -113,7 +113,7 @@ def _chained(run: Interpreter, node: RubyNode) -> Value:
 
 def _words(run: Interpreter, node: RubyNode) -> Value:
     if node.children[0].text.startswith("%W"):
-        raise Unreadable(node.span, "uses %W, which is not read")
+        raise Unreadable(node.span, "uses %W, which is not supported")
     escapes = single_quoted(node.children[0].text[-1] + node.children[-1].text + " ")
     words = [
         decoded(part.source, [(part.start, part.end)], escapes, run.influences)
@@ -139,7 +139,7 @@ def elements(run: Interpreter, nodes: list[RubyNode]) -> list[Value]:
             continue
         value = run.run(node.parts)
         if not isinstance(value.data, RubyArray):
-            raise Unreadable(node.span, "takes apart something that is no array")
+            raise Unreadable(node.span, "takes apart something that is not an array")
         run.budget.spend_items(len(items) + len(value.data.items))
         items += value.data.items
     return items
@@ -150,7 +150,7 @@ def _hash(run: Interpreter, node: RubyNode) -> Value:
     for pair in node.parts:
         value = pair.fields.get("value")
         if pair.type != "pair" or value is None:
-            raise Unreadable(pair.span, "holds a hash entry that is not read")
+            raise Unreadable(pair.span, "contains a hash entry that is not supported")
         store(run, result, _pair_key(run, pair), run.evaluate(value), pair)
     return Value(result, run.influences)
 
@@ -185,7 +185,7 @@ def _range(run: Interpreter, node: RubyNode) -> Value:
         if type(first) is int and type(last) is int:
             exclusive = node.fields["operator"].text == "..."
             return run.value(RubyRange(first, last, exclusive), *values)
-    raise Unreadable(node.span, "uses a range of something else than integers")
+    raise Unreadable(node.span, "uses a range that is not of integers")
 
 
 EXPRESSIONS: Mapping[str, Handler] = {

@@ -71,7 +71,7 @@ class Interpreter:
         if handler is None or (node.broken and node.type != "method"):
             raise Unreadable(node.span, _unknown(node))
         if self.depth >= MAX_DEPTH:
-            raise Unreadable(node.span, f"is nested deeper than {MAX_DEPTH} levels")
+            raise Unreadable(node.span, f"is nested more than {MAX_DEPTH} levels deep")
         self.depth += 1
         try:
             self.budget.spend(1 + len(node.children) // ITEMS_PER_STEP)
@@ -141,7 +141,7 @@ class Interpreter:
         try:
             text = to_s(value.data, self.budget)
         except NotWritable as error:
-            raise Unreadable(span, f"writes out {error}, which is not read") from None
+            raise Unreadable(span, f"writes out {error}, which is not supported") from None
         items = value.data.items if isinstance(value.data, RubyArray) else []
         parameters = value.parameters.union(*(item.influences for item in items))
         return computed(text, span, parameters | self.influences)
@@ -230,6 +230,6 @@ _NAMES = {
 
 def _unknown(node: RubyNode) -> str:
     if node.type == "ERROR" or node.broken:
-        return "holds Ruby that the parser does not understand"
+        return "contains Ruby that the parser does not understand"
     first_line = node.text.partition("\n")[0][:60]
-    return _NAMES.get(node.type, f"uses '{first_line}', which is not read")
+    return _NAMES.get(node.type, f"uses '{first_line}', which is not supported")

@@ -34,7 +34,7 @@ def _binary(run: Interpreter, node: RubyNode) -> Value:
     chain = []
     while node.type == "binary":
         if node.broken:
-            raise Unreadable(node.span, "holds Ruby that the parser does not understand")
+            raise Unreadable(node.span, "contains Ruby that the parser does not understand")
         chain.append(node)
         node = node.fields["left"]
     value = run.evaluate(node)
@@ -89,7 +89,7 @@ def _numeric(
     except ZeroDivisionError:
         raise RubyError("ZeroDivisionError", "divided by 0", node.span) from None
     except NotReal as error:
-        raise Unreadable(node.span, f"computes what is not read: {error}") from None
+        raise Unreadable(node.span, f"computes something that is not supported: {error}") from None
     if result is None:
         raise Unreadable(node.span, f"uses {sign} on {class_name(a)}")
     return run.value(result, left, right)

@@ -40,7 +40,7 @@ def _body(run: Interpreter, node: RubyNode) -> Value:
     """Evaluate statements with their `rescue` and `else`."""
     clauses = [part for part in node.parts if part.type in _CLAUSES]
     if any(clause.type == "ensure" for clause in clauses):
-        raise Unreadable(clauses[-1].span, "uses ensure, which is not read")
+        raise Unreadable(clauses[-1].span, "uses ensure, which is not supported")
     try:
         result = run.run(part for part in node.parts if part.type not in _CLAUSES)
     except RubyError as error:

@@ -79,7 +79,7 @@ def _constant(run: Interpreter, node: RubyNode) -> Value:
         return Value(Constant(node.text))
     if node.text in _NUMBERS:
         return run.value(_NUMBERS[node.text])
-    raise Unreadable(node.span, f"uses {node.text[:60]}, which is not read")
+    raise Unreadable(node.span, f"uses {node.text[:60]}, which is not supported")
 
 
 def assign(run: Interpreter, target: RubyNode, value: Value) -> None:
@@ -102,7 +102,7 @@ def assign(run: Interpreter, target: RubyNode, value: Value) -> None:
             item = items[index] if index < len(items) else NIL
             assign(run, part, Value(item.data, item.parameters | value.parameters))
     else:
-        raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not read")
+        raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not supported")
 
 
 def _set_element(run: Interpreter, target: RubyNode, value: Value) -> None:
@@ -110,7 +110,7 @@ def _set_element(run: Interpreter, target: RubyNode, value: Value) -> None:
     keys = elements(run, target.parts[1:])
     data = holder.data
     if len(keys) != 1 or not isinstance(data, (RubyHash, RubyArray)):
-        raise Unreadable(target.span, "assigns to an element, which is not read here")
+        raise Unreadable(target.span, "assigns to an element, which is not supported here")
     if data.frozen:
         raise RubyError("FrozenError", "can't modify frozen Array or Hash", target.span)
     if isinstance(data, RubyHash):
@@ -156,7 +156,7 @@ def _old_value(run: Interpreter, target: RubyNode) -> Value:
         return run.constants.get(target.text, NIL)
     if target.type == "element_reference":
         return run.evaluate(target)
-    raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not read")
+    raise Unreadable(target.span, f"assigns to '{target.text[:60]}', which is not supported")
 
 
 def _element(run: Interpreter, node: RubyNode) -> Value:

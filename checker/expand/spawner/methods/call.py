@@ -72,7 +72,7 @@ class Call:
             return f"{data.name}.{self.name}"
         return f"{class_name(data)}#{self.name}"
 
-    def refuse(self, why: str = "which is not read") -> Unreadable:
+    def refuse(self, why: str = "which is not supported") -> Unreadable:
         """Return the exception that says that this call is outside the subset."""
         return Unreadable(self.span, f"calls {self.title}, {why}")
 
@@ -181,7 +181,7 @@ def invoke_block(call: Call, arguments: list[Value]) -> Value:
 
         return invoke_method(Call(run, block.node, block.method, arguments[0], arguments[1:]))
     if block.node.broken:
-        raise Unreadable(block.node.span, "holds Ruby that the parser does not understand")
+        raise Unreadable(block.node.span, "contains Ruby that the parser does not understand")
     around = block.scope
     scope = Scope(around.path, {}, around, around.call, block)
     parameters = block.node.fields.get("parameters")

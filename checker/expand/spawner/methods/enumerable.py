@@ -138,7 +138,7 @@ def _extreme(choose: Callable[..., Any]) -> Method:
         if not items:
             return NIL
         if not all(is_number(item) for item in items):
-            raise call.refuse("with something else than numbers")
+            raise call.refuse("with something other than numbers")
         chosen: Value = choose(items, key=lambda item: item.data)
         return call.value(call.number(chosen), *items)
 

@@ -39,7 +39,7 @@ def _require(call: Call, name: Value) -> Value:
         return call.run.value(True)
     if text.startswith("/"):
         return _run_once(call, resolve(call, name))
-    raise Unreadable(call.span, f"requires '{text[:60]}', which is not at hand")
+    raise Unreadable(call.span, f"requires '{text[:60]}', which is not available")
 
 
 def _require_relative(call: Call, name: Value) -> Value:
@@ -47,7 +47,7 @@ def _require_relative(call: Call, name: Value) -> Value:
     target = posixpath.normpath(posixpath.join(folder, call.text(name)))
     path = workspace_path(target)
     if path is None:
-        raise Unreadable(call.span, f"requires {target}, which lies outside the workspace")
+        raise Unreadable(call.span, f"requires {target}, which is outside the workspace")
     return _run_once(call, path)
 
 
@@ -69,7 +69,7 @@ def _run(call: Call, path: str) -> Value:
     if not run.files.exists(path):
         package, inside, _ = path.partition("/")
         if inside and run.files.package_folder(package) is None and not run.files.exists(package):
-            raise Unreadable(call.span, f"package {package} is not at hand")
+            raise Unreadable(call.span, f"package {package} is not available")
         raise RubyError("LoadError", f"cannot load such file -- {absolute(path)}", call.span)
     run.run_file(path, call.span)
     return run.value(True)

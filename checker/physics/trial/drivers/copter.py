@@ -27,8 +27,8 @@ def plan_copter(robot: Robot, locomotion: Locomotion) -> Plan:
     rotors = tuple(_rotors(robot, locomotion))
     without = len(locomotion.rotors) - len(rotors)
     left_out = (
-        f"{without} of {len(locomotion.rotors)} rotors have no link or no usable constants, "
-        "and give no thrust."
+        f"{without} of {len(locomotion.rotors)} rotors have no link or no usable constants, and so "
+        "no thrust."
     )
     return Plan(
         kind=locomotion.kind.value,

@@ -74,7 +74,7 @@ def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
     if kind is DriveKind.MECANUM:
         return replace(plan, notes=("Mecanum wheels roll on rollers, which are not simulated.",))
     what = "steer" if kind is DriveKind.ACKERMANN and locomotion.wheels else "drive"
-    return replace(plan, not_driven=f"its plugins {what} nothing that the model has")
+    return replace(plan, not_driven=f"its plugins {what} no part of the model")
 
 
 def _efforts(robot: Robot, joints: Iterable[str]) -> dict[str, float]:

@@ -66,7 +66,7 @@ MEASURES: dict[str, Measure] = {
     "hold_tilt": Measure("tilt in the held pose", "rad", "TRI011"),
     # parts against each other (pairs)
     "start_overlap": Measure("parts inside each other at rest", "m", "GEO015", silence_is_ok=False),
-    "sweep_overlap": Measure("parts inside each other somewhere in a joint's range", "m", "TRI015"),
+    "sweep_overlap": Measure("parts inside each other in a joint's range", "m", "TRI015"),
     "unswept_joints": Measure("joints that were not moved through their range"),
     # energy
     "energy_gain": Measure("energy gained at rest / m·g·0.1 m", "", "TRI017"),

@@ -45,7 +45,7 @@ def replay_of(run: Run) -> Replay | None:
 def too_many(scene: Scene) -> Iterator[str]:
     """Say so where more links move than are kept."""
     if scene.welded and not carriers_of(scene):
-        yield f"more than {TRACKED} links move: there is no replay of the trial"
+        yield f"more than {TRACKED} links move, so there is no replay of the trial"
 
 
 _MOST_PARTS = 40

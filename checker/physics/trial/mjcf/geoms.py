@@ -41,7 +41,7 @@ def sliding_friction(
     if abs(min(other, MOST) - min(mu, MOST)) > _ALIKE * max(mu, _ALIKE):
         ledger.note(
             f"Friction is {mu:g} in its first direction and {other:g} in its second; the trial "
-            f"takes {taken:g} for both",
+            f"uses {taken:g} for both",
             link.scoped_name,
         )
     return taken
@@ -106,7 +106,7 @@ class GeomReader:
         """Return a shape as MuJoCo can collide it; None where it is left out."""
         at, frame = self._at(link, collision), self.poses[link.scoped_name]
         if at is None:
-            self._leave_out(link, collision, "has a place that is not known")
+            self._leave_out(link, collision, "has an unknown place")
             return None
         geometry = collision.geometry
         if geometry.shape in ("mesh", "cone"):
@@ -136,12 +136,12 @@ class GeomReader:
         geometry = collision.geometry
         sizes = half_sizes(geometry)
         if sizes is None:
-            kind = geometry.shape or "shape that is missing or not known"
+            kind = geometry.shape or "missing or unknown shape"
             if geometry.shape != "empty":
                 self.ledger.note(f"A collision that is a {kind} is left out", link.scoped_name)
             return ""
         if not all(usable(size, FAR) for size in sizes):
-            self._leave_out(link, collision, "has a size that is no usable number", serious=True)
+            self._leave_out(link, collision, "has a size that is not a usable number", serious=True)
             return ""
         if not all(size > 0.0 for size in sizes):
             self._leave_out(link, collision, "has a size that is not above 0", serious=True)
@@ -163,7 +163,7 @@ class GeomReader:
             self._leave_out(link, collision, points, serious=serious)
             return None
         if geometry.element.child("submesh") is not None:
-            sentence = "The whole mesh of a collision is taken, not the submesh that it names"
+            sentence = "The whole mesh of a collision is used instead of its submesh"
             self.ledger.note(sentence, link.scoped_name)
         return points
 
@@ -193,7 +193,7 @@ def _cone(geometry: Geometry) -> Points | str:
     """Return the corners of a cone, its tip up; or what is wrong."""
     radius, half = geometry.sizes["radius"][0].value, geometry.sizes["length"][0].value / 2
     if not (usable(radius, FAR) and usable(half, FAR)):
-        return "has a size that is no usable number"
+        return "has a size that is not a usable number"
     if radius <= 0.0 or half <= 0.0:
         return "has a size that is not above 0"
     angles = [2 * math.pi * step / _CONE_CORNERS for step in range(_CONE_CORNERS)]
@@ -207,12 +207,12 @@ def _scaled(mesh: Mesh | MeshFault | None, geometry: Geometry) -> Points | str:
     if mesh is None:
         return "names no mesh"
     if isinstance(mesh, MeshFault):
-        return f"is of a mesh that {mesh.reason}"
+        return f"uses a mesh that {mesh.reason}"
     x, y, z = (factor.value for factor in geometry.sizes["scale"])
     points = tuple((x * p[0], y * p[1], z * p[2]) for p in mesh.hull)
     if not all(usable(each, FAR) for point in points for each in point):
-        return "has a size that is no usable number"
-    return points if _has_volume(points) else "is of a mesh without volume"
+        return "has a size that is not a usable number"
+    return points if _has_volume(points) else "uses a mesh without volume"
 
 
 def _has_volume(points: Points) -> bool:

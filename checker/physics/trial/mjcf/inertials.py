@@ -94,12 +94,15 @@ def inertia_of(robot: Robot, link: Link, ledger: Ledger) -> BodyInertia:
         return BodyInertia(mass, (0.0, 0.0, 0.0), np.eye(3) * (1.0 if link.default_mass else 0.0))
     pose = _pose_of(robot, link, link.inertial.pose)
     if pose is None:
-        ledger.repair(name, "has a centre of mass that is not known, the link's origin taken")
+        ledger.repair(name, "has an unknown centre of mass; the link's origin is used")
         pose = Transform()
     stated = [moment.value for moment in link.inertial.moments]
     if not all(usable(moment) for moment in stated):
         ledger.repair(
-            name, f"has a moment of inertia that is no usable number, {LEAST_MOMENT:g} kg·m² taken",
+            name, (
+                f"has a moment of inertia that is not a usable number; {LEAST_MOMENT:g} kg·m² is "
+                "used"
+            ),
             serious=True,
         )  # fmt: skip
         return BodyInertia(mass, pose.translation, np.eye(3) * LEAST_MOMENT)
@@ -114,9 +117,9 @@ def _mass_of(link: Link, ledger: Ledger) -> float:
     mass = link.mass
     if mass >= 0.0 and usable(mass):
         return mass
-    what = "a negative mass" if mass < 0.0 else "a mass that is no usable number"
+    what = "a negative mass" if mass < 0.0 else "a mass that is not a usable number"
     taken = LARGEST if LARGEST < mass < math.inf else LEAST_MASS
-    ledger.repair(link.scoped_name, f"has {what}, {taken:g} kg taken", serious=True)
+    ledger.repair(link.scoped_name, f"has {what}; {taken:g} kg is used", serious=True)
     return taken
 
 
@@ -150,8 +153,10 @@ def _physical(moments: Matrix, name: str, ledger: Ledger) -> Matrix:
         floor = max(floor, LEAST_MOMENT / 2)
         said = ", ".join(f"{value:.4g}" for value in values)
         ledger.repair(
-            name, f"has principal moments that no body can have ({said} kg·m²), the nearest "
-            "that one can have taken", serious=True,
+            name, (
+                f"has principal moments that no body can have ({said} kg·m²); the nearest possible "
+                "ones are used"
+            ), serious=True,
         )  # fmt: skip
     elif values[0] <= max(_NOTHING, _ROUNDING * scale):
         # A rod or a point: whether its zero matters, and is repaired, depends on its neighbours.
@@ -168,11 +173,11 @@ def thickened(body: BodyInertia, name: str, ledger: Ledger) -> BodyInertia:
     mass = body.mass
     if mass <= _NOTHING:
         mass = LEAST_MASS
-        ledger.repair(name, f"has no mass, {mass:g} kg taken", serious=True)
+        ledger.repair(name, f"has no mass; {mass:g} kg is used", serious=True)
     values, axes = np.linalg.eigh(body.moments)
     if values[0] > max(_NOTHING, _FLAT * values[2]):
         return BodyInertia(mass, body.centre, body.moments)
     least = max(LEAST_MOMENT, _ROUNDING * float(values[2]))
-    ledger.repair(name, f"has a zero principal moment, {least:g} kg·m² taken", serious=True)
+    ledger.repair(name, f"has a zero principal moment; {least:g} kg·m² is used", serious=True)
     moments = (axes * np.maximum(values, least)) @ axes.T
     return BodyInertia(mass, body.centre, _physical(moments, name, Ledger()))

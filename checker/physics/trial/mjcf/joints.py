@@ -60,7 +60,7 @@ def degrees_of(robot: Robot, joint: Joint, ledger: Ledger) -> tuple[Degree, ...]
     motions = motions_of(robot, joint)
     type = joint.type.value
     if type not in AXES and type != "fixed":
-        ledger.note(f"Joints are held fixed, being of type {type!r}", joint.scoped_name)
+        ledger.note(f"Joints of type {type!r} are held fixed", joint.scoped_name)
     moving = {motion.number for motion in motions}
     for number in range(AXES.get(type, 0)):
         if number not in moving:
@@ -75,7 +75,7 @@ def _say_why_held(joint: Joint, number: int, ledger: Ledger) -> None:
         return
     axis = joint.axes[number]
     if axis.lower.value == axis.upper.value and joint.type.value != "continuous":
-        ledger.note("Joints whose limits leave them no range are held fixed", name)
+        ledger.note("Joints whose limits allow no range are held fixed", name)
     elif all(part.value == 0.0 for part in axis.xyz):
         what = f"has {which} of length 0 and is held fixed about it"
         ledger.repair(name, what, serious=True)
@@ -110,7 +110,7 @@ def _range(name: str, axis: Axis, ledger: Ledger) -> tuple[float, float] | None:
         ledger.repair(name, f"has {limits}; both are left out", serious=True)
         return None
     if not low <= 0.0 <= high:
-        ledger.note("Joints start at 0, which is beyond their limits", name)
+        ledger.note("Joints start at 0, which is outside their limits", name)
     low, high = max(low, -_ENDLESS), min(high, _ENDLESS)
     endless = low >= high or (low == -_ENDLESS and high == _ENDLESS)
     return None if endless else (low, high)

@@ -123,7 +123,7 @@ class Layout:
     ) -> Iterator[tuple[Geom, float]]:
         for collision in link.collisions:
             if not touches(collision):
-                self.ledger.note("A collision says that it touches nothing", link.scoped_name)
+                self.ledger.note("A collision is set to touch nothing", link.scoped_name)
             elif (geom := reader.of(link, collision)) is not None:
                 yield geom, sliding_friction(friction, link, collision, self.ledger)
 
@@ -145,8 +145,8 @@ class Layout:
             if pose is None or not well_placed(pose):
                 base = self.forest.base(name)
                 pose = poses[base] if base is not None else Transform()
-                where = "that of the link it hangs on" if base is not None else "the origin"
-                self.ledger.repair(name, f"has a pose that is not known, {where} taken")
+                where = "the pose of its parent link" if base is not None else "the origin"
+                self.ledger.repair(name, f"has an unknown pose; {where} is used")
             poses[name] = pose
         return poses
 
@@ -159,10 +159,10 @@ class Layout:
 
     def _say_what_is_cut(self) -> None:
         for tie in self.forest.hanging.left_out:
-            what = f"ties {tie.parent} and {tie.child}, which hangs on another link already"
+            what = f"connects {tie.parent} with {tie.child}, which already has a parent"
             self.ledger.repair(tie.joint.scoped_name, f"{what}, and is left out")
         for broken in self.robot.tree.broken:
-            what = f"ties {broken.missing.value!r}, which is no link, and is left out"
+            what = f"connects {broken.missing.value!r}, which is not a link, and is left out"
             self.ledger.repair(broken.joint.scoped_name, what)
         for link in self._links():
             if link.kinematic.value:

@@ -146,7 +146,7 @@ def _servos(names: Names, servos: Sequence[str], ledger: Ledger) -> str:
             actuator = names.actuators.setdefault(joint, f"a{len(names.actuators)}")
             lines.append(f'<velocity name="{actuator}" joint="{names.joints[joint]}" kv="1"/>')
         else:
-            ledger.note("Joints to drive neither turn nor slide", joint)
+            ledger.note("Driven joints neither turn nor slide", joint)
     return "\n".join(lines)
 
 

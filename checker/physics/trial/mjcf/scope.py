@@ -20,7 +20,7 @@ _UNSEEN = (MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED)
 def unusable_because(robot: Robot, layout: Layout) -> str:
     """Return why no trial is possible, as the end of a sentence; empty if one is."""
     if robot.missing_parts:
-        return f"parts of the robot are not at hand: {robot.missing_parts}"
+        return f"parts of the robot are not available: {robot.missing_parts}"
     if not robot.links:
         return "the robot has no links"
     if robot.is_static:

@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 _AWAY = 1e4
 """Metres from the start beyond which a robot is not simulated but lost."""
 _WARNINGS = {
-    "mjWARN_BADQPOS": "a position that is no usable number",
-    "mjWARN_BADQVEL": "a velocity that is no usable number",
-    "mjWARN_BADQACC": "an acceleration that is no usable number",
+    "mjWARN_BADQPOS": "a position that is not a usable number",
+    "mjWARN_BADQVEL": "a velocity that is not a usable number",
+    "mjWARN_BADQACC": "an acceleration that is not a usable number",
 }
 
 

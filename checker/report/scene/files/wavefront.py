@@ -83,7 +83,7 @@ def wavefront_pieces(data: bytes, material_files: Iterable[bytes]) -> Iterator[P
     for material, faces in reading.faces.items():
         triangles = _picked(corners, faces.corners)
         if triangles is None:
-            raise NoSurface("names corners that it has not")
+            raise NoSurface("names corners that it does not have")
         yield Piece(triangles, looks.get(material, Look()), _picked(places, faces.places))
 
 

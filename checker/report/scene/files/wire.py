@@ -61,7 +61,7 @@ def surface_from_json(data: Any) -> Surface:
     packed = data["vertex_colours"]
     colours = None if packed is None else _unpacked(packed, "u1", 4)
     if not np.isfinite(vertices).all() or faces.max(initial=0) >= max(len(vertices), 1):
-        raise ValueError("a corner is nowhere")
+        raise ValueError("a corner has no position")
     if colours is not None and len(colours) != len(vertices):
         raise ValueError("a corner has no colour")
     red, green, blue, alpha = (min(max(float(each), 0.0), 1.0) for each in data["colour"])

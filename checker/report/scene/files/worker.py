@@ -37,7 +37,7 @@ _SHARED = 64
 """Pictures that are kept, a megabyte each at most."""
 _HEIGHT = 4
 """Bytes of a number."""
-_LATE = f"was not read: the others took {SECONDS_FOR_ALL} s"
+_LATE = f"was not read: the other files took {SECONDS_FOR_ALL} s"
 _SMALL = 100
 """Triangles that each material of a file keeps where there is room."""
 

@@ -129,7 +129,7 @@ def inertias(showing: Showing) -> Hung:
                 _say_how_large(showing, link, max(edges))
                 continue
             pose = place @ Transform(axes)
-            part = "inertial" if link.inertial is not None else "no inertial: the default"
+            part = "inertial" if link.inertial is not None else "no inertial: the default is used"
             item = Item(Layer.INERTIA, part, showing.inertial_path(link), pose, (violet,), edges)
             yield link.scoped_name, item
 

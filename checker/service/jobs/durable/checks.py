@@ -26,7 +26,7 @@ from checker.service.jobs.port import Event, Order, Stage, State
 
 WORKERS_LOST = 3
 """A check that so many workers died of is not given to another one."""
-GIVEN_UP = f"{UNFINISHED}: its worker died three times"
+GIVEN_UP = f"{UNFINISHED}: its worker process ended three times"
 EVENTS_AT_ONCE = 100
 _WORDS_LIMIT = 2000
 _FINAL = [stage.value for stage in Stage if stage.is_final]
@@ -128,7 +128,7 @@ class Checks(Record, dict=True):
                 return None
             self._move(connection, id, step, worker=worker, losses=losses)
             if len(losses) > len(found.losses):
-                again = f"begins again: its worker died ({len(losses)} of {WORKERS_LOST} times)"
+                again = f"starts again: its worker process ended ({len(losses)} of {WORKERS_LOST} times)"
                 self._tell(connection, id, Step(f"lost{len(losses)}", step.stage, again))
         order = Order(found.upload, found.name, found.profile)
         return Held(id, worker, step.stage, order)

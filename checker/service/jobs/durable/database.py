@@ -34,8 +34,8 @@ _POOL: Mapping[str, Any] = {
 }
 _BUSY_MILLISECONDS = 30_000
 _NO_ADDRESS = (
-    "SUBT_CHECK_DATABASE_URL is no address of a database that processes share, expected "
-    "sqlite:///FILE or postgresql://…"
+    "SUBT_CHECK_DATABASE_URL is not the address of a shared database, expected sqlite:///FILE or "
+    "postgresql://…"
 )
 """Said without the address: it may hold a password."""
 AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)

@@ -30,10 +30,10 @@ _T = TypeVar("_T")
 _LOG = logging.getLogger(__name__)
 _RETRY_SECONDS = 1.0
 _BEGINS = {
-    Stage.STATIC: Step("static", Stage.STATIC, "the static rules look at the files"),
-    Stage.TRIAL: Step("trial", Stage.TRIAL, "the robot is tried on the course"),
+    Stage.STATIC: Step("static", Stage.STATIC, "the static rules are running"),
+    Stage.TRIAL: Step("trial", Stage.TRIAL, "the trial is running"),
 }
-_READ = "the static rules have looked; the trial waits for its turn"
+_READ = "the static rules are finished; the trial is waiting in the queue"
 
 
 class Stages(Record):

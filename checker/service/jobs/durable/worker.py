@@ -101,9 +101,9 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
     landed = threading.Event()
     _in_background(show_life, options.beat_seconds, landed)
     _in_background(retention.delete, options.cleaning_seconds, stop)
-    _LOG.info("%s waits for checks", options.name)
+    _LOG.info("%s is waiting for checks", options.name)
     stop.wait()
-    _LOG.info("%s stops; it has %g s for what is in hand", options.name, options.grace_seconds)
+    _LOG.info("%s stops; it has %g s to finish its checks", options.name, options.grace_seconds)
     _land(stages, options.grace_seconds)
     children.close()
     landed.set()
@@ -115,7 +115,10 @@ def _tell_of(layers: Sequence[Layer]) -> None:
     said = ", ".join(f"{each.name} ({each.words})" for each in layers if each.held)
     _LOG.info("layers of the sandbox: %s", said or "none")
     if not hides_files(layers):
-        _LOG.warning("no layer hides files: what takes over a check reads all that this user can")
+        _LOG.warning(
+            "no sandbox layer hides files: an upload that takes control of a check can read all "
+            "files of this user"
+        )
 
 
 def work(options: WorkerOptions) -> None:

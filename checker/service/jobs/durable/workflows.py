@@ -27,7 +27,7 @@ VERSION = "1"
 """Of the workflows, by hand: a worker leaves those of other versions in the queue. It only changes
 when waiting checks cannot be gone on with."""
 STAGES = (Stage.STATIC, Stage.TRIAL)
-WAITS = "waits for its turn"
+WAITS = "waiting in the queue"
 """Said of a check that is in a queue."""
 _POLLING_SECONDS = {Stage.STATIC: 0.1, Stage.TRIAL: 0.3}
 """Between two looks into a queue; people wait for the first findings, and looks cost time."""

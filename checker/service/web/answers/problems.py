@@ -90,11 +90,11 @@ def _of_framework(error: HTTPException) -> Refused:
         return not_found()
     if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
         said = (
-            "This address does not take this method.",
-            "See /api/openapi.json for those it takes.",
+            "This address does not support this method.",
+            "See /api/openapi.json for the supported methods.",
         )
     else:
-        said = "The request cannot be understood.", "See /api/openapi.json for what is expected."
+        said = "The request cannot be understood.", "See /api/openapi.json for the expected form."
     return Refused(error.status_code, *said, headers=dict(error.headers or {}))
 
 

@@ -34,7 +34,7 @@ def not_found() -> Refused:
     """Return the one answer to every address that leads nowhere; it says nothing of why."""
     return Refused(
         404,
-        "There is nothing at this address.",
-        "Check the link; checks are deleted after the days that their page names.",
+        "Nothing is at this address.",
+        "Check the link; a check is deleted after the number of days on its page.",
         "not found",
     )

@@ -28,22 +28,28 @@ _FORM = {
     "type": "object",
     "required": ["file"],
     "properties": {
-        "token": {"type": "string", "description": "Where one is needed and no header brings it."},
-        "profile": {"type": "string", "description": "What to judge by; empty for what suits."},
-        "file": {"type": "string", "format": "binary", "description": "Comes last."},
+        "token": {
+            "type": "string",
+            "description": "Access token, if one is needed and no header contains it.",
+        },
+        "profile": {
+            "type": "string",
+            "description": "Profile of the check; empty: chosen for the package.",
+        },
+        "file": {"type": "string", "format": "binary", "description": "The file; the last field."},
     },
 }
 _UPLOAD = {"requestBody": {"required": True, "content": {"multipart/form-data": {"schema": _FORM}}}}
 _OTHERS = ("HEAD", "OPTIONS", "PATCH", "POST", "PUT", "TRACE")
 _SAID = {
     400: "The form cannot be read, or was cut off.",
-    401: "A token is wanted.",
+    401: "A token is needed.",
     403: "The request comes from another site.",
-    404: "There is nothing at this address, or not yet.",
+    404: "Nothing is at this address, or not yet.",
     405: "Another method is expected.",
     408: "The upload is too slow.",
     413: "The file is too large.",
-    415: "It is no file that can be checked.",
+    415: "The file is of a kind that cannot be checked.",
     421: "The service does not answer under this name.",
     422: "The archive, the profile or a parameter is refused, and why.",
     429: "Too many uploads; see Retry-After.",
@@ -92,7 +98,7 @@ def _add_events(router: APIRouter, api: Api) -> None:
 
     stream: dict[int | str, dict[str, Any]] = {
         200: {"content": {"text/event-stream": {}}},
-        204: {"description": "It is over."},
+        204: {"description": "The check has ended."},
     }
     router.add_api_route(
         "/{id}/events",

@@ -12,38 +12,38 @@ from checker.service.jobs.port import Stage, State
 
 
 class Created(BaseModel):
-    """A check that was ordered."""
+    """A check that was created."""
 
-    id: str = Field(description="Of the check; who has it can see the report.")
-    url: str = Field(description="Its page for people.")
+    id: str = Field(description="Id of the check; everybody who knows it can see the report.")
+    url: str = Field(description="Page for people.")
 
 
 class PackageView(BaseModel):
-    """What is known of a package so far."""
+    """The current result of a package."""
 
     name: str
     verdict: str = Field(description="ready, not_ready or incomplete.")
     errors: int
     warnings: int
     infos: int
-    folder: str = Field(description="Of its files; empty where there is one package only.")
+    folder: str = Field(description="Folder of its files; empty if there is only one package.")
 
 
 class CheckView(BaseModel):
-    """Where a check stands."""
+    """The current state of a check."""
 
     id: str
-    url: str = Field(description="Its page for people.")
-    name: str = Field(description="Of the uploaded file, made safe.")
-    profile: str = Field(description="Empty for what suits the package.")
+    url: str = Field(description="Page for people.")
+    name: str = Field(description="Name of the uploaded file, made safe.")
+    profile: str = Field(description="Empty: chosen for the package.")
     stage: Stage
-    final: bool = Field(description="Whether nothing will change any more.")
-    words: str = Field(description="What is going on, or went wrong.")
-    ahead: int = Field(description="Checks in front of it in the queue.")
+    final: bool = Field(description="Whether the check has ended.")
+    words: str = Field(description="Current step, or the error.")
+    ahead: int = Field(description="Number of checks before it in the queue.")
     created: float = Field(description="Seconds since the epoch.")
-    expires: float = Field(description="When everything of it is deleted; seconds since the epoch.")
+    expires: float = Field(description="When all its data is deleted; seconds since the epoch.")
     packages: list[PackageView]
-    files: list[str] = Field(description="Addresses of what there is to fetch so far.")
+    files: list[str] = Field(description="Addresses of the files that are ready.")
 
 
 def check_view(state: State, url: str, names: Iterable[str]) -> CheckView:

@@ -41,7 +41,7 @@ class Admission:
             self._check(token)
         with self._uploads.one(client) as free:
             if not free:
-                raise _later(503, "Too many uploads are under way.", 5, "busy")
+                raise _later(503, "Too many uploads are in progress.", 5, "busy")
             yield
 
     @contextmanager
@@ -53,7 +53,7 @@ class Admission:
         """
         with self._streams.one(client_of(request)) as free:
             if not free:
-                raise _later(503, "Too many checks are watched.", 5, "busy")
+                raise _later(503, "Too many pages follow checks.", 5, "busy")
             yield
 
     def needs_token(self, request: HTTPConnection) -> Callable[[Mapping[str, str]], None]:
@@ -74,8 +74,8 @@ class Admission:
         if self._tokens and not self.knows(token):
             raise Refused(
                 401,
-                "This token is not known." if token else "This service wants a token.",
-                "Ask whoever runs the service for one; programs send it as 'Authorization: "
+                "This token is not known." if token else "This service needs a token.",
+                "Ask the operator of the service for one; programs send it as 'Authorization: "
                 "Bearer …', or in the field 'token' before the file.",
                 "token",
                 {"WWW-Authenticate": "Bearer"},

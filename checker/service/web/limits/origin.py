@@ -47,8 +47,8 @@ class OwnOrigin(Record):
             return None
         return Refused(
             421,
-            "This service does not answer under this name.",
-            "Use http://localhost with its port; whoever runs it can set SUBT_CHECK_BASE_URL.",
+            "This service does not answer under this host name.",
+            "Use http://localhost with its port; the operator can set SUBT_CHECK_BASE_URL.",
             "host",
         )
 

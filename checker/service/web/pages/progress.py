@@ -19,7 +19,7 @@ STEPS = {
 }
 """The way of a check that goes well."""
 LEADS = {"ready": "Ready", "not_ready": "Not ready", "incomplete": "Incomplete"}
-_AGAIN = "Send the package again; if this stays, tell whoever runs this service."
+_AGAIN = "Send the package again; if it happens again, tell the operator of this service."
 _TEXT_LIMIT = 600
 
 
@@ -102,7 +102,7 @@ def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
     words = shortened(plain(state.words), _TEXT_LIMIT).rstrip(".")
     match state.stage:
         case Stage.REFUSED:
-            return Headline("Not checked", words, "not_ready", "Mend that and send it again.")
+            return Headline("Not checked", words, "not_ready", "Correct this and send it again.")
         case Stage.FAILED:
             return Headline("Not checked", words, "not_ready", _AGAIN)
         case Stage.CANCELLED:
@@ -110,7 +110,7 @@ def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
         case Stage.DONE:
             return _verdict(words, packages)
         case Stage.QUEUED:
-            return Headline("Waiting", _ahead(state) or "it begins in a moment")
+            return Headline("Waiting", _ahead(state) or "it starts in a moment")
         case _:
             return Headline("Checking", _so_far(packages) or words)
 

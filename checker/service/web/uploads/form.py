@@ -22,7 +22,7 @@ _GZIP = b"\x1f\x8b"
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_TAG = (b"\xff\xfe<\0", b"\xfe\xff\0<")
 _WHAT_TO_SEND = "Send a .zip or .tar.gz archive of the package folder, or a model file."
-_HOW_TO_SEND = "Send a multipart form with one field 'file' that holds the file."
+_HOW_TO_SEND = "Send a multipart form with one field 'file' that contains the file."
 
 
 class UploadForm:
@@ -83,7 +83,7 @@ class UploadForm:
         except MultipartError:
             raise _damaged("it ends early") from None
         if not self.name:
-            raise Refused(422, "The form holds no file.", _HOW_TO_SEND, "no file")
+            raise Refused(422, "The form contains no file.", _HOW_TO_SEND, "no file")
 
     def _take(self, event: MultipartSegment | bytes | bytearray | None) -> None:
         if isinstance(event, MultipartSegment):
@@ -102,10 +102,10 @@ class UploadForm:
         self._field, self._text = field, bytearray()
         if field != FILE:
             if filename is not None:
-                raise Refused(400, "A file stands in another field.", _HOW_TO_SEND, "form")
+                raise Refused(400, "A file is in another field.", _HOW_TO_SEND, "form")
             return
         if self.name:
-            raise Refused(400, "The form holds more than one file.", _HOW_TO_SEND, "form")
+            raise Refused(400, "The form contains more than one file.", _HOW_TO_SEND, "form")
         if not filename:
             raise Refused(422, "No file is chosen.", _WHAT_TO_SEND, "no file")
         self._admit(self.fields)
@@ -128,7 +128,7 @@ class UploadForm:
         if not head:
             raise Refused(422, f"{self.name} is empty.", _WHAT_TO_SEND, "no file")
         if expected := misfit(self.name, head[:HEAD]):
-            message = f"{self.name} is named like {expected}, but does not begin like one."
+            message = f"{self.name} has the name of {expected}, but not its content."
             raise Refused(415, message, _WHAT_TO_SEND, "kind")
         return head
 
@@ -144,7 +144,7 @@ class UploadForm:
 def _parser(content_type: str) -> PushMultipartParser:
     kind, options = parse_options_header(content_type)
     if kind != "multipart/form-data":
-        raise Refused(415, "The request holds no upload form.", _HOW_TO_SEND, "form")
+        raise Refused(415, "The request contains no upload form.", _HOW_TO_SEND, "form")
     try:
         return PushMultipartParser(options.get("boundary", ""), max_segment_count=PARTS_LIMIT)
     except (MultipartError, UnicodeEncodeError) as error:

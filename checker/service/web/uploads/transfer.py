@@ -96,7 +96,7 @@ def too_large(limit: int) -> Refused:
     return Refused(
         413,
         f"The file is larger than the {limit / 1e6:g} MB allowed.",
-        "Leave out what the package does not need, or reduce its meshes and textures.",
+        "Remove files that the package does not need, or reduce its meshes and textures.",
         "size",
     )
 
@@ -175,7 +175,7 @@ def _too_slow(config: Config) -> Refused:
     return Refused(
         408,
         f"The upload is too slow, expected {least:g} kB/s or more without long breaks.",
-        "Send it again by a better connection, or reduce it.",
+        "Send it again over a better connection, or reduce it.",
         "slow",
     )
 
