@@ -43,7 +43,14 @@ __all__ = [
     "to_json",
 ]
 
-_MODULES = ("base.errors", "finding", "pipeline", "report.json_report", "report.report", "settings")
+_MODULES = (
+    ".base.errors",
+    ".finding",
+    ".pipeline",
+    ".report.json_report",
+    ".report.report",
+    ".settings",
+)
 
 
 def __getattr__(name: str) -> Any:
@@ -52,8 +59,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'checker' has no attribute {name!r}")
     inside = "check_package" if name == "check" else name
     for module in _MODULES:
-        value = vars(import_module(f"checker.{module}")).get(inside)
+        value = vars(import_module(module, "checker")).get(inside)
         if value is not None:
-            globals()[name] = value
             return value
     raise AttributeError(f"module 'checker' lacks {name!r}")

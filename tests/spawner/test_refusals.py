@@ -73,7 +73,7 @@ HOSTILE = {
     "begin; raise Exception, 'x'; rescue; 1; end": "raises Exception: x",
     "YAML.load('[' * 100)": "nested too deeply",
     'YAML.load("a: &x 1\\nb: *x")': "uses an alias",
-    'YAML.load("a: [")': "not readable YAML",
+    'YAML.load("a: [")': "is not YAML that can be read",
     "YAML.load(\"a: !ruby/object:A {}\")['a'].x": "calls Hash#x",
     "YAML.load(\"a: !!python/object/apply:os.system [ls]\")['a'].x": "calls Array#x",
     'YAML.load("a: 2001-01-01")': "timestamp",
@@ -101,32 +101,32 @@ NOT_SUPPORTED = {
 """Methods of Ruby that spawners do not call, by a receiver."""
 
 OUTSIDE = {
-    "x = ?a": "uses '?a', which is not read",
-    "x = %i[a b]": "uses '%i[a b]', which is not read",
-    "x = :'a b'": "uses ':'a b'', which is not read",
+    "x = ?a": "uses '?a', which is not supported",
+    "x = %i[a b]": "uses '%i[a b]', which is not supported",
+    "x = :'a b'": "uses ':'a b'', which is not supported",
     "x = 0x1f": "uses the number 0x1f, which is not decimal",
     "x = 017": "uses the number 017, which is not decimal",
-    '"\\e"': "uses the escape \\e, which is not read",
-    "x = (raise 'a' rescue 1)": "uses 'raise 'a' rescue 1', which is not read",
-    "begin; 1; ensure; 2; end": "uses ensure, which is not read",
-    "begin; 1; end while true": "uses 'begin; 1; end while true', which is not read",
-    "a, *b = [1, 2]": "assigns to '*b', which is not read",
-    "(a, b), c = [1, 2], 3": "assigns to '(a, b)', which is not read",
+    '"\\e"': "uses the escape \\e, which is not supported",
+    "x = (raise 'a' rescue 1)": "uses 'raise 'a' rescue 1', which is not supported",
+    "begin; 1; ensure; 2; end": "uses ensure, which is not supported",
+    "begin; 1; end while true": "uses 'begin; 1; end while true', which is not supported",
+    "a, *b = [1, 2]": "assigns to '*b', which is not supported",
+    "(a, b), c = [1, 2], 3": "assigns to '(a, b)', which is not supported",
     "case 1; when 0..2 then 1; end": "compares with a Range in a case",
     "case 1; when Integer then 1; end": "compares with a Class in a case",
     "[1, 2].each { |a, *b| 1 }": "has the block parameter *b",
-    "f(**{})": "uses '**{}', which is not read",
+    "f(**{})": "uses '**{}', which is not supported",
     "x = {**{}}": "holds a hash entry that is not read",
-    "f({a: 1}, 'b' => 2)": "passes 'b' => 2, which is not read",
+    "f({a: 1}, 'b' => 2)": "passes 'b' => 2, which is not supported",
     "[[1]] == [[1]]": "compares two values of the class Array",
     "{[1] => 2}": "uses Array as the key of a hash",
     "a = []; a[3] = 1": "sets an element behind the end of an array",
-    "\"#{['a']}\"": "writes out a value of the class String in an array, which is not read",
-    '"#{{a: 1}}"': "writes out a value of the class Hash, which is not read",
+    "\"#{['a']}\"": "writes out a value of the class String in an array, which is not supported",
+    '"#{{a: 1}}"': "writes out a value of the class Hash, which is not supported",
     "format('%x', 1)": "with the directive %x",
     "1.round(-2)": "or less than none",
     "yield": "uses yield",
-    "1.is_a?(StandardError)": "calls Integer#is_a?, which is not read",
+    "1.is_a?(StandardError)": "calls Integer#is_a?, which is not supported",
 }
 
 
@@ -136,7 +136,7 @@ def test_a_method_outside_the_subset_is_named_with_its_line(emit):
             result = emit(f"def f\n  x = {receiver}\n  x.{method}\n  ''\nend")
             assert isinstance(result, Unread), (receiver, method)
             assert re.fullmatch(
-                rf"calls \w+[#.]{re.escape(method)}, which is not read", result.reason
+                rf"calls \w+[#.]{re.escape(method)}, which is not supported", result.reason
             )
             assert (result.span.line, result.span.text) == (3, f"x.{method}")
 

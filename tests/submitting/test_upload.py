@@ -17,7 +17,7 @@ from checker.base.errors import CheckerError, UnreadableInput
 from checker.package.archives.archive import unpack_archive
 from checker.package.archives.index import ArchiveLimits
 from checker.service.client.upload import Upload, pack
-from checker.service.web.form import UploadForm
+from checker.service.web.uploads.form import UploadForm
 from tests.conftest import SAMPLES
 
 BROKEN = SAMPLES / "broken_rover_sensor_config_1"

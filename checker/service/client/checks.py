@@ -159,8 +159,8 @@ def _refusal(connection: Connection, answer: Answer) -> CheckerError:
     problem = answer.read_as(Problem)
     if problem is None:
         return CheckerError(
-            f"{connection.server} answers {answer.status}, and not as the service of subt-check "
-            "does; check the address"
+            f"{connection.server} answers {answer.status}, but not like a subt-check service; "
+            "check the address"
         )
     said = " ".join(filter(None, (problem.error, problem.advice)))
     return CheckerError(f"{connection.server}: {plain(shortened(said, _SHOWN))}")

@@ -132,7 +132,8 @@ class Connection(Record):
         if 300 <= answer.status < 400:
             where = plain(shortened(answer.headers.get("location", "elsewhere"), _SHOWN))
             raise CheckerError(
-                f"{self.server} redirects to {where}; if that is right, give this address with --server"
+                f"{self.server} redirects to {where}; if that is right, give this address "
+                "with --server"
             )
         return answer
 

@@ -27,7 +27,7 @@ LEFT_OUT = frozenset({".git", ".hg", ".svn", "__pycache__"})
 _LONG_AGO = (1980, 1, 1, 0, 0, 0)
 """For every file, so that the same content makes the same archive, and is checked once."""
 _NAMED = 3
-_ADVICE = "leave out what the package does not need"
+_ADVICE = "remove files that the package does not need"
 _LARGE = 1_000_000
 """Bytes of a file from which on it is said how much of it is sent."""
 
@@ -159,14 +159,14 @@ def _refuse(folder: Path, index: FileIndex, packed: list[FileEntry], limits: Arc
     """
     if index.faults:
         fault = index.faults[0]
-        what = f"'{plain(shortened(fault.path, 200))}' in it {plain(fault.reason)}"
+        what = f"its file '{plain(shortened(fault.path, 200))}' {plain(fault.reason)}"
         raise UnreadableInput(folder, f"is not sent: {what}", _ADVICE)
     if len(packed) > min(limits.entries, MAX_ENTRIES):
-        reason = f"holds {len(packed)} files and folders, expected {limits.entries} or fewer"
+        reason = f"contains {len(packed)} files and folders, expected {limits.entries} or fewer"
         raise UnreadableInput(folder, reason, _ADVICE)
     size = sum(each.size for each in packed)
     if size > limits.unpacked_bytes:
-        reason = f"holds {size / 1e6:.0f} MB, expected {limits.unpacked_bytes / 1e6:.0f} or less"
+        reason = f"has {size / 1e6:.0f} MB, expected {limits.unpacked_bytes / 1e6:.0f} MB or less"
         raise UnreadableInput(folder, reason, _ADVICE)
 
 
@@ -195,5 +195,7 @@ def _words_of_left_out(entries: list[FileEntry]) -> list[str]:
         if paths:
             more = [f"{len(paths) - _NAMED} more"] * (len(paths) > _NAMED)
             named = listed([*paths[:_NAMED], *more])
-            words.append(f"{count(len(paths), noun)} left out, as archives hold none: {named}")
+            words.append(
+                f"{count(len(paths), noun)} left out, because archives cannot contain them: {named}"
+            )
     return words

@@ -128,7 +128,10 @@ class Checks(Record, dict=True):
                 return None
             self._move(connection, id, step, worker=worker, losses=losses)
             if len(losses) > len(found.losses):
-                again = f"starts again: its worker process ended ({len(losses)} of {WORKERS_LOST} times)"
+                again = (
+                    f"starts again: its worker process ended ({len(losses)} of {WORKERS_LOST} "
+                    "times)"
+                )
                 self._tell(connection, id, Step(f"lost{len(losses)}", step.stage, again))
         order = Order(found.upload, found.name, found.profile)
         return Held(id, worker, step.stage, order)
