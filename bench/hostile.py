@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import perf_counter
 
-from checker.check import check_package
+from checker.pipeline import check_package
 from checker.settings import Settings
 
 LONG = 10_000

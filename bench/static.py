@@ -17,9 +17,9 @@ from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 
-from checker.cache import Cache, cache_folder
-from checker.judging import findings_of
-from checker.package.opening import open_input
+from checker.base.cache import Cache, cache_folder
+from checker.engine.review import findings_of
+from checker.package.inputs import open_input
 from checker.settings import Settings
 
 ROOT = Path(__file__).parent.parent

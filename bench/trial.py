@@ -17,13 +17,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import perf_counter
 
+from checker.engine.subject import Subject
 from checker.model.robot import Robot
-from checker.package.opening import open_input
-from checker.subject import Subject
-from checker.trial.drivers.planning import plan_of
-from checker.trial.running import TIMESTEP
-from checker.trial.scene import build_scene
-from checker.trial.worker import driven
+from checker.package.inputs import open_input
+from checker.physics.trial.drivers.plans import plan_of
+from checker.physics.trial.mjcf.scene import build_scene
+from checker.physics.trial.run import TIMESTEP
+from checker.physics.trial.worker import driven
 
 ROOT = Path(__file__).parent.parent
 SAMPLES = ROOT / "samples"

@@ -8,8 +8,8 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any, Protocol, get_type_hints
 
+from checker.base.record import record
 from checker.finding import Fix, Place, Safety, Severity
-from checker.record import record
 from checker.source.text import Span
 
 __all__ = [

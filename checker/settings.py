@@ -13,16 +13,17 @@ from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
-from checker.errors import InvalidSettings
+from checker.base.disk_file import NotReadable
+from checker.base.errors import InvalidSettings
+from checker.base.record import record
 from checker.finding import Severity
-from checker.model.device_form import problem_of_device, problem_of_match
+from checker.model.devices.form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
-from checker.package.reading import NotReadable, read_text
-from checker.profiles import profile_names
-from checker.record import record
 from checker.rule import Rule
-from checker.suppression.baseline import Baseline, read_baseline
-from checker.suppression.entries import SettingsEntry, entries_of
+from checker.rulebook.profiles import profile_names
+from checker.rulebook.suppression.baseline import Baseline, read_baseline
+from checker.rulebook.suppression.entries import SettingsEntry, entries_of
+from checker.source.text_file import read_text
 
 FILE_NAME = "subt-check.toml"
 SHARED_FILE_NAME = "pyproject.toml"

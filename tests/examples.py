@@ -17,8 +17,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from checker.profiles import Profile, profile
 from checker.rule import Rule
+from checker.rulebook.profiles import Profile, profile
 
 NAME = "acme_rover_sensor_config_1"
 

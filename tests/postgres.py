@@ -25,7 +25,7 @@ from typing import Any
 
 import pytest
 
-from checker.sandbox.task import end_with_parent
+from checker.base.sandbox.task import end_with_parent
 
 DATABASES = ("sqlite", pytest.param("postgresql", marks=pytest.mark.service))
 """Kinds of databases, as parameters of fixtures."""

@@ -10,8 +10,8 @@ import json
 from dataclasses import dataclass
 from functools import cache
 
-from checker.check import check_package
-from checker.discovery import all_rules
+from checker.pipeline import check_package
+from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 from tests.real_packages import REVIEWS, named_folder
 

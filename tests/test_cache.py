@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.cache import NO_CACHE, Cache, cache_folder, code_hash, key_of
+from checker.base.cache import NO_CACHE, Cache, cache_folder, code_hash, key_of
 
 parts = st.lists(st.text() | st.binary(), max_size=4)
 

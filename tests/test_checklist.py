@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.checklist import items, to_markdown
-from checker.discovery import all_rules
+from checker.rulebook.checklist import items, to_markdown
+from checker.rulebook.discovery import all_rules
 
 PAGE = Path(__file__).parent.parent / "docs" / "checklist.md"
 

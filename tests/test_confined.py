@@ -13,11 +13,11 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from checker.confined import Child, Died, Limits
-from checker.package.reading import NotReadable
-from checker.sandbox.files import Damaged, from_disk, read, write
-from checker.sandbox.launcher import OwnLauncher
-from checker.sandbox.task import tightened
+from checker.base.child_process import Child, Died, Limits
+from checker.base.disk_file import NotReadable
+from checker.base.sandbox.files import Damaged, from_disk, read, write
+from checker.base.sandbox.launcher import OwnLauncher
+from checker.base.sandbox.task import tightened
 
 LIMITS = Limits(seconds=5, memory=1_000_000_000)
 
@@ -71,7 +71,7 @@ def test_a_child_that_dies(
 
 
 def test_an_answer_that_is_too_long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.confined.ANSWER_LIMIT", 10)
+    monkeypatch.setattr("checker.base.child_process.ANSWER_LIMIT", 10)
     assert isinstance(ask_for("return b'x' * 11", tmp_path, monkeypatch, LIMITS), Died)
     assert ask_for("return b'x' * 10", tmp_path, monkeypatch, LIMITS) == b"x" * 10
 

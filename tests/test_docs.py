@@ -19,11 +19,11 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from checker import cli
-from checker.discovery import _rules_in, all_rules
-from checker.options import check_against_rules
-from checker.page import parse_page
-from checker.profiles import profile, profile_names
+from checker.engine.options import check_against_rules
 from checker.rule import Rule
+from checker.rulebook.discovery import _rules_in, all_rules
+from checker.rulebook.pages import parse_page
+from checker.rulebook.profiles import profile, profile_names
 from checker.settings import parse_settings
 from tests.each import of_each
 from tests.test_rule_examples import test_example as check_example
@@ -207,7 +207,7 @@ def _imports(folder: str) -> set[str]:
         ("checker/source", "checker.(source|finding|record)"),
         ("checker/model", "checker.(model|source|finding|record|resources)"),
         ("checker/package", "checker.(package|source|finding|record|errors)"),
-        ("checker/spawner", "checker.(spawner|source|finding|record)"),
+        ("checker/expand/spawner", "checker.(spawner|source|finding|record)"),
         ("checker/report", "checker.(report|finding|record|resources)"),
     ],
 )

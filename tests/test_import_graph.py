@@ -120,7 +120,7 @@ def test_rules_import_the_parts_of_a_package_and_nothing_above() -> None:
 def test_the_checker_names_no_rule() -> None:
     for path in modules("checker"):
         assert not [m for m in all_imports(path) if m.split(".")[0] == "rules"], path
-    discovery = (ROOT / "checker/discovery.py").read_text("utf-8")
+    discovery = (ROOT / "checker/rulebook/discovery.py").read_text("utf-8")
     assert 'importlib.import_module("rules")' in discovery
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from checker.check import check_package
+from checker.pipeline import check_package
 from checker.report.report import Cause
 from checker.settings import Settings
 from tests.conftest import SAMPLES

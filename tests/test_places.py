@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
 from checker.finding import Place
-from checker.package.opening import open_input
+from checker.package.inputs import open_input
 from checker.package.package import Package
+from checker.pipeline import check_package
 from checker.report.report import ReportedFinding
 from checker.settings import Settings
 from checker.source.text import SNIPPET_LIMIT, SourceText

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from checker.model.transform import Transform
+from checker.model.geometry.transform import Transform
 from checker.source.text import Located, SourceText, Span
 
 

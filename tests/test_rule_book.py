@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from checker.cli import main
-from checker.discovery import all_rules
+from checker.rulebook.discovery import all_rules
 
 BOOK = {
     "CFG": 4,

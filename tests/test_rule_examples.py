@@ -8,14 +8,14 @@ from typing import Any
 
 import pytest
 
-from checker.cache import Cache, cache_folder
-from checker.discovery import all_rules
-from checker.package.opening import open_input
+from checker.base.cache import Cache, cache_folder
+from checker.engine.review import run_and_set_aside
+from checker.engine.subject import Subject
+from checker.package.inputs import open_input
 from checker.report.report import Cause
 from checker.rule import Rule
+from checker.rulebook.discovery import all_rules
 from checker.settings import find_settings
-from checker.subject import Subject
-from checker.suppressing import run_and_set_aside
 from tests.each import of_each
 from tests.examples import expected_places, judge_of, write_example
 

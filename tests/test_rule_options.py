@@ -9,18 +9,18 @@ from pathlib import Path
 
 import pytest
 
-from checker.cache import Cache, cache_folder
-from checker.discovery import all_rules
-from checker.engine import Outcome
+from checker.base.cache import Cache, cache_folder
+from checker.cli.rule_text import page_text
+from checker.engine.review import run_and_set_aside
+from checker.engine.run import Outcome
+from checker.engine.subject import Subject
 from checker.finding import Severity
-from checker.package.opening import open_input
+from checker.package.inputs import open_input
 from checker.report.report import Cause
 from checker.rule import Findings, Rule
-from checker.rule_options import Option, told_options, words_of, work_of
-from checker.rule_text import page_text
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.options import Option, told_options, words_of, work_of
 from checker.settings import Settings
-from checker.subject import Subject
-from checker.suppressing import run_and_set_aside
 from tests.each import of_each
 from tests.examples import judge_of, write_example
 

@@ -15,10 +15,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
-from checker.discovery import all_rules
-from checker.page import parse_page
-from checker.rule_options import told_options
-from checker.rule_pages import anchor, escaped, pages
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.options import told_options
+from checker.rulebook.pages import anchor, escaped, pages, parse_page
 from tests.each import of_each
 
 FOLDER = Path(__file__).parent.parent / "docs/rules"

@@ -9,10 +9,10 @@ from typing import Any
 import jsonschema
 import pytest
 
-from checker.check import check_package
-from checker.discovery import all_rules
+from checker.pipeline import check_package
 from checker.report.json_report import to_dict, to_json
 from checker.report.report import PackageReport, VerdictKind
+from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 from tests.conftest import SAMPLES
 

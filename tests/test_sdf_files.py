@@ -12,12 +12,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
-from checker.commands import exit_code
-from checker.discovery import all_rules
-from checker.model.schema import VERSIONS
+from checker.cli.commands import exit_code
+from checker.model.sdf.schema import VERSIONS
+from checker.pipeline import check_package
 from checker.report.report import Cause, Report
 from checker.rule import Severity
+from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 
 FILES = Path(__file__).parent / "sdf_files"

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
-from checker.convert.notes import Notes
+from checker.base.record import record
+from checker.convert.conversion import Notes
 from checker.model.robot import Robot
 from checker.model.urdf.description import UrdfDescription
-from checker.record import record
 from checker.source.xml import Element
 
 _COLLISION: Mapping[str, tuple[str, ...]] = {

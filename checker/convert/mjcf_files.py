@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from lxml import etree
 
-from checker.convert.writing import unique
+from checker.convert.xml_writer import unique
 from checker.model.robot import Robot
-from checker.trial.drivers.planning import plan_of
-from checker.trial.running import TIMESTEP
-from checker.trial.scene import Scene, build_scene
+from checker.physics.trial.drivers.plans import plan_of
+from checker.physics.trial.mjcf.scene import Scene, build_scene
+from checker.physics.trial.run import TIMESTEP
 
 if TYPE_CHECKING:
     import numpy as np

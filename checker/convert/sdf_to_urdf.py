@@ -6,15 +6,14 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from checker.convert.conversion import Conversion
-from checker.convert.notes import Notes
+from checker.convert.conversion import Conversion, Notes
 from checker.convert.urdf_joints import Named, Step, add_joint, steps_of
 from checker.convert.urdf_shapes import LinkWriter, add_material
-from checker.convert.writing import add, unique
-from checker.dynamics.hanging import hang
+from checker.convert.xml_writer import add, unique
+from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
-from checker.model.transform import Transform
 from checker.model.tree import WORLD, Tie
+from checker.physics.mass.hanging import hang
 
 
 def urdf_of(robot: Robot, *, mesh_uri: Callable[[str], str], prefix: str = "") -> etree._Element:
@@ -123,3 +122,36 @@ class _Writer:
         for broken in self.robot.tree.broken:
             said = f"joint {broken.joint.scoped_name!r} ties {broken.missing.value!r}"
             self.notes.say(broken.joint, f"{said}, which is no link: left out")
+
+
+# The URDF for RViz as a xacro file, whose argument `name` goes in front of every link.
+
+
+XACRO = "http://www.ros.org/wiki/xacro"
+_MARK = "\ue000"
+"""Stands for the argument until all else is escaped; of no use to robots, and legal in XML."""
+_NAME = "${name}/"
+
+
+def xacro_of(robot: Robot, *, name: str, mesh_uri: Callable[[str], str]) -> etree._Element:
+    """Return the `<robot>` of a xacro file with `${name}/` in front of every link.
+
+    Args:
+        robot: From SDF.
+        name: Of the package; the default of the argument `name`.
+        mesh_uri: Gives the URI to write for a mesh or texture, as written in the robot's file.
+    """
+    urdf = urdf_of(robot, mesh_uri=mesh_uri, prefix=_MARK)
+    root = etree.Element("robot", name=name, nsmap={"xacro": XACRO})
+    etree.SubElement(root, f"{{{XACRO}}}arg", {"name": "name", "default": name})
+    etree.SubElement(root, f"{{{XACRO}}}property", {"name": "name", "value": "$(arg name)"})
+    for node in urdf.iter(etree.Element):
+        for key, value in node.attrib.items():
+            node.set(key, _escaped(str(value)).replace(_MARK, _NAME))
+    root.extend(list(urdf))
+    return root
+
+
+def _escaped(value: str) -> str:
+    """Return a value that xacro leaves as it is."""
+    return value.replace("${", "$${").replace("$(", "$$(")

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 
 from lxml import etree
 
+from checker.base.record import record
 from checker.convert.urdf_shapes import add_origin
-from checker.convert.writing import add, exact, numbers
-from checker.dynamics.motion import Freedom, Motion, motions_of
+from checker.convert.xml_writer import add, exact, numbers
 from checker.model.components import UNLIMITED, Axis, Joint
+from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
-from checker.model.transform import Transform, Vector
 from checker.model.tree import Tie
-from checker.record import record
+from checker.physics.mass.joint_motion import Freedom, Motion, motions_of
 
 _NEAR = 1e-12
 """Metres between a joint and its child's origin that make no difference."""

@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 
 from lxml import etree
 
+from checker.base.record import record
+from checker.base.resources import table
+from checker.convert.conversion import Notes
 from checker.convert.gazebo_tags import value_of
-from checker.convert.notes import Notes
-from checker.convert.writing import add, number, tidy
+from checker.convert.xml_writer import add, number, tidy
 from checker.model.components import Visual
 from checker.model.robot import Robot
 from checker.model.values import ValueReader
-from checker.record import record
-from checker.resources import table
 from checker.source.xml import Element
 
 _SHINE = (0.1, 0.1, 0.1)

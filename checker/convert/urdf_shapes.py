@@ -2,18 +2,62 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 
 from lxml import etree
 
-from checker.convert.notes import Notes
-from checker.convert.simple_shapes import Shape, shapes_of
-from checker.convert.writing import add, exact, exact_numbers, is_identity, six_numbers, unique
+from checker.base.record import record
+from checker.convert.conversion import Notes
+from checker.convert.xml_writer import (
+    add,
+    exact,
+    exact_numbers,
+    is_identity,
+    six_numbers,
+    unique,
+)
 from checker.model.components import Collision, Link, Pose, Visual
+from checker.model.geometry.shapes import Geometry
+from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
-from checker.model.transform import Transform
 from checker.model.values import stated_number
+from checker.source.text import Located
+
+# Shapes in the words of a format that lacks some of them.
+
+
+@record(eq=False)
+class Shape:
+    """One shape of what replaces a geometry.
+
+    Attributes:
+        kind: Its tag.
+        sizes: As `Geometry.sizes`.
+        pose: In the frame of the geometry.
+    """
+
+    kind: str
+    sizes: Mapping[str, tuple[Located[float], ...]] = field(default_factory=dict)
+    pose: Transform = field(default_factory=Transform)
+
+
+def shapes_of(geometry: Geometry, primitives: Collection[str]) -> tuple[Shape, ...]:
+    """Return a geometry in a format that knows meshes and some primitives.
+
+    A capsule is a cylinder between two spheres where the format has none. Nothing is returned for
+    what it has no way to say.
+    """
+    kind = geometry.shape
+    if kind in primitives or (kind == "mesh" and geometry.uri is not None):
+        return (Shape(kind, geometry.sizes),)
+    if kind != "capsule":
+        return ()
+    radius, half = geometry.sizes["radius"], geometry.sizes["length"][0].value / 2
+    ends = (Transform(translation=(0.0, 0.0, z)) for z in (half, -half))
+    spheres = (Shape("sphere", {"radius": radius}, end) for end in ends)
+    return (Shape("cylinder", geometry.sizes), *spheres)
+
 
 _PRIMITIVES = ("box", "sphere", "cylinder")
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")

@@ -6,19 +6,24 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from checker.convert.bodies import Body, bodies_of
-from checker.convert.conversion import CarriedPlugin, Conversion, Lumped
-from checker.convert.copying import Copier
+from checker.convert.bodies import Body, alone, bodies_of, frame_of, joined_inertial
+from checker.convert.conversion import CarriedPlugin, Conversion, Lumped, Notes
+from checker.convert.gazebo_extensions import Copier
 from checker.convert.gazebo_tags import Said, gazebo_tags
-from checker.convert.inertials import alone, frame_of, joined_inertial
-from checker.convert.naming import Naming, naming_of
-from checker.convert.notes import Notes
-from checker.convert.sdf_joints import Ends, add_joint
-from checker.convert.sdf_shapes import ShapeWriter
+from checker.convert.names import Naming, naming_of
+from checker.convert.sdf_shapes import Ends, ShapeWriter, add_joint
 from checker.convert.urdf_materials import Materials
-from checker.convert.writing import add, child_of, exact, is_identity, numbers, six_numbers, tidy
+from checker.convert.xml_writer import (
+    add,
+    child_of,
+    exact,
+    is_identity,
+    numbers,
+    six_numbers,
+    tidy,
+)
+from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
-from checker.model.transform import Transform
 from checker.model.tree import WORLD
 from checker.model.urdf.description import UrdfDescription
 

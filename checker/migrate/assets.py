@@ -7,12 +7,12 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from checker.cache import NO_CACHE
-from checker.mesh.package_meshes import PackageMeshes, mesh_uris
-from checker.mesh.uris import MeshFile, file_behind
+from checker.base.cache import NO_CACHE
+from checker.base.disk_file import NotReadable
 from checker.migrate.source import Source
 from checker.model.mesh import Mesh
-from checker.package.reading import NotReadable
+from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
+from checker.physics.mesh.uris import MeshFile, file_behind
 
 MESHES, TEXTURES = "meshes", "materials/textures"
 _PICTURES = (".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".gif", ".dds")

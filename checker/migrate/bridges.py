@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from checker.base.record import record
 from checker.model.components import Sensor
-from checker.model.launch.topics import Channel, sensor_channels
 from checker.model.robot import Robot
+from checker.model.ros.topics import Channel, sensor_channels
 from checker.model.sensing.kind import SensorType
-from checker.record import record
 
 _ANY_ROBOT = "/world/*/model/*/"
 _ROBOT = "/world/$(arg world_name)/model/$(arg name)/"

@@ -1,4 +1,4 @@
-"""Draws a robot from five sides with MuJoCo: the module behind `checker.confined`."""
+"""Draws a robot from five sides with MuJoCo: the module behind `checker.base.child_process`."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from checker.package.reading import NotReadable
-from checker.sandbox.files import Content, Files
+from checker.base.disk_file import NotReadable
+from checker.base.sandbox.files import Content, Files
 
 WIDTH, HEIGHT = 640, 480
 _VIEWS = ((-138.0, -27.0), (0.0, -90.0), (-90.0, 0.0), (180.0, 0.0), (0.0, 0.0))
@@ -37,7 +37,7 @@ def answer(request: bytes, files: Files) -> bytes:
     """
     shapes = json.loads(request)["shapes"]
     # A renderer that is not there ends MuJoCo's import, so each is tried in a process of its own.
-    from checker.mesh.apart import Ended, apart
+    from checker.base.forked_work import Ended, apart
 
     for renderer in _RENDERERS:
         said = apart(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
@@ -124,8 +124,8 @@ def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], content: Content, num
 
 def _corners(file: str, content: Content, scale: Sequence[float]) -> Any:
     """Return the corners of a mesh's triangles, metres; None where it cannot be read."""
-    from checker.mesh.reader import read_surface
-    from checker.mesh.surface import NoSurface
+    from checker.physics.mesh.reader import read_surface
+    from checker.physics.mesh.surface import NoSurface
 
     if isinstance(content, NotReadable):
         return None

@@ -9,15 +9,15 @@ from statistics import fmean
 
 from lxml import etree
 
-from checker.convert.writing import number
+from checker.base.record import record
+from checker.base.resources import table
+from checker.convert.xml_writer import number
+from checker.migrate.options import NotMigrated, Wishes
 from checker.migrate.wheels import Wheels
-from checker.migrate.wishes import NotMigrated, Wishes
 from checker.migrate.xml_parts import put
-from checker.model.lift import GRAVITY
-from checker.model.locomotion import Wheel
+from checker.model.locomotion.locomotion import Wheel
+from checker.model.locomotion.rotors import GRAVITY
 from checker.model.robot import Robot
-from checker.record import record
-from checker.resources import table
 
 _STEERING_LIMIT = 0.5
 """Radians, where the steering joints state none."""

@@ -6,12 +6,12 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 
-from checker.model.boxes import Box
+from checker.base.record import record
 from checker.model.components import Sensor
-from checker.model.placed import placed, union
+from checker.model.geometry.boxes import Box
+from checker.model.geometry.placed_shapes import placed, union
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.record import record
 
 _ABOVE_GROUND = 0.05
 """Metres that a robot falls when it is spawned."""

@@ -10,16 +10,16 @@ from typing import Any
 from lxml import etree
 
 from checker.convert.conversion import CarriedPlugin, Conversion
-from checker.convert.writing import number, numbers
+from checker.convert.xml_writer import number, numbers
 from checker.migrate import sensor_forms as forms
 from checker.migrate.xml_parts import build, number_at, put
+from checker.model.geometry.transform import Transform
 from checker.model.plugin_library import (
     SUBT_RELEASE,
     classic_plugin,
     library_stem,
     plugin_libraries,
 )
-from checker.model.transform import Transform
 
 _BODY_TAGS = ("frameId", "frameName", "frame_id", "bodyName", "body_name", "linkName")
 

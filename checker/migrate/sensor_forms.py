@@ -6,9 +6,9 @@ import math
 
 from lxml import etree
 
-from checker.convert.writing import exact
+from checker.base.resources import table
+from checker.convert.xml_writer import exact
 from checker.migrate.xml_parts import Tree, build, drop, number_at, put
-from checker.resources import table
 
 DEPTH_NEAR = 0.1
 """Metres from which depth is measured where nothing is said."""

@@ -6,12 +6,12 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 
-from checker.cache import NO_CACHE
+from checker.base.cache import NO_CACHE
+from checker.base.record import record
+from checker.engine.subject import Subject
 from checker.migrate.source import Source
-from checker.model.controllers import Controller, ControlSystem
+from checker.model.control.controllers import Controller, ControlSystem
 from checker.model.robot import Robot
-from checker.record import record
-from checker.subject import Subject
 
 _KIND = "JointPositionController"
 _UNFIT = re.compile(r"\W+", re.ASCII)

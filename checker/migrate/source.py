@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import copy
 import os
+import posixpath
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from checker.cache import NO_CACHE
-from checker.describing import Describing
-from checker.migrate.wishes import NotMigrated
-from checker.model.paperwork import PackageManifest
+from checker.base.cache import NO_CACHE
+from checker.base.record import record
+from checker.convert.xml_writer import document_text
+from checker.expand.xacro.fault import XacroFault, XacroFaultKind
+from checker.migrate.options import NotMigrated
 from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles, XacroFault, XacroFaultKind
-from checker.package.opening import Opened, open_input
+from checker.model.urdf.files import UrdfFiles
+from checker.model.urdf.package_descriptions import Describing
+from checker.package.inputs import Opened, open_input
+from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
-from checker.paperwork import Paperwork
-from checker.record import record
+from checker.physics.mesh.uris import MeshFile, file_behind
 
 _NAMED_LIMIT = 8
 _GIVE_ARGUMENT = "; give it by --args name:=value"
@@ -124,3 +128,75 @@ def _fault(fault: XacroFault) -> str:
 def _listed(names: list[str]) -> str:
     more = len(names) - _NAMED_LIMIT
     return ", ".join(names[:_NAMED_LIMIT]) + (f" and {more} more" if more > 0 else "")
+
+
+# The description as it was, in one file, kept beside the model that was made from it.
+
+
+_COMMENT = " The robot as it was simulated in Gazebo 9, expanded; model.sdf is made from it. "
+
+
+def original_text(source: Source, new_uris: Mapping[str, str]) -> bytes:
+    """Return the expanded URDF, whose meshes are those of the new package.
+
+    Args:
+        source: The description.
+        new_uris: URI of each file that was taken along, by its old path.
+    """
+    from lxml import etree
+
+    root = copy.deepcopy(source.description.document.root.node)
+    folder = posixpath.dirname(source.description.file)
+    for element in root.iter("mesh", "texture"):
+        found = file_behind(source.package, folder, element.get("filename") or "")
+        if isinstance(found, MeshFile) and found.path in new_uris:
+            element.set("filename", new_uris[found.path])
+    root.insert(0, etree.Comment(_COMMENT))
+    return document_text(root).encode()
+
+
+# What the source's package.xml says, for the paperwork of the new package.
+
+
+NO_NAME, NO_EMAIL, NO_LICENSE = "TODO", "todo@example.org", "TODO"
+
+
+@record()
+class Papers:
+    """Who made the robot, and under which terms.
+
+    Attributes:
+        name: Of the maintainer.
+        email: Of the maintainer.
+        license: Of the package.
+        open_points: What the author has to fill in.
+    """
+
+    name: str
+    email: str
+    license: str
+    open_points: tuple[str, ...]
+
+
+def papers_of(source: Source) -> Papers:
+    """Return what is known; what is not stands as TODO."""
+    manifest = source.manifest
+    people = (*manifest.maintainers, *manifest.authors) if manifest is not None else ()
+    person = next((each for each in people if each.name.value and each.email.value), None)
+    license = next((each.value for each in manifest.licenses if each.value), "") if manifest else ""
+    open_points = []
+    if person is None:
+        open_points.append("maintainer, with e-mail (package.xml, model.config)")
+    if not license or license.upper() == NO_LICENSE:
+        open_points.append("license (package.xml)")
+    return Papers(
+        _one_line(person.name.value) if person else NO_NAME,
+        _one_line(person.email.value) if person else NO_EMAIL,
+        _one_line(license) or NO_LICENSE,
+        tuple(open_points),
+    )
+
+
+def _one_line(text: str) -> str:
+    """Return a text that stays in its line of the sheet."""
+    return " ".join(text.split())

@@ -10,13 +10,13 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from checker.confined import NONSENSE, Died, Limits, ask, from_json
-from checker.mesh.limits import SIZE_LIMIT
+from checker.base.child_process import NONSENSE, Died, Limits, ask, from_json
+from checker.base.record import record
+from checker.base.sandbox.files import from_disk
 from checker.model.components import Visual
 from checker.model.robot import Robot
-from checker.record import record
-from checker.sandbox.files import from_disk
-from checker.trial.mjcf_text import quaternion
+from checker.physics.mesh.limits import SIZE_LIMIT
+from checker.physics.trial.mjcf.names import quaternion
 
 NAMES = ("1", "2", "3", "4", "5")
 """Slantwise, from above, from the left, from the front, from the rear."""

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from checker.base.record import record
 from checker.convert.conversion import CarriedPlugin
-from checker.migrate.wishes import NotMigrated, Wishes
+from checker.migrate.options import NotMigrated, Wishes
 from checker.model.components import Joint
-from checker.model.locomotion import Side, Wheel
+from checker.model.locomotion.locomotion import Side, Wheel
+from checker.model.locomotion.wheels import WheelReader, stands_askew, tread
 from checker.model.robot import Robot
-from checker.model.wheel_reader import WheelReader
-from checker.model.wheel_shape import stands_askew, tread
-from checker.record import record
 
 _LEVEL = 0.2
 """Share of its radius by which a wheel may hang above the lowest one."""

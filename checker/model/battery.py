@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from checker.base.record import record
+from checker.base.resources import table
 from checker.model.components import Plugin
-from checker.record import record
-from checker.resources import table
 from checker.source.text import Located, Span
 from checker.source.xml import XmlDocument
 

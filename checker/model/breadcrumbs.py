@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from checker.base.record import record
 from checker.model.components import Plugin
-from checker.model.transform import Vector
+from checker.model.geometry.transform import Vector
 from checker.model.values import parse_number
-from checker.record import record
 from checker.source.text import Located, Span
 
 if TYPE_CHECKING:

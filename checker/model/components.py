@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 
-from checker.model.sensing.attenuation import Attenuation, read_attenuation
+from checker.base.record import record
+from checker.model.geometry.shapes import Geometry, Material
+from checker.model.geometry.transform import Transform
+from checker.model.lights import Attenuation, read_attenuation
 from checker.model.sensing.camera import Camera, read_camera
 from checker.model.sensing.imu import Imu, read_imu
 from checker.model.sensing.kind import SensorType, sensor_type
 from checker.model.sensing.lidar import Lidar, read_lidar
-from checker.model.shapes import Geometry, Material
-from checker.model.transform import Transform
 from checker.model.values import ValueReader, parse_number
-from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 

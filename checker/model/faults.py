@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 
-from checker.record import record
+from checker.base.record import record
 from checker.source.text import Span
 
 

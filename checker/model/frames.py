@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from checker.base.record import record
 from checker.model.faults import Fault, FaultKind
-from checker.model.transform import Transform
-from checker.record import record
+from checker.model.geometry.transform import Transform
 from checker.source.text import Span
 
 MODEL_FRAME = "__model__"

@@ -6,13 +6,13 @@ import enum
 import itertools
 from typing import TYPE_CHECKING, Protocol
 
-from checker.record import record
+from checker.base.record import record
 
 # Readers of mesh files, which run in children, load this module and no robot.
 if TYPE_CHECKING:
     from checker.model.components import Collision, Visual
-    from checker.model.shapes import Geometry
-    from checker.model.transform import Vector
+    from checker.model.geometry.shapes import Geometry
+    from checker.model.geometry.transform import Vector
     from checker.source.text import Located
 
 

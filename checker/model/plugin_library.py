@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from checker.record import record
-from checker.resources import table
+from checker.base.record import record
+from checker.base.resources import table
 
 SUBT_RELEASE = "dome"
 """The release that SubT and the plugins of its robots were built for."""

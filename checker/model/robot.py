@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import field
 from functools import cached_property
 
-from checker.model.boxes import Box, box_around
+from checker.base.record import record
 from checker.model.components import (
     Axis,
     Collision,
@@ -22,19 +22,19 @@ from checker.model.components import (
     Sensor,
     Visual,
 )
-from checker.model.drive import driven_joints, find_wheels
 from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
-from checker.model.locomotion import Locomotion
-from checker.model.locomotion_reader import read_locomotion
+from checker.model.geometry.boxes import Box, box_around
+from checker.model.geometry.convex import support
+from checker.model.geometry.placed_shapes import union
+from checker.model.geometry.shapes import Geometry
+from checker.model.geometry.transform import Transform, Vector
+from checker.model.locomotion.drive import driven_joints, find_wheels
+from checker.model.locomotion.locomotion import Locomotion
+from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
-from checker.model.placed import union
-from checker.model.sdf.version import sdf_version
-from checker.model.shapes import Geometry
-from checker.model.support import support
-from checker.model.transform import Transform, Vector
+from checker.model.sdf.document import sdf_version
 from checker.model.tree import LinkTree, link_tree
-from checker.record import record
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 

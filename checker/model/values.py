@@ -7,8 +7,7 @@ import re
 from collections.abc import Sequence
 
 from checker.model.faults import Fault, FaultKind
-from checker.source.markup import blank_markup
-from checker.source.text import Located, Span
+from checker.source.text import Located, Span, blank_markup
 from checker.source.xml import Element
 
 _NUMBER = re.compile(r"[+-]?(?:\d++\.?\d*+|\.\d++)(?:[eE][+-]?\d++)?\Z", re.ASCII)

@@ -8,7 +8,7 @@ from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
 
-from checker.record import record
+from checker.base.record import record
 
 
 class EntryKind(StrEnum):

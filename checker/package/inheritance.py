@@ -12,10 +12,10 @@ from dataclasses import field
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
+from checker.base.record import record
 from checker.finding import Place
 from checker.package.model_file import own_model
 from checker.package.references import Reference, ReferenceKind
-from checker.record import record
 
 if TYPE_CHECKING:
     from checker.package.package import Package

@@ -8,6 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from checker.base.disk_file import NotReadable, read_bytes
+from checker.base.record import record
 from checker.finding import Place
 from checker.package.index import (
     EntryKind,
@@ -27,13 +29,12 @@ from checker.package.inheritance import (
 from checker.package.kind import PackageKind, kind_of
 from checker.package.mentions import mentioned_names
 from checker.package.model_file import own_model
-from checker.package.reading import NotReadable, read_bytes, read_text
 from checker.package.references import Reference, dependencies, spawner_references
 from checker.package.walk import build_index, entry_at
-from checker.record import record
-from checker.source.positions import XmlFault
 from checker.source.text import SourceText
+from checker.source.text_file import read_text
 from checker.source.xml import XmlDocument, parse_xml
+from checker.source.xml_positions import XmlFault
 
 if TYPE_CHECKING:
     from checker.package.workspace import Workspace

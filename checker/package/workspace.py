@@ -10,11 +10,12 @@ from pathlib import Path
 
 from lxml import etree
 
+from checker.base.disk_file import NotReadable
+from checker.base.record import record
+from checker.package.kind import looks_like_package
 from checker.package.package import Package
-from checker.package.reading import NotReadable, read_text
-from checker.package.recognition import looks_like_package
 from checker.package.walk import build_index
-from checker.record import record
+from checker.source.text_file import read_text
 
 MAX_FOLDERS = 5_000
 MANIFEST_LIMIT = 1_000_000

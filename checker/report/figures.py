@@ -1,13 +1,17 @@
-"""The figures of a trial as rows of a table: one for each name, of whatever parts."""
+"""What is known of a robot, in words: figures with units, parts counted."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from checker.base.record import record
+from checker.base.words import count
 from checker.finding import Severity
-from checker.record import record
+
+# The figures of a trial as rows of a table: one for each name, of whatever parts.
+
 
 HEADLINES = (
     *("settle_drop", "settle_tilt", "rest_penetration"),
@@ -91,3 +95,48 @@ def _number(value: float, unit: str) -> str:
     """Write a figure with three digits and four places, angles in degrees."""
     shown = math.degrees(value) if unit == "rad" else value
     return f"{round(shown, 4) + 0.0:.3g}"
+
+
+UNITS = {"kg": "kg", "m": "m", "deg": "°", "s": "s"}
+"""Units by the ends of the names of facts: `mass_kg`."""
+
+
+@record()
+class Fact:
+    """Something known.
+
+    Attributes:
+        name: `mass`.
+        value: With its unit: `18.5 kg`.
+        phrase: Both together as one says it: `mass 18.5 kg`, `8 joints`.
+    """
+
+    name: str
+    value: str
+    phrase: str
+
+
+def facts_in_words(facts: Mapping[str, Any]) -> Iterator[Fact]:
+    """Yield the facts of a report that can be said in a few words."""
+    for name, value in facts.items():
+        words, _, unit = name.rpartition("_")
+        if unit in UNITS and isinstance(value, float | list):
+            yield _stated(words.replace("_", " "), f"{_quantity(words, value)} {UNITS[unit]}")
+        elif isinstance(value, float):
+            yield _stated(name.replace("_", " "), f"{value:.3g}")
+        elif isinstance(value, int):
+            noun = name.replace("_", " ")
+            yield Fact(noun, str(value), count(value, noun.removesuffix("s")))
+        elif isinstance(value, str):
+            yield _stated(name.replace("_", " "), value)
+
+
+def _stated(name: str, value: str) -> Fact:
+    return Fact(name, value, f"{name} {value}")
+
+
+def _quantity(name: str, value: float | list[float]) -> str:
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    numbers = [f"{round(each, 3) + 0.0:g}" for each in value]
+    return " × ".join(numbers) if name == "size" else f"({', '.join(numbers)})"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Iterator, Sequence
 
+from checker.base.words import count, plain, shortened
 from checker.finding import Place, Severity
 from checker.report.palette import Palette
 from checker.report.report import PackageReport, ReportedFinding
-from checker.report.wording import count, plain, shortened
 
 MORE_PLACES = 3
 """So many places of a repeated fault are named; the rest is counted."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from checker.report.manner import Manner
+from checker.report.render_settings import Manner
 from checker.report.report import Report
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from checker.base.words import plain, shortened
 from checker.finding import Edit, Fix, Place
 from checker.report.json_shapes import (
     EditJson,
@@ -30,7 +31,6 @@ from checker.report.report import (
     ReportedFinding,
     Suppressed,
 )
-from checker.report.wording import plain, shortened
 
 SIZE_LIMIT = 128_000_000
 """Characters; 10 000 findings with the longest messages are 118 million, a trial is one million."""

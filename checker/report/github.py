@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from checker.base.words import count, listed, plain, shortened
 from checker.finding import Severity
 from checker.report.finding_text import MESSAGE_LIMIT, path_of
 from checker.report.ownership import each_once
 from checker.report.report import PackageReport, Report, ReportedFinding
 from checker.report.verdict import sentence
-from checker.report.wording import count, listed, plain, shortened
 
 LINES_LIMIT = 50
 """Annotations of one severity; GitHub shows ten of each a step and fifty a job."""

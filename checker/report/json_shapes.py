@@ -10,8 +10,8 @@ import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, TypedDict
 
+from checker.base.record import record
 from checker.finding import Safety, Severity
-from checker.record import record
 from checker.report.report import Cause, InheritedPart, SuppressedBy
 
 Word = Annotated[str, re.compile(r"[A-Za-z0-9_-]{1,100}")]

@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
+from checker.base.words import count, plain, shortened
 from checker.report.finding_text import path_of
 from checker.report.report import Cause, NotChecked, PackageReport, Report, ReportedFinding
-from checker.report.wording import count, plain, shortened
 
 FINDINGS_LIMIT = 100
 """Findings of one rule that are written out; the rest is counted."""

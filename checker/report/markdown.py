@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+from checker.base.words import count, shortened
 from checker.finding import Severity
-from checker.report.fact_words import facts_in_words
+from checker.report.figures import facts_in_words
 from checker.report.finding_text import path_of
-from checker.report.markdown_words import T, code, escaped, fitting, with_code
+from checker.report.markdown_text import T, code, escaped, fitting, with_code
 from checker.report.ownership import each_once
 from checker.report.report import (
     Cause,
@@ -20,7 +21,6 @@ from checker.report.report import (
 )
 from checker.report.summary import ready_of_all, summary_markdown
 from checker.report.verdict import sentence
-from checker.report.wording import count, shortened
 
 SIZE_LIMIT = 65_000
 """Bytes; GitHub takes comments of up to 65 536 characters."""

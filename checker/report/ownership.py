@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from checker.base.record import record
 from checker.finding import Place
-from checker.record import record
 from checker.report.finding_text import path_of
 from checker.report.report import PackageReport, Report, ReportedFinding
 

@@ -6,8 +6,8 @@ import os
 from collections.abc import Mapping
 from typing import TextIO
 
+from checker.base.record import record
 from checker.finding import Severity
-from checker.record import record
 from checker.report.report import VerdictKind
 
 _SEVERITY = {Severity.ERROR: "1;31", Severity.WARNING: "33", Severity.INFO: "36"}

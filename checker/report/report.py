@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Any
 
+from checker.base.record import record
 from checker.finding import Fix, Place, Severity
-from checker.record import record
 
 SCHEMA_VERSION = "1"
 NO_TRIAL = "trial not run (--no-trial)"

@@ -6,10 +6,10 @@ import posixpath
 from typing import Any
 from urllib.parse import quote
 
+from checker.base.words import plain
 from checker.finding import Edit, Fix, Place
 from checker.report.finding_text import path_of
 from checker.report.report import PackageReport
-from checker.report.wording import plain
 
 BASE = "%SRCROOT%"
 """What paths are relative to; code hosts put the root of the repository there."""

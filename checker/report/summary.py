@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from checker.base.words import count, plain, shortened
 from checker.finding import Severity
-from checker.report.markdown_words import escaped, fitting
+from checker.report.markdown_text import escaped, fitting
 from checker.report.ownership import each_once
 from checker.report.palette import Palette
 from checker.report.report import PackageReport, Report, VerdictKind
-from checker.report.wording import count, plain, shortened
 
 _NAME_LIMIT = 200
 

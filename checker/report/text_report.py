@@ -4,24 +4,112 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
-from checker.report.fact_words import facts_in_words
+from checker.base.words import count, listed, plain, shortened
+from checker.finding import Severity
+from checker.report.figures import facts_in_words, rows_of
 from checker.report.finding_text import MESSAGE_LIMIT, finding_text
 from checker.report.ownership import Identity, owners, share_of
 from checker.report.palette import Palette
 from checker.report.report import (
+    IN_BASELINE,
     Cause,
     NotChecked,
     NotOpened,
     PackageReport,
     Report,
     ReportedFinding,
+    Suppressed,
+    SuppressedBy,
 )
 from checker.report.summary import summary_text
-from checker.report.suppressed_text import suppressed_text
-from checker.report.trial_text import trial_text
 from checker.report.verdict import sentence
-from checker.report.wording import count, listed, plain, shortened
+
+# The trial for a person at a terminal: one line for each figure that matters.
+
+
+_TEXT_LIMIT = 300
+_NOTES_SHOWN = 3
+
+
+def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
+    """Yield the lines of the table, and what was left out of the trial.
+
+    Args:
+        trial: As `PackageReport.trial` has it.
+        palette: Colours.
+    """
+    if trial["refused"]:
+        yield plain(f"trial: MuJoCo does not take the model: {_short(trial['refused'])}")
+        return
+    yield plain(f"trial: {_course(trial)}")
+    rows = [row for row in rows_of(trial["measurements"]) if row.matters]
+    columns = [(row.label, row.value, row.verdict) for row in rows]
+    widths = [max(map(len, column)) for column in zip(*columns, strict=True)]
+    for row, texts in zip(rows, columns, strict=True):
+        label, value, verdict = (
+            plain(text).ljust(width) for text, width in zip(texts, widths, strict=True)
+        )
+        limits = row.limits if row.is_fault else ""
+        yield f"    {label}  {value}  {_coloured(verdict, palette)}  {limits}".rstrip()
+    for note in trial["notes"][:_NOTES_SHOWN]:
+        yield plain(f"    note: {_short(note)}")
+    if trial["repairs"]:
+        repaired = count(len(trial["repairs"]), "repair")
+        first = trial["repairs"][0]
+        yield plain(f"    {repaired} so that it could go on: {_short(_repair(first))}")
+
+
+def _course(trial: Mapping[str, Any]) -> str:
+    seconds = max((leg["end"] for leg in trial["course"]), default=0.0)
+    version = trial["versions"].get("mujoco", "")
+    return f"{trial['drive']}, {seconds:g} s in MuJoCo {version}".rstrip()
+
+
+def _repair(repair: Mapping[str, Any]) -> str:
+    return f"{repair['part']} {repair['what']}"
+
+
+def _coloured(verdict: str, palette: Palette) -> str:
+    word = verdict.strip()
+    if word not in list(Severity):
+        return verdict
+    return palette.severity(Severity(word)) + verdict[len(word) :]
+
+
+def _short(text: str) -> str:
+    return shortened(text, _TEXT_LIMIT)
+
+
+# What was found and does not count, for a person at a terminal: by rule and reason.
+
+
+LINES_LIMIT = 20
+_REASON_LIMIT = 300
+_WHO = {
+    SuppressedBy.COMMENT: "a comment",
+    SuppressedBy.SETTINGS: "settings",
+    SuppressedBy.BASELINE: "the baseline",
+}
+
+
+def suppressed_text(suppressed: Sequence[Suppressed]) -> Iterator[str]:
+    """Yield a line for each rule and reason, those with the most findings first."""
+    groups = Counter(map(_words, suppressed)).most_common()
+    for words, number in groups[:LINES_LIMIT]:
+        yield f"suppressed: {count(number, 'finding')} {words}"
+    if rest := sum(number for _, number in groups[LINES_LIMIT:]):
+        yield f"suppressed: {count(rest, 'more finding')}"
+
+
+def _words(each: Suppressed) -> str:
+    """Say by what and why a finding does not count; what the baseline holds is one heap."""
+    if each.reason == IN_BASELINE:
+        return f"by {_WHO[each.by]}"
+    reason = plain(shortened(each.reason, _REASON_LIMIT))
+    return f"of {each.finding.rule} by {_WHO[each.by]}: {reason}"
+
 
 SHOWN_LIMIT = 200
 """Findings of one package that are shown in full; the rest is counted."""

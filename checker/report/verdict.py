@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from checker.base.record import record
+from checker.base.words import count, listed, plain, shortened
 from checker.finding import Severity
-from checker.record import record
 from checker.report.report import NO_TRIAL, Cause, PackageReport, VerdictKind
-from checker.report.wording import count, listed, plain, shortened
 
 _REASON_LIMIT = 600
 

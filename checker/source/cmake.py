@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.record import record
-from checker.source.cmake_evaluation import Call, evaluate
+from checker.base.record import record
+from checker.source.cmake_calls import Call, evaluate
 from checker.source.cmake_tokens import CMakeFault, read_commands
 from checker.source.text import Located, SourceText, Span
 

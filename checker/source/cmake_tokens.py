@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator
 from itertools import islice
 
-from checker.record import record
+from checker.base.record import record
 from checker.source.text import Located, SourceText, Span
 
 MAX_TOKENS = 200_000

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 
-from checker.record import record
+from checker.base.record import record
 
 BUDGET = 1_000_000
 """Bytes that may be read of one file; real libraries need a few thousand."""

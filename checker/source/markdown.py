@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from dataclasses import field
 from typing import TYPE_CHECKING
 
-from checker.record import record
+from checker.base.record import record
 from checker.source.text import SourceText, Span
 
 if TYPE_CHECKING:

@@ -2,13 +2,43 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import field, replace
 from functools import cached_property
 from typing import ClassVar, Generic, Protocol, TypeVar
 
+from checker.base.record import record
 from checker.finding import SNIPPET_LIMIT, Edit, Place
-from checker.record import record
+
+# The characters between two tags that are no text: comments, instructions, CDATA brackets.
+
+
+_OPENING = re.compile(r"<!--|<\?|<!\[CDATA\[")
+_CLOSING = {"<!--": "-->", "<?": "?>", "<![CDATA[": "]]>"}
+
+
+def blank_markup(text: str) -> str:
+    """Return a text of the same length with blanks for what is no text.
+
+    Args:
+        text: What stands between two tags of a well-formed document.
+    """
+    if "<" not in text:
+        return text
+    parts: list[str] = []
+    at = 0
+    while opening := _OPENING.search(text, at):
+        closing = _CLOSING[opening.group()]
+        inside_end = text.find(closing, opening.end())
+        inside_end = len(text) if inside_end < 0 else inside_end
+        inside = text[opening.end() : inside_end]
+        parts += [text[at : opening.start()], " " * len(opening.group())]
+        parts.append(inside if closing == "]]>" else " " * len(inside))
+        parts.append(" " * len(closing))
+        at = inside_end + len(closing)
+    return "".join([*parts, text[at:]])[: len(text)]
+
 
 T = TypeVar("T")
 
@@ -146,3 +176,37 @@ class Located(Generic[T]):
     value: T
     span: Span
     stated: bool = True
+
+
+# A stretch of a file read as a text of its own, with the places of the file.
+
+
+@record(eq=False)
+class Excerpt(SourceText):
+    """A text inside another one; places are those of the outer text.
+
+    Attributes:
+        outer: The whole text.
+        offset: Characters in front of the excerpt.
+    """
+
+    outer: SourceText = field(repr=False)
+    offset: int
+
+    def place(self, start: int, end: int) -> Place:
+        """Return the place in the outer text."""
+        return self.outer.place(start + self.offset, end + self.offset)
+
+
+def text_excerpt(span: Span) -> Excerpt:
+    """Return the text of an XML element, the indentation of its first line included.
+
+    Args:
+        span: From the first to the last character of the text.
+    """
+    source, start = span.source, span.start
+    text = source.text
+    line_start = text.rfind("\n", 0, start) + 1
+    if not text[line_start:start].strip(" "):
+        start = line_start
+    return Excerpt(source.file, blank_markup(text[start : span.end]), source, start)

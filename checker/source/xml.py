@@ -13,13 +13,10 @@ from functools import cached_property
 
 from lxml import etree
 
-from checker.record import record
-from checker.source.markup import blank_markup
-from checker.source.namespaces import namespace_faults
-from checker.source.positions import TagPosition, XmlFault
-from checker.source.start_tag import AttributeSpans, scan_start_tag
-from checker.source.tags import locate_tags
-from checker.source.text import Located, SourceText, Span
+from checker.base.record import record
+from checker.source.text import Located, SourceText, Span, blank_markup
+from checker.source.xml_positions import TagPosition, XmlFault
+from checker.source.xml_tags import AttributeSpans, locate_tags, namespace_faults, scan_start_tag
 
 MAX_DEPTH = 250
 _PATH_LIMIT = 400

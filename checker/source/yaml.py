@@ -25,7 +25,7 @@ from yaml.constructor import SafeConstructor
 from yaml.events import CollectionStartEvent, DocumentEndEvent, Event, NodeEvent
 from yaml.resolver import Resolver
 
-from checker.record import record
+from checker.base.record import record
 from checker.source.text import SourceText, Span
 
 MAX_LENGTH = 1_000_000

@@ -8,12 +8,12 @@ the robot move.
 Source: SubT maintainers ask for it in their reviews; all accepted packages have one.
 """
 
+from checker.expand.spawner.emitted_xml import SpawnedXml
 from checker.model.battery import BATTERY_CLASS, batteries, commented_out
 from checker.model.robot import Robot
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.rule import Findings, Severity, finding, rule, unchecked
-from checker.spawning import SpawnedXml
 
 
 @rule("BAT001", "no-battery", Severity.ERROR)

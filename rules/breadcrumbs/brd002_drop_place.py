@@ -12,11 +12,11 @@ at most (`subt_standards.json`).
 import math
 from collections.abc import Sequence
 
-from checker.model.boxes import Box
 from checker.model.breadcrumbs import breadcrumbs
-from checker.model.placed import Placed, placed, union
+from checker.model.geometry.boxes import Box
+from checker.model.geometry.placed_shapes import Placed, placed, union
+from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
-from checker.model.transform import Vector
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _ROUNDING = 1e-9

@@ -11,9 +11,9 @@ Source: SubT reviews of breadcrumbs; topics of Gazebo's Breadcrumbs plugin.
 
 from collections.abc import Iterable, Iterator
 
+from checker.expand.launch.bridge import Bridge
+from checker.expand.launch.graph import LaunchGraph
 from checker.model.breadcrumbs import Breadcrumbs, breadcrumbs
-from checker.model.launch.bridge import Bridge
-from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 

@@ -8,8 +8,8 @@ Source: ros_control, `hardware_interface::ResourceManager::getHandle`: a joint t
 has registered is not found.
 """
 
-from checker.model.controllers import Controller, ControlSystem
-from checker.model.suggestions import Suggestions
+from checker.base.words import Suggestions
+from checker.model.control.controllers import Controller, ControlSystem
 from checker.rule import Findings, Safety, Severity, finding, replace_text, rule, unchecked
 from checker.source.text import Located
 

@@ -10,8 +10,8 @@ Source: ros_control, `controller_manager::ControllerManager::loadController`: th
 `<namespace>/<controller>/type`.
 """
 
-from checker.model.controllers import Controller, ControlSystem
-from checker.model.suggestions import Suggestions
+from checker.base.words import Suggestions
+from checker.model.control.controllers import Controller, ControlSystem
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

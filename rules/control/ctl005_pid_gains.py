@@ -10,7 +10,7 @@ Source: ros_controllers (effort_controllers, velocity_controllers); control_tool
 
 from collections.abc import Iterator, Mapping
 
-from checker.model.controllers import Controller, ControlSystem, Gain
+from checker.model.control.controllers import Controller, ControlSystem, Gain
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 NEED_GAINS: Mapping[str, tuple[str, ...]] = {

@@ -8,7 +8,7 @@ with the `<robotNamespace>` of the controllers.
 Source: gazebo_ros_control, `GazeboRosControlPlugin::Load`.
 """
 
-from checker.model.controllers import ControlSystem
+from checker.model.control.controllers import ControlSystem
 from checker.rule import Context, Findings, Severity, finding, rule, unchecked
 
 

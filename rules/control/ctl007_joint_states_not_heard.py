@@ -12,8 +12,8 @@ Source: robot_state_publisher (subscribes to `joint_states`); joint_state_contro
 
 from collections.abc import Iterable
 
-from checker.model.controllers import ControlLaunch, ControlSystem
-from checker.model.launch.names import resolve_name
+from checker.expand.launch.graph import resolve_name
+from checker.model.control.controllers import ControlLaunch, ControlSystem
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

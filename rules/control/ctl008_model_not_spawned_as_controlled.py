@@ -11,9 +11,9 @@ Source: gazebo_ros, `spawn_model`; gazebo_ros_api_plugin, `walkChildAddRobotName
 
 from collections.abc import Iterable
 
-from checker.model.controllers import ControlSystem
-from checker.model.launch.control_nodes import SpawnedModel
-from checker.model.suggestions import Suggestions
+from checker.base.words import Suggestions
+from checker.model.control.controllers import ControlSystem
+from checker.model.control.nodes import SpawnedModel
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 FORMATS = ("-urdf", "-sdf")

@@ -10,8 +10,8 @@ Source: the template of the SubT challenge; 45 of 47 accepted sheets have all te
 
 from collections.abc import Sequence
 
+from checker.base.resources import table
 from checker.model.specification.sheet import Section, Specification
-from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 KEY = "sections"

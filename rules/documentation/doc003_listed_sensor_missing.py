@@ -12,8 +12,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 from checker.model.robot import Robot
-from checker.model.specification.sensor_kinds import SensorKind
-from checker.model.specification.sensor_types import SUBSTITUTES, TYPES
+from checker.model.specification.sensor_kinds import SUBSTITUTES, TYPES, SensorKind
 from checker.model.specification.sensors import ListedSensor
 from checker.model.specification.sheet import Specification
 from checker.package.configuration import configuration_number

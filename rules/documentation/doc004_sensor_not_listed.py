@@ -14,11 +14,10 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from checker.model.components import Sensor
-from checker.model.known_devices import KnownDevices, known_devices
+from checker.model.devices.known import KnownDevices, known_devices
 from checker.model.robot import Robot
 from checker.model.specification.quantities import configurations_in
-from checker.model.specification.sensor_kinds import SensorKind, kinds_in
-from checker.model.specification.sensor_types import SUBSTITUTES, TYPES
+from checker.model.specification.sensor_kinds import SUBSTITUTES, TYPES, SensorKind, kinds_in
 from checker.model.specification.sheet import Section, Specification
 from checker.package.package import Package
 from checker.package.submissions import configuration_number

@@ -13,7 +13,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from checker.model.locomotion import DriveKind, TrackedDrive, WheelDrive
+from checker.model.locomotion.locomotion import DriveKind, TrackedDrive, WheelDrive
 from checker.model.robot import Robot
 from checker.model.specification.quantities import Quantity
 from checker.model.specification.sheet import Specification

@@ -8,7 +8,7 @@ none.
 Source: the systems that drive the robots of the SubT challenge.
 """
 
-from checker.model.locomotion import DriveKind
+from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.package.kind import PackageKind
 from checker.package.package import Package

@@ -12,7 +12,11 @@ Source: Model Migration Guide, checklist: velocity limits; parameters of Gazebo'
 
 from collections.abc import Iterator
 
-from checker.model.bounded_motion import BoundedMotion, bounded_motions, is_unlimited
+from checker.model.locomotion.motion_limits import (
+    BoundedMotion,
+    bounded_motions,
+    is_unlimited,
+)
 from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located

@@ -10,8 +10,8 @@ Source: parameters of Gazebo's drive systems; SubT review practice.
 
 from collections.abc import Iterator
 
-from checker.model.bounded_motion import Ends, bounded_motions
-from checker.model.locomotion import MotionLimits
+from checker.model.locomotion.locomotion import MotionLimits
+from checker.model.locomotion.motion_limits import Ends, bounded_motions
 from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 

@@ -11,7 +11,12 @@ Source: SubT maintainers compare sheet and plugin in their reviews.
 
 from collections.abc import Iterator
 
-from checker.model.bounded_motion import BoundedMotion, Ends, bounded_motions, is_unlimited
+from checker.model.locomotion.motion_limits import (
+    BoundedMotion,
+    Ends,
+    bounded_motions,
+    is_unlimited,
+)
 from checker.model.robot import Robot
 from checker.model.specification.motion import Limit, MotionQuantity
 from checker.model.specification.sheet import Specification

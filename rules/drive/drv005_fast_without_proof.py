@@ -10,7 +10,11 @@ limits until there is one.
 Source: SubT Model Preparation Guide; reviews limit robots to 1 m/s "until validation is completed".
 """
 
-from checker.model.bounded_motion import BoundedMotion, bounded_motions, is_unlimited
+from checker.model.locomotion.motion_limits import (
+    BoundedMotion,
+    bounded_motions,
+    is_unlimited,
+)
 from checker.model.robot import Robot
 from checker.model.specification.motion import MotionQuantity
 from checker.model.specification.sheet import Specification

@@ -11,8 +11,8 @@ Source: SubT review practice.
 
 from collections.abc import Iterator
 
-from checker.model.bounded_motion import bounded_motions, is_unlimited
-from checker.model.configuration import FirstConfiguration
+from checker.model.first_configuration import FirstConfiguration
+from checker.model.locomotion.motion_limits import bounded_motions, is_unlimited
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located

@@ -9,7 +9,7 @@ above zero, `wheel_normal_force` m·g/n in N and `wheel_radius` in m.
 Source: SubT maintainers ask for it in their reviews of skid-steer robots.
 """
 
-from checker.model.locomotion import Side
+from checker.model.locomotion.locomotion import Side
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 

@@ -8,7 +8,7 @@ Fix: remove the WheelSlip plugin.
 Source: SubT review practice: WheelSlip lets skid-steer wheels slip sideways in a turn.
 """
 
-from checker.model.locomotion import DriveKind
+from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 

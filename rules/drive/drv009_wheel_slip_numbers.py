@@ -12,10 +12,10 @@ Source: parameters of Gazebo's WheelSlip; all accepted skid-steer robots at hand
 import math
 from collections.abc import Iterator, Sequence
 
-from checker.model.lift import GRAVITY
+from checker.model.locomotion.friction import SlippingWheel, slipping_wheels
+from checker.model.locomotion.rotors import GRAVITY
+from checker.model.locomotion.wheels import stands_askew
 from checker.model.robot import Robot
-from checker.model.wheel_shape import stands_askew
-from checker.model.wheel_slip import SlippingWheel, slipping_wheels
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 

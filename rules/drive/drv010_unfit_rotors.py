@@ -17,13 +17,13 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 
 from checker.model.components import Plugin
-from checker.model.lift import (
+from checker.model.locomotion.locomotion import Rotor, RotorEntry
+from checker.model.locomotion.rotors import (
     controlled_motions,
     greatest_thrust,
     thrust_to_weight,
     yaw_imbalance,
 )
-from checker.model.locomotion import Rotor, RotorEntry
 from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located

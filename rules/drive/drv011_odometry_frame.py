@@ -11,11 +11,11 @@ Source: parameters of Gazebo's drive systems and OdometryPublisher; frames of po
 
 from collections.abc import Iterable, Iterator
 
-from checker.model.launch.graph import LaunchGraph, Node
+from checker.expand.launch.graph import LaunchGraph, Node
+from checker.expand.spawner.reader import SAMPLE_NAME, SAMPLE_WORLD
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
-from checker.spawner.reader import SAMPLE_NAME, SAMPLE_WORLD
 
 _DRIVES = ("AckermannSteering", "DiffDrive", "MecanumDrive", "TrackedVehicle")
 _FRAMES = dict.fromkeys(_DRIVES, ("frame_id", "child_frame_id"))

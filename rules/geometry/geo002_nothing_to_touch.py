@@ -10,10 +10,10 @@ Source: contacts come from `<collision>` elements alone, SDFormat specification.
 
 from collections.abc import Iterator
 
+from checker.base.record import record
 from checker.model.components import Link, Plugin
-from checker.model.rigid import rigid_bodies
 from checker.model.robot import Robot
-from checker.record import record
+from checker.model.tree import rigid_bodies
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 

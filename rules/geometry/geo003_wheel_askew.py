@@ -11,8 +11,8 @@ URDF are round about z.
 
 import math
 
+from checker.model.locomotion.wheels import askew, tread
 from checker.model.robot import Robot
-from checker.model.wheel_shape import askew, tread
 from checker.rule import Findings, Severity, finding, rule
 
 

@@ -10,9 +10,9 @@ Source: parameters of Gazebo's DiffDrive, AckermannSteering and MecanumDrive; 0.
 
 from collections.abc import Iterator
 
-from checker.model.locomotion import Wheel, WheelDrive
+from checker.model.locomotion.locomotion import Wheel, WheelDrive
+from checker.model.locomotion.wheels import stands_askew
 from checker.model.robot import Robot
-from checker.model.wheel_shape import stands_askew
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 

@@ -8,8 +8,8 @@ Fix: correct the height of the wheel's link, or the radius of its collision.
 Source: geometry of collisions in the pose that the robot starts in.
 """
 
+from checker.model.locomotion.wheel_heights import Foot, uneven_wheels
 from checker.model.robot import Robot
-from checker.model.wheel_level import Foot, uneven_wheels
 from checker.rule import Findings, Severity, finding, rule
 
 

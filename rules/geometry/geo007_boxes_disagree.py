@@ -10,11 +10,11 @@ Source: geometry; boxes along the robot's axes around all collisions and all vis
 
 import math
 
-from checker.model.boxes import Box
 from checker.model.components import Collision, Link, Visual
-from checker.model.placed import placed, union
+from checker.model.geometry.boxes import Box
+from checker.model.geometry.placed_shapes import placed, union
+from checker.model.locomotion.wheels import stands_askew
 from checker.model.robot import Robot
-from checker.model.wheel_shape import stands_askew
 from checker.rule import Findings, Severity, finding, rule
 
 

@@ -11,8 +11,8 @@ Source: SDFormat specification, geometry: lengths are above 0.
 
 from collections.abc import Iterator
 
+from checker.model.geometry.shapes import Geometry
 from checker.model.robot import Robot
-from checker.model.shapes import Geometry
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 _LENGTHS = ("height", "length", "radii", "radius", "scale", "size")

@@ -13,8 +13,8 @@ import enum
 from collections.abc import Iterator
 
 from checker.model.components import Collision, Link
-from checker.model.friction import Friction, FrictionReader
-from checker.model.placed import placed
+from checker.model.geometry.placed_shapes import placed
+from checker.model.locomotion.friction import Friction, FrictionReader
 from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule
 

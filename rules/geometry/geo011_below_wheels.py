@@ -8,10 +8,10 @@ Fix: raise or shrink the collision, or lower the wheels.
 Source: geometry of collisions in the pose that the robot starts in.
 """
 
-from checker.model.placed import Placed, placed
-from checker.model.rigid import rigid_bodies
+from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts
 from checker.model.robot import Robot
-from checker.model.rolling import carriers, on_one_axle, rolling_parts
+from checker.model.tree import rigid_bodies
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 

@@ -9,9 +9,9 @@ Source: geometry; boxes along the robot's axes around each collision and visual.
 
 from collections.abc import Sequence
 
-from checker.model.close_pairs import TooManyPairs, clusters
 from checker.model.components import Collision, Visual
-from checker.model.placed import Placed, placed, union
+from checker.model.geometry.boxes import TooManyPairs, clusters
+from checker.model.geometry.placed_shapes import Placed, placed, union
 from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 

@@ -12,9 +12,9 @@ Source: REP 103: x forward, y left; Gazebo's DiffDrive advances by positive rate
 from collections.abc import Iterator
 
 from checker.model.components import Joint
-from checker.model.locomotion import Side, Wheel, WheelDrive
+from checker.model.geometry.transform import Vector
+from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
 from checker.model.robot import Robot
-from checker.model.transform import Vector
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 _LEFT: Vector = (0.0, 1.0, 0.0)

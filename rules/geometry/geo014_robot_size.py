@@ -8,7 +8,7 @@ Fix: write lengths in metres and masses in kilograms, and correct the `<scale>` 
 Source: SDFormat and URDF use SI units; ground and air robots of 5 cm to 10 m and 50 g to 5 t.
 """
 
-from checker.model.placed import placed, union
+from checker.model.geometry.placed_shapes import placed, union
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 

@@ -8,8 +8,8 @@ Fix: correct the pose of one of the parts, or make its collision smaller.
 Source: geometry of collisions in the pose that the robot starts in; depth by separating directions.
 """
 
-from checker.model.close_pairs import TooManyPairs
-from checker.model.interpenetration import Inside, interpenetrations
+from checker.model.geometry.boxes import TooManyPairs
+from checker.model.geometry.interpenetration import Inside, interpenetrations
 from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 

@@ -13,10 +13,10 @@ Source: SDFormat specification, link/inertial: the defaults.
 
 from collections.abc import Iterator
 
-from checker.dynamics.mass_properties import MassProperties
 from checker.model.components import Link
 from checker.model.robot import Robot
 from checker.model.tree import WORLD
+from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 _MOMENTS = 6

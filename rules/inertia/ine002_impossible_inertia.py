@@ -15,10 +15,10 @@ and takes a mass of zero.
 import math
 from collections.abc import Iterator
 
-from checker.dynamics.mass_properties import LinkInertia, MassProperties
 from checker.model.components import Inertial
 from checker.model.faults import FaultKind
 from checker.model.robot import Robot
+from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
 

@@ -8,8 +8,8 @@ Fix: state the moments of the part as it is, or of a small box of its size: m/12
 Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must be positive.
 """
 
-from checker.dynamics.mass_properties import LinkInertia, MassProperties
-from checker.model.rigid import rigid_bodies
+from checker.model.tree import rigid_bodies
+from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Findings, Severity, finding, rule
 
 

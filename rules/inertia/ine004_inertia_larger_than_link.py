@@ -12,8 +12,8 @@ Source: definition of the moment of inertia.
 
 import math
 
-from checker.dynamics.link_geometry import known_reach, not_looked_at
-from checker.dynamics.mass_properties import LinkInertia, MassProperties
+from checker.physics.mass.link_geometry import known_reach, not_looked_at
+from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

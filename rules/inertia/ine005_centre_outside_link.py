@@ -11,9 +11,9 @@ Source: definition of the centre of mass; SDFormat specification, inertial/pose.
 
 import math
 
-from checker.dynamics.link_geometry import known_box, not_looked_at
-from checker.dynamics.mass_properties import MassProperties
-from checker.model.boxes import Box
+from checker.model.geometry.boxes import Box
+from checker.physics.mass.link_geometry import known_box, not_looked_at
+from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

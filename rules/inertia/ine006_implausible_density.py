@@ -14,8 +14,8 @@ Source: densities of materials: foams from 15 kg/m³ on, aluminium 2 700, steel 
 
 from collections.abc import Iterator
 
-from checker.dynamics.link_geometry import not_looked_at, volume_bounds
-from checker.dynamics.mass_properties import LinkInertia, MassProperties
+from checker.physics.mass.link_geometry import not_looked_at, volume_bounds
+from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 

@@ -9,7 +9,7 @@ Source: Model Migration Guide; review of exported models.
 
 from collections.abc import Iterator, Sequence
 
-from checker.dynamics.mass_properties import LinkInertia, MassProperties
+from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 _UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)

@@ -12,8 +12,8 @@ Source: statics: tip angle = atan(distance to the edge / height of the centre of
 
 import math
 
-from checker.dynamics.mass_properties import MassProperties
 from checker.model.components import Link
+from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

@@ -12,8 +12,8 @@ Source: statics; SDFormat specification, axis/limit/effort.
 import math
 from collections.abc import Iterator
 
-from checker.dynamics.mass_properties import MassProperties
 from checker.model.components import Joint
+from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

@@ -16,9 +16,9 @@ Source: Model Migration Guide, step 4; experience of model reviews.
 from collections import Counter
 from collections.abc import Iterator
 
-from checker.dynamics.mass_properties import MassProperties
-from checker.model.configuration import FirstConfiguration
+from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
+from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _DEVICES = ("camera", "lidar", "ray", "rgbd", "depth", "thermal", "sonar")

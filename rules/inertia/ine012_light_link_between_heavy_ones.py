@@ -11,10 +11,9 @@ Source: general experience with iterative contact solvers; the ratio is a starti
 
 from collections.abc import Iterator
 
-from checker.dynamics.hanging import Hanging, hang
-from checker.dynamics.mass_properties import MassProperties
-from checker.model.rigid import rigid_bodies
-from checker.model.tree import WORLD, Tie
+from checker.model.tree import WORLD, Tie, rigid_bodies
+from checker.physics.mass.hanging import Hanging, hang
+from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 

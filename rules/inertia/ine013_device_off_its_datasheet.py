@@ -14,13 +14,13 @@ Source: the seed tutorial "Simulating the Ouster OS-1" for that device; `devices
 import re
 from collections.abc import Iterator
 
-from checker.dynamics.link_geometry import not_looked_at, solid
-from checker.dynamics.mass_properties import LinkInertia, MassProperties
-from checker.model.boxes import box_around
 from checker.model.components import Link
-from checker.model.devices import Device
-from checker.model.known_devices import KnownDevices, spaced
+from checker.model.devices.devices import Device
+from checker.model.devices.known import KnownDevices, spaced
+from checker.model.geometry.boxes import box_around
 from checker.model.robot import Robot
+from checker.physics.mass.link_geometry import not_looked_at, solid
+from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Span
 

@@ -8,9 +8,9 @@ Fix: name a link of the model as its `name` attribute spells it.
 Source: SDFormat specification, joint/parent and joint/child.
 """
 
+from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 

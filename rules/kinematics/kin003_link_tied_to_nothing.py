@@ -7,9 +7,9 @@ Fix: add a joint, mostly `<joint type="fixed">`, between the robot and the link;
 Source: SDFormat specification: links of a model move freely unless joints tie them.
 """
 
+from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.model.tree import LinkTree
 from checker.rule import Findings, Severity, finding, rule, unchecked
 

@@ -11,9 +11,9 @@ Source: SDFormat specification, axis/xyz: "The vector should be normalized"; URD
 import math
 from collections.abc import Iterator
 
+from checker.base.resources import table
 from checker.model.components import Axis, Joint
 from checker.model.robot import Robot
-from checker.resources import table
 from checker.rule import Context, Finding, Findings, Severity, finding, rule
 
 

@@ -8,8 +8,8 @@ Fix: swap the two limits; angles are in radians.
 Source: SDFormat specification, axis/limit; URDF, joint/limit.
 """
 
+from checker.base.resources import table
 from checker.model.robot import Robot
-from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule
 
 

@@ -9,9 +9,9 @@ Fix: use `revolute` without limits for `continuous`, two joints with a light lin
 Source: `joint_types.json`: SDFormat's types, and what the physics plugin of each release makes.
 """
 
+from checker.base.resources import table
+from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
-from checker.resources import table
 from checker.rule import Context, Findings, Severity, finding, rule
 
 _BECOMES = {

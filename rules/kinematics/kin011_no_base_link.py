@@ -8,8 +8,8 @@ Source: SubT model submission, static transforms from `base_link`; REP 105; SDFo
 model/@canonical_link.
 """
 
+from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.rule import Context, Findings, Severity, finding, rule, unchecked
 
 

@@ -11,8 +11,8 @@ Source: geometry; SDF poses a joint in its child link, URDF in its parent.
 import math
 from collections.abc import Iterator
 
+from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
-from checker.model.transform import Vector
 from checker.model.tree import WORLD, Tie
 from checker.rule import Finding, Findings, Severity, finding, rule
 

@@ -10,9 +10,9 @@ Source: URDF, joint/mimic; SDFormat 1.11, axis/mimic.
 
 from collections.abc import Iterator
 
+from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 

@@ -11,12 +11,12 @@ Source: geometry; Gazebo honours the unit of a COLLADA file and takes STL and OB
 import math
 from collections.abc import Iterable, Iterator
 
+from checker.base.record import record
 from checker.model.components import Collision, Link, Visual
+from checker.model.geometry.placed_shapes import placed, union
+from checker.model.geometry.transform import Vector
 from checker.model.mesh import MeshUse
-from checker.model.placed import placed, union
 from checker.model.robot import Robot
-from checker.model.transform import Vector
-from checker.record import record
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 
 UNITS = {"inches": 1 / 0.0254, "centimetres": 100.0, "millimetres": 1000.0}

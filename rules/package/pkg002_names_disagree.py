@@ -12,8 +12,8 @@ from collections.abc import Iterator
 
 from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.paperwork import Paperwork
 from checker.rule import Finding, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 from checker.source.xml import XmlDocument

@@ -13,10 +13,9 @@ from collections.abc import Iterator
 from html import escape
 
 from checker.finding import Fix
-from checker.model.paperwork import ModelConfig
+from checker.package.manifests import ModelConfig, Paperwork
 from checker.package.model_file import own_model
 from checker.package.package import Package
-from checker.paperwork import Paperwork
 from checker.rule import (
     Context,
     Finding,
@@ -28,8 +27,8 @@ from checker.rule import (
     rule,
     unchecked,
 )
-from checker.source.insertion import append_to
 from checker.source.xml import XmlDocument
+from checker.source.xml_insertion import append_to
 
 
 @rule("PKG004", "incomplete-model-config", Severity.ERROR)

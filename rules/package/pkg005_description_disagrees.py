@@ -12,12 +12,11 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 
+from checker.base.record import record
 from checker.model.robot import Robot
-from checker.model.specification.sensor_kinds import SensorKind, kinds_in
-from checker.model.specification.sensor_types import SUBSTITUTES, TYPES
+from checker.model.specification.sensor_kinds import SUBSTITUTES, TYPES, SensorKind, kinds_in
 from checker.model.specification.sensors import stated_count
-from checker.paperwork import Paperwork
-from checker.record import record
+from checker.package.manifests import Paperwork
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located, Span
 

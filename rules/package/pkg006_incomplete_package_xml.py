@@ -13,10 +13,9 @@ warnings are ours: it accepts a maintainer without a name, and a package without
 import re
 from collections.abc import Iterator
 
-from checker.model.paperwork import PackageManifest
+from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
 from checker.package.submissions import TEMPLATE, is_same_robot
-from checker.paperwork import Paperwork
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 

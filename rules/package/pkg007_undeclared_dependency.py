@@ -9,15 +9,14 @@ Source: REP 149, exec_depend; model reviews: the dependency on configuration 1 w
 
 from collections.abc import Iterator
 
+from checker.base.resources import table
 from checker.finding import Fix
-from checker.model.paperwork import DEPENDENCY_TAGS, PackageManifest
+from checker.package.dependencies import Use, uses_of
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
+from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
 from checker.package.model_file import own_model
 from checker.package.package import Package
-from checker.package.uses import Use, uses_of
-from checker.paperwork import Paperwork
-from checker.resources import table
 from checker.rule import (
     Context,
     Finding,
@@ -28,8 +27,8 @@ from checker.rule import (
     rule,
     unchecked,
 )
-from checker.source.insertion import append_to, insert_behind
 from checker.source.xml import XmlDocument
+from checker.source.xml_insertion import append_to, insert_behind
 
 
 @rule("PKG007", "undeclared-dependency", Severity.WARNING)

@@ -14,12 +14,12 @@ from itertools import islice
 
 from checker.finding import Fix
 from checker.package.kind import PackageKind
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.paperwork import Paperwork
 from checker.rule import Finding, Findings, Severity, finding, replace_text, rule, unchecked
 from checker.source.cmake import CMakeFile, Install
-from checker.source.insertion import newline_of
 from checker.source.text import Span
+from checker.source.xml_insertion import newline_of
 
 FOLDERS = {
     "launch": Severity.ERROR,

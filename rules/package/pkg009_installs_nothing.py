@@ -12,12 +12,12 @@ import re
 from collections.abc import Iterator, Sequence
 
 from checker.finding import Fix
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.paperwork import Paperwork
 from checker.rule import Findings, Severity, finding, replace_text, rule
 from checker.source.cmake import CMakeFile, Install
-from checker.source.insertion import with_blanks
 from checker.source.text import Located
+from checker.source.xml_insertion import with_blanks
 
 _OPTIONAL = re.compile(r"\bOPTIONAL\b")
 _MADE_ELSEWHERE = re.compile(r"[$<*]|^/|^[A-Za-z]:")

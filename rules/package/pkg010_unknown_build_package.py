@@ -13,9 +13,9 @@ package lists; REP 149 for declared dependencies.
 import re
 from collections.abc import Iterator
 
+from checker.base.resources import table
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.paperwork import Paperwork
-from checker.resources import table
 from checker.rule import Context, Findings, Severity, finding, rule
 from checker.source.cmake import CMakeFile
 from checker.source.text import Located

@@ -15,6 +15,7 @@ from collections.abc import Iterator
 
 from checker.package.inheritance import SUBMISSION_NAME
 from checker.package.kind import PackageKind
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.package.references import ReferenceKind
 from checker.package.submissions import (
@@ -23,7 +24,6 @@ from checker.package.submissions import (
     left_from_copying,
     robot_of,
 )
-from checker.paperwork import Paperwork
 from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, SourceText, Span
 

@@ -10,10 +10,10 @@ which view is which is ours.
 
 import posixpath
 
+from checker.base.disk_file import NotReadable
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.rule import Findings, Severity, finding, rule
-from checker.source.png import png_fault
+from checker.source.pictures import png_fault
 
 FOLDER = "thumbnails"
 VIEWS = {"1.png": "iso", "2.png": "top", "3.png": "side", "4.png": "front", "5.png": "rear"}

@@ -17,7 +17,7 @@ from checker.model.components import Plugin
 from checker.model.plugin_library import classic_plugin, library_stem
 from checker.model.robot import Robot
 from checker.rule import Findings, Safety, Severity, finding, rule, unchecked
-from checker.source.insertion import removal
+from checker.source.xml_insertion import removal
 
 
 @rule("PLG001", "classic-plugin", Severity.ERROR)

@@ -12,6 +12,7 @@ Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins m
 
 import re
 
+from checker.base.words import Suggestions
 from checker.model.plugin_library import (
     classic_plugin,
     library_stem,
@@ -19,9 +20,8 @@ from checker.model.plugin_library import (
     release_label,
 )
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
+from checker.package.dependencies import lenders_of
 from checker.package.package import Package
-from checker.package.plugin_files import lenders_of
 from checker.rule import Context, Findings, Severity, finding, rule, unchecked
 
 _CARRIES_NO_PLUGIN = re.compile(

@@ -9,10 +9,10 @@ Fix: name the part as its `name` attribute in the model spells it.
 Source: parameter descriptions of Gazebo's systems (`plugin_references.json`).
 """
 
+from checker.base.resources import table
+from checker.base.words import Suggestions
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
-from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

@@ -11,9 +11,9 @@ along without harm are information.
 
 from collections.abc import Iterator
 
+from checker.base.words import Suggestions
 from checker.model.plugin_library import library_stem, plugin_libraries
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.rule import Context, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
 

@@ -9,13 +9,13 @@ Source: Model Migration Guide, example spawner. No accepted package at hand show
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.reader import Spawner
 from checker.model.components import Plugin
-from checker.model.drive import DRIVE_CLASSES
+from checker.model.locomotion.drive import DRIVE_CLASSES
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule
 from checker.source.text import Located
-from checker.spawner.reader import Spawner
-from checker.spawning import SpawnedXml
 
 _TOPICS = (
     "topic",

@@ -11,10 +11,10 @@ import re
 import struct
 from collections.abc import Iterator
 
+from checker.base.disk_file import NotReadable
 from checker.finding import Place
 from checker.model.plugin_library import release_major
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.rule import Context, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.elf import SharedLibrary, read_shared_library
 

@@ -17,10 +17,11 @@ from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from itertools import chain
 
+from checker.expand.launch.graph import LaunchGraph
 from checker.finding import Place
 from checker.model.components import Plugin, Sensor
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.topics import (
+from checker.model.robot import Robot
+from checker.model.ros.topics import (
     Channel,
     Need,
     by_topic,
@@ -28,7 +29,6 @@ from checker.model.launch.topics import (
     comparable,
     standard_topics,
 )
-from checker.model.robot import Robot
 from checker.rule import Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _CHALLENGE = "subt"

@@ -11,13 +11,13 @@ Source: topics that gz-sensors publishes by default; SubT review findings of IMU
 assumed (`models_common.json`).
 """
 
+from checker.base.words import Suggestions
+from checker.expand.launch.bridge import Bridge, SensorTopic
+from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Link
-from checker.model.launch.bridge import Bridge, SensorTopic
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.topics import suffixes
 from checker.model.robot import Robot
+from checker.model.ros.topics import suffixes
 from checker.model.sensing.kind import SensorType
-from checker.model.suggestions import Suggestions
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

@@ -13,11 +13,11 @@ had the LaserScan of a lidar with 16 rows replaced.
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 
+from checker.expand.launch.bridge import Bridge, Direction
+from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
-from checker.model.launch.bridge import Bridge, Direction
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.topics import Channel, by_topic, channels
 from checker.model.robot import Robot
+from checker.model.ros.topics import Channel, by_topic, channels
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}

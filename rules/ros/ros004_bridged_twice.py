@@ -11,9 +11,9 @@ Source: SubT reviews of launch files copied from other robots.
 from collections import defaultdict
 from collections.abc import Iterable
 
-from checker.model.launch.bridge import Bridge, Direction
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.topics import comparable
+from checker.expand.launch.bridge import Bridge, Direction
+from checker.expand.launch.graph import LaunchGraph
+from checker.model.ros.topics import comparable
 from checker.rule import Findings, Severity, finding, rule
 
 _SHARED = "camera_info"

@@ -13,12 +13,12 @@ Source: SubT API; review findings of names with `back` instead of `rear` and wit
 import re
 from collections.abc import Iterator, Mapping
 
-from checker.model.launch.bridge import Bridge
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.topics import Channel, channels, comparable
+from checker.expand.launch.bridge import Bridge
+from checker.expand.launch.graph import LaunchGraph
+from checker.expand.spawner.reader import SAMPLE_NAME
 from checker.model.robot import Robot
+from checker.model.ros.topics import Channel, channels, comparable
 from checker.rule import Findings, Severity, finding, rule, unchecked
-from checker.spawner.reader import SAMPLE_NAME
 
 _NAMESPACE = f"/{SAMPLE_NAME}/"
 _WORDS: Mapping[str, re.Pattern[str]] = {

@@ -12,12 +12,12 @@ Source: SubT review findings of cameras without it; REP 103, suffix frames of ca
 
 from collections.abc import Iterator
 
+from checker.expand.launch.bridge import Bridge, Direction
+from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Sensor
-from checker.model.launch.bridge import Bridge, Direction
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.optical import optical_frames
-from checker.model.launch.topics import Channel, channels, comparable
 from checker.model.robot import Robot
+from checker.model.ros.topics import Channel, channels, comparable
+from checker.model.ros.transforms import optical_frames
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _COLOUR, _DEPTH = "image", "depth image"

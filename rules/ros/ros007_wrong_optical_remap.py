@@ -13,11 +13,11 @@ packages.
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
-from checker.model.launch.bridge import Bridge, Direction
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.optical import OpticalFrame, optical_frames
+from checker.expand.launch.bridge import Bridge, Direction
+from checker.expand.launch.graph import LaunchGraph
+from checker.expand.spawner.reader import SAMPLE_NAME
+from checker.model.ros.transforms import OpticalFrame, optical_frames
 from checker.rule import Findings, Severity, finding, rule, unchecked
-from checker.spawner.reader import SAMPLE_NAME
 
 _TYPES = {"input/image": "Image", "input/camera_info": "CameraInfo"}
 _RENAMES = "topic_tools"

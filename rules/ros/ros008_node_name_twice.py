@@ -10,10 +10,10 @@ whose `optical_frame_publisher` was copied with its name.
 
 from collections import defaultdict
 
-from checker.model.launch.graph import LaunchGraph, Node
-from checker.model.launch.substitution import is_known
+from checker.expand.launch.graph import LaunchGraph, Node
+from checker.expand.launch.substitution import is_known
+from checker.expand.spawner.reader import SAMPLE_NAME
 from checker.rule import Findings, Severity, finding, rule, unchecked
-from checker.spawner.reader import SAMPLE_NAME
 
 _SHOWN = 20
 """Further nodes of the name that are pointed at."""

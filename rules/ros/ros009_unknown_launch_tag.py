@@ -12,8 +12,8 @@ tags that were closed before their attributes.
 import re
 from collections.abc import Iterator, Mapping
 
-from checker.model.launch.tags import LaunchTag, launch_tags, left_outside
-from checker.model.suggestions import Suggestions
+from checker.base.words import Suggestions
+from checker.expand.launch.attributes import LaunchTag, launch_tags, left_outside
 from checker.package.package import Package
 from checker.rule import Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Span

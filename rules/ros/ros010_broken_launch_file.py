@@ -11,8 +11,8 @@ Source: roslaunch XML specification, substitution args and `<include>`.
 
 from collections.abc import Collection, Iterator, Mapping
 
-from checker.model.launch.graph import LaunchFault, LaunchFaultKind, LaunchGraph, Param
-from checker.model.launch.include import target_of
+from checker.expand.launch.graph import LaunchFault, LaunchFaultKind, LaunchGraph, Param
+from checker.expand.launch.launch_file import target_of
 from checker.package.package import Package
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 

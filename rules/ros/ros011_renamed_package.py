@@ -11,8 +11,8 @@ name ros1_ign_bridge, none of the accepted ones at hand does.
 import re
 from collections.abc import Iterator, Mapping
 
+from checker.base.resources import table
 from checker.package.package import Package
-from checker.resources import table
 from checker.rule import Context, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument

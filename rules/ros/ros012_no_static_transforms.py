@@ -12,11 +12,11 @@ Source: a review that had `robot_state_publisher` added; parameters of PosePubli
 
 from collections.abc import Iterator
 
+from checker.expand.launch.graph import LaunchGraph
 from checker.finding import Place
-from checker.model.launch.description import fixed_frames, robot_descriptions
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.transforms import state_publishers, static_transforms
 from checker.model.robot import Robot
+from checker.model.ros.robot_description import fixed_frames, robot_descriptions
+from checker.model.ros.transforms import state_publishers, static_transforms
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.rule import Findings, HasSpan, Severity, finding, rule, unchecked

@@ -13,8 +13,8 @@ What the file itself does is general knowledge: subt_ros is not at hand.
 
 import posixpath
 
-from checker.model.launch.graph import Include, LaunchGraph, UnresolvedInclude
-from checker.model.launch.substitution import is_known
+from checker.expand.launch.graph import Include, LaunchGraph, UnresolvedInclude
+from checker.expand.launch.substitution import is_known
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.rule import Findings, Severity, finding, rule, unchecked

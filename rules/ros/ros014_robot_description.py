@@ -10,14 +10,14 @@ Source: Model Migration Guide, description.launch.
 
 from collections.abc import Iterator
 
-from checker.model.launch.description import (
+from checker.expand.launch.graph import LaunchGraph
+from checker.expand.launch.substitution import is_known
+from checker.model.ros.robot_description import (
     NAME,
     DescriptionFile,
     RobotDescription,
     robot_descriptions,
 )
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.substitution import is_known
 from checker.package.inheritance import SUBMISSION_NAME, Found
 from checker.package.package import Package
 from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked

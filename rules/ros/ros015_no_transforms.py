@@ -9,8 +9,8 @@ Source: Model Migration Guide, vehicle_topics.launch; all accepted packages star
 by the template all_robots.launch of subt_ros, which is assumed to.
 """
 
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.transforms import (
+from checker.expand.launch.graph import LaunchGraph
+from checker.model.ros.transforms import (
     BROADCASTER,
     carries_transforms,
     may_publish_transforms,

@@ -10,12 +10,12 @@ Source: Extensible Markup Language 1.0, "well-formed documents".
 
 from collections.abc import Iterator
 
+from checker.base.disk_file import NotReadable
 from checker.package.inheritance import Found
 from checker.package.package import Package
-from checker.package.reading import NotReadable
 from checker.rule import Finding, Findings, Severity, finding, rule
-from checker.source.positions import XmlFault
 from checker.source.text import SourceText, Span
+from checker.source.xml_positions import XmlFault
 
 FORGIVING = (".sdf", ".world", ".config")
 """Files that Gazebo alone reads."""

@@ -13,11 +13,9 @@ Source: Model Migration Guide, step 5; SDFormat specification, the attribute `ve
 from collections.abc import Iterator
 from posixpath import normpath
 
-from checker.model.paperwork import SdfEntry
-from checker.model.schema import VERSIONS
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.version import parse_version
-from checker.paperwork import Paperwork
+from checker.model.sdf.document import SdfDocument, parse_version
+from checker.model.sdf.schema import VERSIONS
+from checker.package.manifests import Paperwork, SdfEntry
 from checker.rule import (
     Context,
     Finding,

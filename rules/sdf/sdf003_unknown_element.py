@@ -10,10 +10,10 @@ Source: SDFormat specification, the version that the file states.
 
 from collections.abc import Iterator
 
+from checker.base.words import Suggestions
 from checker.finding import Fix
-from checker.model.schema import all_tags
 from checker.model.sdf.document import SdfDocument
-from checker.model.suggestions import Suggestions
+from checker.model.sdf.schema import all_tags
 from checker.rule import Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 

@@ -9,8 +9,8 @@ Fix: spell it as the specification does, or remove it.
 Source: SDFormat specification, the version that the file states.
 """
 
+from checker.base.words import Suggestions
 from checker.model.sdf.document import SdfDocument
-from checker.model.suggestions import Suggestions
 from checker.rule import Findings, Severity, finding, replace_text, rule
 
 ELSEWHERE = {("pose", "frame")}

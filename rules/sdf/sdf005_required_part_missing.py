@@ -11,8 +11,8 @@ Source: SDFormat specification, "Required: 1" at the element or attribute.
 
 from collections.abc import Iterator
 
-from checker.model.schema import ElementType
 from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.schema import ElementType
 from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 

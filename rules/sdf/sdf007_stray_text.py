@@ -11,9 +11,9 @@ from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument
 from checker.rule import Findings, Severity, finding, replace_text, rule
-from checker.source.insertion import with_blanks
 from checker.source.text import Span
 from checker.source.xml import Element
+from checker.source.xml_insertion import with_blanks
 
 _SHOWN = 60
 

@@ -11,11 +11,11 @@ Source: SDFormat specification, the version that the file states.
 from collections.abc import Mapping, Sequence
 
 from checker.finding import Fix
-from checker.model.schema import ElementType, all_tags, parents_of
 from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.schema import ElementType, all_tags, parents_of
 from checker.rule import Findings, Safety, Severity, finding, rule
-from checker.source.insertion import append_to, indentation_of, newline_of, removal
 from checker.source.xml import Element
+from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
 
 HARMLESS = {("air_pressure", "noise"), ("camera", "aspect_ratio")}
 """Parents and elements that accepted robots have: nothing is lost with them."""

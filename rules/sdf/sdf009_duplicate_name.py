@@ -14,8 +14,7 @@ Source: SDFormat specification 1.7, "unique sibling names" and "reserved names".
 import re
 from collections.abc import Iterator
 
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.version import sdf_version
+from checker.model.sdf.document import SdfDocument, sdf_version
 from checker.rule import Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element

@@ -12,8 +12,7 @@ libsdformat: "A model must have at least one link."
 
 from collections.abc import Iterator
 
-from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.version import sdf_version
+from checker.model.sdf.document import SdfDocument, sdf_version
 from checker.rule import Context, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 

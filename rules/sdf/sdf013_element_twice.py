@@ -6,8 +6,8 @@ Fix: remove the one that is not meant.
 Source: SDFormat specification, "Required: 0" or "1" at the element: at most one.
 """
 
-from checker.model.schema import ElementType
 from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.schema import ElementType
 from checker.rule import Findings, Severity, finding, rule
 from checker.source.xml import Element
 

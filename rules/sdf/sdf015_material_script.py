@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.rule import Context, Finding, Findings, Safety, Severity, finding, rule
-from checker.source.insertion import removal
 from checker.source.xml import Element
+from checker.source.xml_insertion import removal
 
 SCRIPTED = ("", "classic")
 """Releases that read scripts, and no release in particular."""

@@ -10,7 +10,7 @@ Source: SDFormat specification 1.7, "Pose frame semantics", and 1.8, model/@plac
 """
 
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.world_frames import world_frame_faults
+from checker.model.sdf.frame_faults import world_frame_faults
 from checker.rule import Findings, Severity, finding, rule
 
 

@@ -8,9 +8,9 @@ Source: types that SDFormat reads, and systems that make sensors of them, per re
 (`gazebo_sensors.json`).
 """
 
+from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.model.sensing.release import sensor_types
-from checker.model.suggestions import Suggestions
+from checker.model.sensing.kind import sensor_types
 from checker.rule import Context, Findings, Severity, finding, rule
 
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from checker.finding import Fix
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.model.sdf.version import sdf_version
+from checker.model.sdf.document import sdf_version
 from checker.model.sensing.kind import SensorType
 from checker.rule import Context, Findings, Safety, Severity, finding, rule
 from checker.source.text import Span

@@ -14,9 +14,9 @@ names others, figure by figure.
 import math
 from collections.abc import Iterator
 
+from checker.base.words import either
 from checker.model.components import Sensor
-from checker.model.devices import Device, SensorDevice, SensorDevices
-from checker.model.listing import either
+from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Lidar
 from checker.rule import Finding, Findings, Severity, finding, rule

@@ -9,11 +9,11 @@ Source: reviews of SubT models, which had 0.003 and 0.03 of Ouster lidars correc
 (`subt_standards.json`, `devices.json`). The published model of the Ouster OS-1 has 0.008.
 """
 
+from checker.base.resources import table
+from checker.base.words import either
 from checker.model.components import Sensor
-from checker.model.devices import Device, SensorDevices
-from checker.model.listing import either
+from checker.model.devices.devices import Device, SensorDevices
 from checker.model.robot import Robot
-from checker.resources import table
 from checker.rule import Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 

@@ -13,14 +13,14 @@ Source: reviews of SubT models; `devices.json` names others, figure by figure.
 
 from collections.abc import Iterator, Sequence
 
+from checker.base.record import record
+from checker.base.words import either
 from checker.model.components import Sensor
-from checker.model.devices import Device, SensorDevice, SensorDevices
-from checker.model.known_devices import KnownDevices
-from checker.model.lidar_shape import devices_of_shape, vertical_degrees
-from checker.model.listing import either
+from checker.model.devices.devices import Device, SensorDevice, SensorDevices
+from checker.model.devices.known import KnownDevices
+from checker.model.devices.lidar_shape import devices_of_shape, vertical_degrees
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Lidar
-from checker.record import record
 from checker.rule import Finding, Findings, HasSpan, Severity, finding, rule
 
 _SPOKEN_OF = {

@@ -16,7 +16,7 @@ from checker.model.robot import Robot
 from checker.model.sensing.camera import DEFAULT_PINHOLE, Camera
 from checker.model.sensing.kind import SensorType
 from checker.rule import Context, Findings, Safety, Severity, finding, rule
-from checker.source.insertion import append_to
+from checker.source.xml_insertion import append_to
 
 
 @rule("SEN008", "camera-without-intrinsics", Severity.WARNING)

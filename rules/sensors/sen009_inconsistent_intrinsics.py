@@ -21,8 +21,8 @@ from checker.model.robot import Robot
 from checker.model.sensing.camera import Intrinsics, Pinhole
 from checker.model.sensing.kind import SensorType
 from checker.rule import Findings, Safety, Severity, finding, rule
-from checker.source.insertion import append_to
 from checker.source.text import Located
+from checker.source.xml_insertion import append_to
 
 
 class _Wrong(NamedTuple):

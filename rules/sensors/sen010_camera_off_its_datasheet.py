@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from checker.model.components import Sensor
-from checker.model.devices import Device, SensorDevice, SensorDevices
+from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.robot import Robot
 from checker.model.sensing.camera import Camera
 from checker.model.sensing.kind import SensorType

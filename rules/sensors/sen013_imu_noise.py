@@ -13,15 +13,15 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from checker.base.resources import table
 from checker.finding import Fix
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.imu import QUANTITIES, Imu
 from checker.model.sensing.kind import SensorType
 from checker.model.sensing.noise import Noise
-from checker.resources import table
 from checker.rule import Finding, Findings, Safety, Severity, finding, rule
-from checker.source.insertion import append_to, insert_into
+from checker.source.xml_insertion import append_to, insert_into
 
 _GAUSSIAN = ("gaussian", "gaussian_quantized")
 _UNITS = {"angular_velocity": "rad/s", "linear_acceleration": "m/s²"}

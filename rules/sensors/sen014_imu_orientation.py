@@ -13,7 +13,7 @@ from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 from checker.rule import Findings, Safety, Severity, finding, rule
-from checker.source.insertion import insert_into, removal
+from checker.source.xml_insertion import insert_into, removal
 
 _OFF = "<enable_orientation>0</enable_orientation>"
 

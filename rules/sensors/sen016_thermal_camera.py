@@ -14,10 +14,10 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from checker.base.resources import table
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.resources import table
 from checker.rule import Context, Finding, Findings, Severity, finding, rule
 
 _CLASS = "ThermalSensor"

@@ -8,13 +8,13 @@ topic `/model/<name>/gas_detected`, update_rate 10 and type gas; bridge that top
 Source: SubT maintainers had it added to every robot (`subt_standards.json`, gas_sensor).
 """
 
+from checker.base.resources import table
 from checker.finding import Place
 from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.package.inheritance import SPAWNER
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.resources import table
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _ROBOTS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)

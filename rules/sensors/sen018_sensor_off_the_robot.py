@@ -9,9 +9,9 @@ Source: SDFormat specification, sensor/pose; in 18 accepted packages they stand 
 around the robot's shapes or up to 5 cm outside of it.
 """
 
-from checker.model.boxes import Box
 from checker.model.components import Collision, Link, Visual
-from checker.model.placed import placed, union
+from checker.model.geometry.boxes import Box
+from checker.model.geometry.placed_shapes import placed, union
 from checker.model.robot import Robot
 from checker.model.sensing.mounting import Mounted, mounted_sensors
 from checker.rule import Findings, Severity, finding, rule, unchecked

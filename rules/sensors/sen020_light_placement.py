@@ -15,13 +15,13 @@ accepted packages have up to six lights, each within 8 cm of a visual.
 from collections.abc import Iterator
 from itertools import islice
 
-from checker.model.boxes import Box
 from checker.model.components import Light, Visual
-from checker.model.interpenetration import is_convex
-from checker.model.overlap import face_directions, overlap_depth
-from checker.model.placed import Placed, placed
+from checker.model.geometry.boxes import Box
+from checker.model.geometry.convex import face_directions, overlap_depth
+from checker.model.geometry.interpenetration import is_convex
+from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
-from checker.model.transform import Vector
 from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 
 _PLACED = 60

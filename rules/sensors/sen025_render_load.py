@@ -12,9 +12,9 @@ million pixels a second.
 import math
 from collections.abc import Iterator
 
+from checker.base.record import record
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.record import record
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _NAMED = 5

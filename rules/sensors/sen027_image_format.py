@@ -9,10 +9,10 @@ Source: `camera_formats.json`; which formats a release gives is from memory of g
 
 from collections.abc import Mapping, Sequence
 
+from checker.base.resources import table
+from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.model.suggestions import Suggestions
-from checker.resources import table
 from checker.rule import Context, Findings, Severity, finding, rule
 
 _SHOWN = 40

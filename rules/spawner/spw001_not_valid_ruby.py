@@ -7,8 +7,8 @@ Source: Ruby's grammar; only errors that cannot be anything else are reported. N
 at hand shows the fault.
 """
 
+from checker.expand.spawner.reader import Spawner
 from checker.rule import Findings, Severity, finding, rule
-from checker.spawner.reader import Spawner
 
 
 @rule("SPW001", "not-valid-ruby", Severity.ERROR)

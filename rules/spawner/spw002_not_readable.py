@@ -10,8 +10,12 @@ Source: the evaluator of this checker. No accepted package at hand goes beyond i
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.reader import (
+    EXECUTABLES_ARGUMENTS,
+    SPAWNER_ARGUMENTS,
+    Spawner,
+)
 from checker.rule import Findings, Severity, finding, rule
-from checker.spawner.reader import EXECUTABLES_ARGUMENTS, SPAWNER_ARGUMENTS, Spawner
 
 ARGUMENTS = {"spawner": SPAWNER_ARGUMENTS, "rosExecutables": EXECUTABLES_ARGUMENTS}
 

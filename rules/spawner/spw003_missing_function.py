@@ -10,9 +10,9 @@ Source: Model Migration Guide, example spawner. No accepted package at hand show
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.reader import Spawner
+from checker.expand.spawner.scope import Function
 from checker.rule import Finding, Findings, Severity, finding, rule
-from checker.spawner.reader import Spawner
-from checker.spawner.scope import Function
 
 EXPECTED = {
     "spawner": ["_name", "_modelURI", "_worldName", "_x", "_y", "_z", "_roll", "_pitch", "_yaw"],

@@ -10,12 +10,12 @@ Source: XML specification; SubT spawner templates.
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.reader import Spawner, Unread
 from checker.rule import Finding, Findings, Severity, finding, rule
-from checker.source.fragments import parse_fragments
-from checker.source.positions import XmlFault
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
-from checker.spawner.reader import Spawner, Unread
+from checker.source.xml_fragments import parse_fragments
+from checker.source.xml_positions import XmlFault
 
 _HARMLESS = frozenset("\"' \t\r\n")
 

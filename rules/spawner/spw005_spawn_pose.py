@@ -11,10 +11,10 @@ Source: Model Migration Guide, example spawner.
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.reader import Spawner
 from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
-from checker.spawner.reader import Spawner
-from checker.spawning import SpawnedXml
 
 COORDINATES = ("x", "y", "z", "roll", "pitch", "yaw")
 FIRST = 3

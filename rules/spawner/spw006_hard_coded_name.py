@@ -9,11 +9,11 @@ Source: Model Migration Guide, example spawner. No accepted package at hand show
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.reader import Spawner
 from checker.rule import Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Located
 from checker.source.xml import Element
-from checker.spawner.reader import Spawner
-from checker.spawning import SpawnedXml
 
 NAME, MODEL = 0, 1
 """Positions of the parameters of `spawner`."""

@@ -7,8 +7,8 @@ Fix: put name, pose, world and SDF directly into `<spawn name="#{_name}">` and d
 Source: Model Migration Guide, example spawner. No accepted package at hand shows the fault.
 """
 
+from checker.expand.spawner.emitted_xml import SpawnedXml
 from checker.rule import Findings, Severity, finding, rule
-from checker.spawning import SpawnedXml
 
 
 @rule("SPW007", "gazebo-factory", Severity.ERROR)

@@ -13,13 +13,13 @@ packages that write `static_pose_publisher`.
 
 from collections.abc import Iterator, Sequence
 
+from checker.expand.launch.graph import LaunchGraph
+from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.reader import GROUND_TRUTH, Spawner
 from checker.model.components import Plugin
-from checker.model.launch.graph import LaunchGraph
 from checker.model.robot import Robot
 from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
-from checker.spawner.reader import GROUND_TRUTH, Spawner
-from checker.spawning import SpawnedXml
 
 WANTED = (
     "publish_link_pose",

@@ -10,15 +10,15 @@ Source: Model Migration Guide, example spawner. No accepted package at hand show
 
 from collections.abc import Iterator
 
-from checker.model.launch.command import LaunchCommand
-from checker.model.launch.graph import LaunchGraph
+from checker.expand.launch.graph import LaunchGraph
+from checker.expand.launch.launch_file import LaunchCommand
+from checker.expand.spawner.emitted_xml import StartedXml
+from checker.expand.spawner.reader import Spawner
 from checker.package.inheritance import SUBMISSION_NAME, Found
 from checker.package.package import Package
 from checker.package.references import PROVIDED, ReferenceKind
 from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 from checker.source.text import Located
-from checker.spawner.reader import Spawner
-from checker.spawning import StartedXml
 
 USUAL = ("description.launch", "vehicle_topics.launch")
 

@@ -12,14 +12,14 @@ Source: SubT review findings. Legged robots, which start high and let themselves
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.reader import SPAWNER_ARGUMENTS
 from checker.model.components import Collision, Link
-from checker.model.drive import is_legged
+from checker.model.locomotion.drive import is_legged
 from checker.model.mesh import MeshFault
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import Span
-from checker.spawner.reader import SPAWNER_ARGUMENTS
-from checker.spawning import SpawnedXml
 
 DOWN = (0.0, 0.0, -1.0)
 GROUND = SPAWNER_ARGUMENTS[5]

@@ -10,9 +10,9 @@ Source: SubT review findings. No accepted package at hand shows the fault.
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from checker.expand.spawner.reader import Spawner
 from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.ruby import RubyNode
-from checker.spawner.reader import Spawner
 
 _ASSIGNMENTS = ("assignment", "operator_assignment")
 _BRANCHES = ("if", "elsif", "unless", "if_modifier", "unless_modifier", "conditional")

@@ -10,10 +10,10 @@ Source: Model Migration Guide, example spawner. No accepted package at hand show
 
 from collections.abc import Iterator
 
+from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.reader import Spawner
 from checker.rule import Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.xml import Element
-from checker.spawner.reader import Spawner
-from checker.spawning import SpawnedXml
 
 FLAGS = {"is_performer": True, "allow_renaming": False}
 WORLD = 2

@@ -9,10 +9,10 @@ Source: Model Migration Guide, example spawner. No accepted package at hand show
 
 from itertools import zip_longest
 
-from checker.model.launch.command import LaunchCommand
+from checker.expand.launch.launch_file import LaunchCommand
+from checker.expand.spawner.emitted_xml import StartedXml
+from checker.expand.spawner.reader import EXECUTABLES_ARGUMENTS, Spawner
 from checker.rule import Findings, Severity, finding, rule
-from checker.spawner.reader import EXECUTABLES_ARGUMENTS, Spawner
-from checker.spawning import StartedXml
 
 ARGUMENTS = (
     ("name", "_name", Severity.ERROR),

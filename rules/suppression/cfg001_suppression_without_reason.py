@@ -7,7 +7,7 @@ Source: README, section "Suppress".
 """
 
 from checker.rule import Findings, Severity, finding, rule
-from checker.suppression.parts import Suppressions
+from checker.rulebook.suppression.parts import Suppressions
 
 
 @rule("CFG001", "suppression-without-reason", Severity.WARNING)

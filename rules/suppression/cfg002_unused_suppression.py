@@ -11,7 +11,7 @@ Source: README, section "Suppress".
 from collections.abc import Iterator
 
 from checker.rule import Finding, Findings, Severity, finding, rule
-from checker.suppression.parts import Suppressions, UnusedEntries
+from checker.rulebook.suppression.parts import Suppressions, UnusedEntries
 
 
 @rule("CFG002", "unused-suppression", Severity.WARNING)

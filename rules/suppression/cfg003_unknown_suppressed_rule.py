@@ -10,7 +10,7 @@ Source: README, section "Suppress".
 from itertools import islice
 
 from checker.rule import Findings, Severity, finding, rule
-from checker.suppression.parts import Suppressions
+from checker.rulebook.suppression.parts import Suppressions
 
 _NAMED = 5
 """Unknown names that the message tells; the rest is counted."""

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from checker.finding import Place
 from checker.rule import Findings, Severity, finding, rule
-from checker.suppression.parts import BaselineUse
+from checker.rulebook.suppression.parts import BaselineUse
 
 
 @rule("CFG004", "stale-baseline-entry", Severity.INFO)

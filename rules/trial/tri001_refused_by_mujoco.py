@@ -11,8 +11,8 @@ Source: MuJoCo documentation, XML reference: checks of the compiler.
 
 import re
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 _OF_INERTIA = re.compile(r"\b(mass|moments?)\b")
 """What the rules about inertia report themselves, with more to say about it."""

@@ -11,9 +11,9 @@ Source: experience; the robot is put down from 10 mm above the ground and left a
 import math
 from collections.abc import Iterator
 
+from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.trial import Trial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
-from checker.trial.trial import Trial
 
 
 @rule("TRI002", "does-not-settle", Severity.ERROR)

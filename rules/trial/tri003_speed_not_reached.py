@@ -8,9 +8,9 @@ Fix: set `wheel_radius` to the radius of the wheels' collisions, and look at fri
 Source: a prototype trial of 60 accepted ground robots: all reach 0.98 to 1.00 of the command.
 """
 
-from checker.model.locomotion import DriveKind
+from checker.model.locomotion.locomotion import DriveKind
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule, unchecked
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI003", "speed-not-reached", Severity.ERROR)

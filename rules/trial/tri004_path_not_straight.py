@@ -9,8 +9,8 @@ Source: a prototype trial of 60 accepted ground robots: all are straight to thre
 
 import math
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI004", "path-not-straight", Severity.ERROR)

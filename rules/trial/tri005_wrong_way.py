@@ -11,9 +11,9 @@ Source: REP 103: x forward, y left, z up; a positive turn rate is counter-clockw
 from collections.abc import Iterator
 
 from checker.model.components import Joint
-from checker.model.locomotion import Side
+from checker.model.locomotion.locomotion import Side
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI005", "moves-the-wrong-way", Severity.ERROR)

@@ -9,8 +9,8 @@ Source: quasi-static balance of Coulomb friction over the wheels; it foretells t
 of 22 accepted skid-steer robots within 20 %.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI006", "turns-too-little", Severity.WARNING)

@@ -7,8 +7,8 @@ Fix: give the wheel a collision of its radius, and let all wheels stand on one p
 Source: experience; the load is the mean over the robot at rest, against the weight shared equally.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI007", "wheel-without-load", Severity.ERROR)

@@ -7,8 +7,8 @@ Fix: look at the friction of the wheels, at their axes, and at plugins that figh
 Source: experience; the speed at the end of a stop, 1.5 s or as long as its limits let it brake.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI008", "does-not-stop", Severity.ERROR)

@@ -8,8 +8,8 @@ Source: the largest torque in the trial after the robot has settled, averaged ov
 the drive at full speed, against `<effort>`.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI009", "effort-limit-exceeded", Severity.WARNING)

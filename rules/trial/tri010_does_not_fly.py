@@ -11,8 +11,8 @@ rotor's thrust, by a linear program.
 
 import math
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI010", "does-not-fly", Severity.ERROR)

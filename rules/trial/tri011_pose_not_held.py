@@ -9,8 +9,8 @@ Source: experience; each joint is held by a controller for position and velocity
 
 import math
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI011", "pose-not-held", Severity.WARNING)

@@ -8,8 +8,8 @@ damping, and masses that differ by many orders of magnitude across a joint.
 Source: warnings BADQPOS, BADQVEL and BADQACC of MuJoCo, which remain at half the time step.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI012", "solver-trouble", Severity.ERROR)

@@ -8,8 +8,8 @@ Source: contact forces are worked out against the inertia of the bodies that tou
 press 0.1 to 0.3 mm into the ground.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI013", "presses-into-ground", Severity.WARNING)

@@ -9,8 +9,8 @@ plugins.
 Source: the plugin's `max_velocity` and `max_acceleration`, against 2 s at full command.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI014", "limits-not-kept", Severity.WARNING)

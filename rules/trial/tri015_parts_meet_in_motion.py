@@ -7,8 +7,8 @@ Fix: narrow the joint's limits, or shrink the collision shapes.
 Source: a collision query in steps through the range of each joint, one at a time.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule, unchecked
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI015", "parts-meet-in-motion", Severity.WARNING)

@@ -8,9 +8,9 @@ that stand on the verge of tipping.
 Source: a sound simulation converges: halving the step changes next to nothing.
 """
 
+from checker.physics.trial.measures.figures import MEASURES
+from checker.physics.trial.robot_trial import RepeatedTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.measures import MEASURES
-from checker.trial.robot_trial import RepeatedTrial
 
 _MATTERS = {
     "settle_drop": 0.02,

@@ -8,8 +8,8 @@ Fix: let every joint start within its limits, and look at what starts inside som
 Source: kinetic and potential energy at rest, in shares of the energy that lifts the robot by 0.1 m.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI017", "gains-energy", Severity.WARNING)

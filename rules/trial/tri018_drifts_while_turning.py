@@ -9,8 +9,8 @@ wheels; if the real robot is like this, say so in specifications.md.
 Source: quasi-static balance of Coulomb friction over the contact points with their loads.
 """
 
+from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Findings, Severity, finding, rule
-from checker.trial.robot_trial import RobotTrial
 
 
 @rule("TRI018", "drifts-while-turning", Severity.WARNING)

@@ -12,8 +12,9 @@ no tag without the prefix `xacro:`.
 import re
 from collections.abc import Iterator
 
+from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.files import UrdfFiles, XacroFault, XacroFaultKind
+from checker.model.urdf.files import UrdfFiles
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
 

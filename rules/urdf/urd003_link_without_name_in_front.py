@@ -7,7 +7,7 @@ Fix: write `${name}/base_link`, in links and in the parents and children of join
 Source: Model Migration Guide: "Prefix each link in the xacro file with the robot's namespace".
 """
 
-from checker.launching import SAMPLE_ARGUMENTS
+from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS
 from checker.model.urdf.description import UrdfDescription
 from checker.rule import Findings, Severity, finding, rule
 

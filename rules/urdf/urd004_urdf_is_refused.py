@@ -13,9 +13,9 @@ are required; urdfdom, `parseJoint`, `ModelInterface::initTree`, `initRoot`.
 from collections import Counter
 from collections.abc import Iterator
 
+from checker.base.words import Suggestions
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.model.urdf.description import UrdfDescription
 from checker.rule import Finding, Findings, Severity, finding, rule
 

@@ -9,8 +9,8 @@ Source: Model Migration Guide: the URDF file is converted from the SDF model, so
 
 from collections.abc import Iterator
 
-from checker.model.rigid import rigid_bodies
 from checker.model.robot import Robot
+from checker.model.tree import rigid_bodies
 from checker.model.urdf.description import UrdfDescription
 from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
 

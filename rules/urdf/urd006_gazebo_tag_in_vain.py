@@ -9,8 +9,8 @@ Source: Gazebo Classic, "Using a URDF in Gazebo": elements for `<robot>`, `<link
 
 from collections.abc import Iterator
 
+from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.model.urdf.description import GazeboTag, UrdfDescription
 from checker.rule import Finding, Findings, Severity, finding, rule
 

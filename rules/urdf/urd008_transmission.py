@@ -11,8 +11,8 @@ actuator is skipped; gazebo_ros_control, DefaultRobotHWSim: takes the first inte
 from collections import Counter
 from collections.abc import Iterator
 
+from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.model.suggestions import Suggestions
 from checker.model.urdf.description import Transmission, TransmissionEnd, UrdfDescription
 from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.text import Located

@@ -7,7 +7,7 @@ Fix: add `<material name="…"><color rgba="…"/></material>` to the robot, or 
 Source: URDF specification, visual/material.
 """
 
-from checker.model.suggestions import Suggestions
+from checker.base.words import Suggestions
 from checker.model.urdf.description import UrdfDescription
 from checker.rule import Findings, Severity, finding, rule
 from checker.source.xml import Element

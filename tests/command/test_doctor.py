@@ -12,14 +12,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.doctor import installation, self_test
-from checker.doctor import sandbox as of_sandbox
-from checker.doctor.command import doctor
-from checker.doctor.installation import numbers
-from checker.doctor.result import Result, State
-from checker.doctor.sandbox import result, sandbox
-from checker.doctor.surroundings import surroundings
-from checker.sandbox.layers import ALL, Layer
+from checker.base.sandbox.layers import ALL, Layer
+from checker.cli.doctor import environment as of_sandbox
+from checker.cli.doctor import installation, self_test
+from checker.cli.doctor.command import doctor
+from checker.cli.doctor.environment import result, sandbox, surroundings
+from checker.cli.doctor.installation import numbers
+from checker.cli.doctor.result import Result, State
 from tests.command.conftest import Run
 from tests.conftest import SAMPLES
 

@@ -6,15 +6,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.launch.control_nodes import (
+from checker.expand.launch.expansion import expand_launch
+from checker.expand.launch.graph import LaunchGraph, Node
+from checker.model.control.nodes import (
     Spawned,
     published_states,
     read_listener,
     read_model,
     read_spawned,
 )
-from checker.model.launch.expand import expand_launch
-from checker.model.launch.graph import LaunchGraph, Node
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
 

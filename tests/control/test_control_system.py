@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from checker.model.controllers import ControlSystem
-from checker.model.launch.graph import LaunchGraph
-from checker.package.opening import open_input
-from checker.parts import NotAtHand
-from checker.subject import Subject
+from checker.base.errors import NotAtHand
+from checker.engine.subject import Subject
+from checker.expand.launch.graph import LaunchGraph
+from checker.model.control.controllers import ControlSystem
+from checker.package.inputs import open_input
 from tests.examples import URDF_NAME, write_example
 
 Part = Callable[..., Any]
@@ -127,7 +127,7 @@ def test_a_package_that_only_spawns_a_robot(part: Part) -> None:
 
 
 def test_parameters_are_loaded_up_to_a_bound(part: Part, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.controlling.parameters.MAX_VALUES", 50)
+    monkeypatch.setattr("checker.model.control.parameters.MAX_VALUES", 50)
     load = f'<rosparam ns="{{}}" file="$(find {URDF_NAME})/config/control.yaml"/>'
     text = "".join(load.format(f"r{number}") for number in range(20))
     control = part(ControlSystem, {"launch/all.launch": f"<launch>{text}</launch>"})
@@ -138,6 +138,6 @@ def test_parameters_are_loaded_up_to_a_bound(part: Part, monkeypatch: pytest.Mon
 def test_launch_files_are_followed_up_to_a_bound(
     part: Part, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("checker.controlling.entries.MAX_PARTS", 2)
+    monkeypatch.setattr("checker.expand.launch.package_launch.MAX_PARTS", 2)
     control = part(ControlSystem)
     assert control.unread == ("launch/control.launch and what follows is too much to read",)

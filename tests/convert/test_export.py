@@ -11,14 +11,14 @@ import pinocchio as pin
 import pytest
 
 from checker.cli import main
-from checker.convert.export import package_uris
-from checker.convert.writing import document_text
-from checker.convert.xacro_of import xacro_of
-from checker.dynamics.pin_model import pin_model
+from checker.cli.export import package_uris
+from checker.convert.sdf_to_urdf import xacro_of
+from checker.convert.xml_writer import document_text
+from checker.engine.subject import Subject
 from checker.model.robot import Robot
-from checker.package.opening import open_input
-from checker.subject import Subject
-from checker.trial.scene import build_scene
+from checker.package.inputs import open_input
+from checker.physics.mass.pinocchio_model import pin_model
+from checker.physics.trial.mjcf.scene import build_scene
 from tests.model.robots import sdf
 
 HUSKY = "husky_migration_sensor_config_1"

@@ -6,7 +6,7 @@ import pytest
 from lxml import etree
 
 from checker.convert.conversion import Conversion
-from checker.model.transform import Transform
+from checker.model.geometry.transform import Transform
 from tests.convert.trees import converted
 
 SOLID = """<inertial><mass value="1"/>

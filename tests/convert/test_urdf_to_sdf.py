@@ -6,8 +6,8 @@ import numpy as np
 import pinocchio as pin
 from hypothesis import given, settings
 
-from checker.dynamics.pin_model import PinModel, pin_model
 from checker.model.robot import Robot
+from checker.physics.mass.pinocchio_model import PinModel, pin_model
 from tests.convert.trees import (
     MOVING,
     Body,

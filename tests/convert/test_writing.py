@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
-from checker.convert.writing import document_text, exact, number, six_numbers, tidy
-from checker.model.transform import Transform, rotation_from_rpy
+from checker.convert.xml_writer import document_text, exact, number, six_numbers, tidy
+from checker.model.geometry.transform import Transform, rotation_from_rpy
 from tests.model.robots import sdf
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)

@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from checker import cli
-from checker.versions import tool_version
+from checker.base.resources import tool_version
 from tests.deployment.dockerfile import stages
 
 ROOT = Path(__file__).parent.parent.parent

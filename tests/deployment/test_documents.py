@@ -7,10 +7,10 @@ import re
 from functools import cache
 from pathlib import Path
 
-from checker.jobs.checking import LIMITS
-from checker.jobs.port import Stage
-from checker.package.archive_index import ArchiveLimits
-from checker.web.config import Config
+from checker.package.archives.index import ArchiveLimits
+from checker.service.jobs.checking import LIMITS
+from checker.service.jobs.port import Stage
+from checker.service.web.config import Config
 from tests.deployment.image import ROOT
 from tests.each import of_each
 
@@ -111,7 +111,7 @@ def test_defaults_are_those_of_the_code() -> None:
 
 
 def test_the_figures_that_are_named_are_counted() -> None:
-    metrics = (ROOT / "checker/web/metrics.py").read_text("utf-8")
+    metrics = (ROOT / "checker/service/web/metrics.py").read_text("utf-8")
     named = re.findall(r"`subt_check_(\w+)`", SERVICE)
     assert named
     assert not [name for name in named if f'"{name}"' not in metrics]

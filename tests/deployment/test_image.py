@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.versions import tool_version
+from checker.base.resources import tool_version
 from tests.deployment.bare import bare_command, bare_environment
 from tests.deployment.dockerfile import stages
 from tests.deployment.image import ROOT, Image, context_of

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from checker.cache import NO_CACHE, Cache
-from checker.display.files.wire import Looked
-from checker.display.mesh_files import MeshFiles, surfaces_of
+from checker.base.cache import NO_CACHE, Cache
+from checker.engine.subject import Subject
 from checker.model.robot import Robot
-from checker.package.opening import open_input
-from checker.stages import TimedMeshes
-from checker.subject import Subject
+from checker.package.inputs import open_input
+from checker.physics.mesh.package_meshes import TimedMeshes
+from checker.report.scene.files.wire import Looked
+from checker.report.scene.mesh_files import MeshFiles, surfaces_of
 from tests.examples import write_example
 
 

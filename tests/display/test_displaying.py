@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from checker.check import check_package
-from checker.display import displaying
-from checker.display.display import BYTES, display_of
-from checker.display.scene import Layer
-from checker.display.surface import Surface
+from checker.engine import display
+from checker.engine.display import BYTES, display_of
+from checker.pipeline import check_package
 from checker.report.report import Cause, PackageReport
+from checker.report.scene.scene import Layer
+from checker.report.scene.surface import Surface
 from checker.settings import Settings
 from checker.source.text import Located
 from tests.conftest import SAMPLES
@@ -47,7 +47,7 @@ def test_a_fault_of_ours_is_no_fault_of_the_package(monkeypatch: pytest.MonkeyPa
     def broken(*_: object) -> None:
         raise RuntimeError("no paint")
 
-    monkeypatch.setattr(displaying, "display_of", broken)
+    monkeypatch.setattr(display, "display_of", broken)
     report = report_of(SAMPLES / "my_gurdy_description", display=True)
     (crashed,) = (each for each in report.not_checked if each.cause is Cause.CRASHED)
     assert crashed.rule == "display"

@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from checker.display.glb import glb_of
-from checker.display.glb_meshes import linear
-from checker.display.primitives import box, cylinder
-from checker.display.scene import DisplayScene, Item, Layer, LinkNode, Tracks
-from checker.display.surface import Surface
-from checker.model.transform import Transform
+from checker.model.geometry.transform import Transform
+from checker.report.scene.glb import glb_of
+from checker.report.scene.glb_meshes import linear
+from checker.report.scene.primitives import box, cylinder
+from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
+from checker.report.scene.surface import Surface
 from tests.display.glb_reader import read_glb
 from tests.effort import examples
 

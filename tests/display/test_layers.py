@@ -12,10 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from checker.display.building import ITEMS, scene_of
-from checker.display.scene import DisplayScene, Item, Layer
-from checker.display.surface import NoSurfaces, Surface
 from checker.model.robot import Robot
+from checker.report.scene.builder import ITEMS, scene_of
+from checker.report.scene.scene import DisplayScene, Item, Layer
+from checker.report.scene.surface import NoSurfaces, Surface
 from checker.source.text import Located
 from tests.effort import examples
 from tests.model.robots import sdf, urdf

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from checker.cache import Cache
-from checker.display import mesh_files
-from checker.display.early import looks
-from checker.display.files.wire import Looked
-from checker.display.surface import GREY, Surface
+from checker.base.cache import Cache
 from checker.model.mesh import Mesh
+from checker.report.scene import mesh_files
+from checker.report.scene.early import looks
+from checker.report.scene.files.wire import Looked
+from checker.report.scene.surface import GREY, Surface
 from tests.display.looking import looked, opened, picture
 from tests.mesh.files import binary_stl, box, cylinder, dae, obj
 

@@ -14,16 +14,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from checker.cache import Cache
-from checker.display.drawing.camera import FIELD_OF_VIEW, framed
-from checker.display.drawing.shots import MOMENTS, shots_of
-from checker.display.drawing.worker import LARGEST
-from checker.display.pictures import HEIGHT, WIDTH, Drawing
-from checker.display.scene import DisplayScene, Item, Layer, LinkNode, Tracks
-from checker.display.surface import Surface
-from checker.model.transform import Transform
+from checker.base.cache import Cache
+from checker.base.sandbox.launcher import OwnLauncher
+from checker.model.geometry.transform import Transform
 from checker.report.report import Picture
-from checker.sandbox.launcher import OwnLauncher
+from checker.report.scene.drawing.camera import FIELD_OF_VIEW, framed
+from checker.report.scene.drawing.worker import LARGEST
+from checker.report.scene.pictures import HEIGHT, MOMENTS, WIDTH, Drawing, shots_of
+from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
+from checker.report.scene.surface import Surface
 from tests.mesh.files import box
 
 RED = (0.9, 0.1, 0.1, 1.0)
@@ -154,10 +153,10 @@ def test_of_nothing_there_are_no_pictures() -> None:
 def test_without_opengl_there_are_no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere")
     monkeypatch.setenv("LIBGL_DRIVERS_PATH", "/nowhere")
-    monkeypatch.setattr("checker.display.pictures.PLATFORMS", ("egl",))
+    monkeypatch.setattr("checker.report.scene.pictures.PLATFORMS", ("egl",))
     # One that started before knows the variables of before.
     with closing(OwnLauncher()) as launcher:
-        monkeypatch.setattr("checker.confined.launcher", lambda: launcher)
+        monkeypatch.setattr("checker.base.child_process.launcher", lambda: launcher)
         assert pictures_of(scene(surface())) == ()
 
 
@@ -190,7 +189,7 @@ def test_what_was_drawn_once_is_not_drawn_again(
     found = pictures(scene(surface()))
     if not found:
         pytest.skip("nothing here draws without a window: no EGL, no OSMesa")
-    monkeypatch.setattr("checker.display.pictures.PLATFORMS", ("nothing",))
+    monkeypatch.setattr("checker.report.scene.pictures.PLATFORMS", ("nothing",))
     assert pictures(scene(surface())) == found
     assert pictures(scene(surface((0.1, 0.9, 0.1, 1.0)))) == ()
     for entry in tmp_path.rglob("*.json"):

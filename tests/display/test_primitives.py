@@ -10,8 +10,16 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.display.primitives import bar, box, capsule, cone, cylinder, joined, sphere
-from checker.display.surface import Surface
+from checker.report.scene.primitives import (
+    bar,
+    box,
+    capsule,
+    cone,
+    cylinder,
+    joined,
+    sphere,
+)
+from checker.report.scene.surface import Surface
 
 LENGTHS = st.floats(0.01, 100.0)
 

@@ -11,19 +11,19 @@ import numpy as np
 import pytest
 import trimesh
 
-from checker.cache import Cache
-from checker.display.building import scene_of
-from checker.display.display import BYTES, display_of, without
-from checker.display.glb import glb_of
-from checker.display.mesh_files import surfaces_of
-from checker.display.scene import Layer
-from checker.display.surface import NoSurfaces
+from checker.base.cache import Cache
+from checker.engine.display import BYTES, display_of, without
+from checker.engine.subject import Subject
 from checker.model.robot import Robot
-from checker.package.opening import open_input
-from checker.stages import TimedMeshes
-from checker.subject import Subject
-from checker.trial.running import start_trial
-from checker.trial.trial import Trial
+from checker.package.inputs import open_input
+from checker.physics.mesh.package_meshes import TimedMeshes
+from checker.physics.trial.run import start_trial
+from checker.physics.trial.trial import Trial
+from checker.report.scene.builder import scene_of
+from checker.report.scene.glb import glb_of
+from checker.report.scene.mesh_files import surfaces_of
+from checker.report.scene.scene import Layer
+from checker.report.scene.surface import NoSurfaces
 from tests.conftest import SAMPLES
 from tests.display.glb_reader import Glb, read_glb
 

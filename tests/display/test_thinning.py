@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.display.files.thinning import joined, shares, thinned
-from checker.display.files.wire import from_json, to_json
-from checker.display.surface import GREY, Surface
+from checker.report.scene.files.thinning import joined, shares, thinned
+from checker.report.scene.files.wire import from_json, to_json
+from checker.report.scene.surface import GREY, Surface
 from tests.mesh.files import box, cylinder
 
 COUNTS = st.lists(st.integers(0, 10**9), min_size=1, max_size=50)

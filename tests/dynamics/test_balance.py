@@ -10,9 +10,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from checker.dynamics.mass_properties import MassProperties
-from checker.dynamics.polygon import Point, convex_hull, margin
-from checker.dynamics.weighing import weigh
+from checker.physics.mass.balance import Point, convex_hull, margin
+from checker.physics.mass.mass_properties import MassProperties
+from checker.physics.mass.robot_mass import weigh
 from tests.dynamics.bodies import Pose, collision, inertial, link, sizes
 from tests.model.robots import sdf
 

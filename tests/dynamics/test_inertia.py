@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from checker.dynamics.mass_properties import LinkInertia
-from checker.dynamics.weighing import weigh
+from checker.physics.mass.mass_properties import LinkInertia
+from checker.physics.mass.robot_mass import weigh
 from tests.dynamics.bodies import (
     HOME,
     Matrix,

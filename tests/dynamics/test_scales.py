@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.cache import NO_CACHE, Cache
-from checker.dynamics.scales import Body, Rows, Weights, weights_of
-from checker.model.transform import Transform, rotation_from_rpy
+from checker.base.cache import NO_CACHE, Cache
+from checker.model.geometry.transform import Transform, rotation_from_rpy
+from checker.physics.mass.robot_mass import Body, Rows, Weights, weights_of
 from tests.conftest import SAMPLES
 
 numbers = st.floats(-1e3, 1e3) | st.sampled_from((0.0, math.inf, -math.inf, math.nan, 1e-320))
@@ -81,7 +81,7 @@ def test_other_numbers_are_another_entry(tmp_path: Path) -> None:
 def test_a_known_robot_is_checked_without_pinocchio_and_numpy(tmp_path: Path) -> None:
     cache = Cache(tmp_path)
     check = (
-        "import sys; from pathlib import Path; from checker.check import check_package;"
+        "import sys; from pathlib import Path; from checker.pipeline import check_package;"
         "from checker.settings import Settings;"
         f"check_package(Path({str(SAMPLES / 'husky_migration_sensor_config_1')!r}),"
         " Settings(trial=False, fail_on=sys.argv[1]));"

@@ -10,10 +10,10 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.dynamics.shape_size import farthest, volume_of
+from checker.model.geometry.shapes import Geometry
+from checker.model.geometry.transform import Transform
 from checker.model.mesh import Mesh, MeshFault, NoMeshes
-from checker.model.shapes import Geometry
-from checker.model.transform import Transform
+from checker.physics.mass.link_geometry import farthest, volume_of
 from checker.source.text import Located
 from tests.dynamics.bodies import collision, link, poses
 from tests.model.robots import as_matrix, sdf

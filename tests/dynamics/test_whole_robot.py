@@ -13,14 +13,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.dynamics.gravity import GRAVITY
-from checker.dynamics.mass_properties import MassProperties
-from checker.dynamics.pin_model import pin_model
-from checker.dynamics.weighing import weigh
+from checker.base.errors import NotAtHand
+from checker.engine.subject import Subject
 from checker.model.robot import Robot
-from checker.package.opening import open_input
-from checker.parts import NotAtHand
-from checker.subject import Subject
+from checker.package.inputs import open_input
+from checker.physics.mass.gravity import GRAVITY
+from checker.physics.mass.mass_properties import MassProperties
+from checker.physics.mass.pinocchio_model import pin_model
+from checker.physics.mass.robot_mass import weigh
 from tests.dynamics.bodies import (
     Matrix,
     box,

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from checker.engine import Outcome, run_rules
+from checker.base.errors import NotAtHand
+from checker.engine.run import Outcome, run_rules
 from checker.finding import Place
-from checker.parts import NotAtHand
-from checker.profiles import Profile, profile
 from checker.rule import Finding, Findings, Rule, Severity
+from checker.rulebook.profiles import Profile, profile
 from checker.settings import Settings
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.discovery import all_rules
-from checker.page import parse_page
 from checker.rule import Rule
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.pages import parse_page
 from tests.each import of_each
 
 RULE = '''"""A wheel of cheese.

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
-from checker.errors import InvalidSettings
-from checker.package.opening import open_input
-from checker.recall import memory_key
+from checker.base.errors import InvalidSettings
+from checker.engine.report_cache import memory_key
+from checker.package.inputs import open_input
+from checker.pipeline import check_package
 from checker.settings import Settings, find_settings
 from tests.examples import write_example
 

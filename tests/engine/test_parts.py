@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from checker.check import check_package
+from checker.pipeline import check_package
 from checker.report.report import PackageReport, VerdictKind
 from checker.settings import Settings
 from tests.examples import NAME, SPAWNER, write_example

@@ -12,12 +12,11 @@ from typing import Any
 
 import pytest
 
-from checker.cache import Cache
-from checker.check import check_package
-from checker.package.opening import open_input
-from checker.recall import memory_key, recalled, remember
+from checker.base.cache import Cache
+from checker.engine.report_cache import from_stored, memory_key, recalled, remember, to_stored
+from checker.package.inputs import open_input
+from checker.pipeline import check_package
 from checker.report.report import Cause, NotChecked, PackageReport
-from checker.report.stored import from_stored, to_stored
 from checker.settings import Settings
 from tests.conftest import SAMPLES
 

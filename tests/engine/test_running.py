@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from checker.parts import NotAtHand
+from checker.base.errors import NotAtHand
 from checker.report.report import Cause, NotChecked
 from checker.rule import Context, Findings, Rule, Severity, finding, unchecked
 from tests.engine.stage import Parts, Wheel, at, reported, rule_saying, run, subt

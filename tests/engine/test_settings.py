@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.errors import InvalidSettings
-from checker.options import check_against_rules, no_such_rule, options_of
+from checker.base.errors import InvalidSettings
+from checker.engine.options import check_against_rules, no_such_rule, options_of
 from checker.rule import Findings, Rule, Severity, unchecked
 from checker.settings import Settings, find_settings, folders_above
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from time import sleep
 
+from checker.base.progress import Stages
 from checker.model.mesh import Mesh
+from checker.physics.mesh.package_meshes import TimedMeshes
 from checker.source.text import Located, SourceText
-from checker.stages import Stages, TimedMeshes
 
 
 def test_a_stage_is_said_and_timed() -> None:

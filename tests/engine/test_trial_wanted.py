@@ -6,13 +6,13 @@ from typing import Any
 
 import pytest
 
-from checker.engine import Outcome, needed_parts, run_rules
+from checker.base.errors import NotAtHand
+from checker.engine.run import Outcome, needed_parts, run_rules
 from checker.finding import Severity
-from checker.parts import NotAtHand
+from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.report.report import NO_TRIAL, Cause, NotChecked
 from checker.rule import Findings, Rule, finding
 from checker.settings import Settings
-from checker.trial.robot_trial import RepeatedTrial, RobotTrial
 from tests.engine.stage import Wheel, at, rule_saying, subt
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import partial
 
+from checker.expand.spawner.reader import read_spawner
+from checker.expand.spawner.signals import Unread
 from checker.source.ruby import parse_ruby
 from checker.source.text import SourceText
-from checker.spawner.reader import read_spawner
-from checker.spawner.signals import Unread
 from tests.evaluated.spawners import FILES, SPAWNERS
 
 PATH = "robot/launch/spawner.rb"

@@ -14,13 +14,13 @@ from pathlib import Path
 
 import pytest
 
+from checker.base.errors import CheckerError
 from checker.cli import main
-from checker.errors import CheckerError
+from checker.cli.fix import fix_paths
 from checker.finding import Safety
-from checker.fixing.packages import fix_paths
-from checker.fixing.writing import write_files
-from checker.package.opening import open_input
-from checker.patching.rounds import Fixed
+from checker.fix.files import write_files
+from checker.fix.rounds import Fixed
+from checker.package.inputs import open_input
 from tests.conftest import SAMPLES
 
 BROKEN = "broken_rover_sensor_config_1"

@@ -13,12 +13,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
+from checker.base.errors import CheckerError
 from checker.cli import main
-from checker.errors import CheckerError
+from checker.cli.fix import FixedPackage, fix_paths
 from checker.finding import Safety
-from checker.fixing.packages import FixedPackage, fix_paths
-from checker.patching.patch import patch
+from checker.fix.rounds import patch
+from checker.pipeline import check_package
 from checker.report.report import ReportedFinding
 from checker.settings import Settings
 from tests.conftest import SAMPLES

@@ -12,15 +12,15 @@ from typing import Any
 
 import pytest
 
-from checker.cache import NO_CACHE
-from checker.discovery import all_rules
+from checker.base.cache import NO_CACHE
+from checker.engine.review import findings_of
 from checker.finding import Safety, Severity
-from checker.judging import findings_of
-from checker.package.opening import open_input
+from checker.fix.rounds import fix_package
+from checker.package.inputs import open_input
 from checker.package.package import Package
-from checker.patching.rounds import fix_package
 from checker.report.report import ReportedFinding
 from checker.rule import Rule
+from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml

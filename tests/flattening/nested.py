@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 from hypothesis import strategies as st
 
 from checker.finding import Fix, Safety
-from checker.flattening.flatten import Flattening
-from checker.flattening.names import FlatNames
-from checker.flattening.obstacles import obstacle
+from checker.fix.flattening.flatten import Flattening
+from checker.fix.flattening.names import FlatNames
+from checker.fix.flattening.obstacles import obstacle
+from checker.fix.rounds import EditedText, take
 from checker.model.robot import Robot
 from checker.model.sdf.reader import read_sdf
-from checker.patching.edits import EditedText, take
 from tests.dynamics.bodies import box, inertial, masses, poses, sizes, words
 from tests.model.robots import document
 

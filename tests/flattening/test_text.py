@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from checker.cli.fix import fix_paths
 from checker.finding import Safety
-from checker.fixing.packages import fix_paths
-from checker.flattening.mentions import mentions
-from checker.flattening.names import FlatNames
-from checker.flattening.obstacles import obstacle
+from checker.fix.flattening.mentions import mentions
+from checker.fix.flattening.names import FlatNames
+from checker.fix.flattening.obstacles import obstacle
 from checker.source.text import SourceText
 from tests.examples import write_example
 from tests.flattening.nested import flattened, read

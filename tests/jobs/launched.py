@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, sleep
 
-MODULE = b"checker.sandbox.launcher_process"
+MODULE = b"checker.base.sandbox.launcher_process"
 
 
 _others: set[int] = set()

@@ -17,13 +17,13 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from checker.jobs.checking import result_key
-from checker.jobs.children import Children
-from checker.jobs.durable import stages
-from checker.jobs.durable.worker import WorkerOptions, work
-from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
-from checker.jobs.port import Order, Stage
-from checker.store.store import SUMMARY, Store
+from checker.service.jobs.checking import result_key
+from checker.service.jobs.children import Children
+from checker.service.jobs.durable import stages
+from checker.service.jobs.durable.worker import WorkerOptions, work
+from checker.service.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
+from checker.service.jobs.port import Order, Stage
+from checker.service.store.store import SUMMARY, Store
 
 PACKAGE = {
     "name": "quick",

@@ -14,10 +14,10 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from checker.jobs.durable.client import DurableJobs, durable_jobs
-from checker.jobs.port import Order, Stage, State
-from checker.sandbox.task import end_with_parent
-from checker.store.store import Store
+from checker.base.sandbox.task import end_with_parent
+from checker.service.jobs.durable.client import DurableJobs, durable_jobs
+from checker.service.jobs.port import Order, Stage, State
+from checker.service.store.store import Store
 
 ROOT = Path(__file__).parent.parent.parent
 PATIENCE = 60.0

@@ -15,12 +15,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.jobs.checking import check_upload, stored_result
-from checker.jobs.children import Children
-from checker.jobs.limits import StageLimits
-from checker.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
-from checker.jobs.port import Order, Stage
-from checker.store.store import SUMMARY, Store
+from checker.service.jobs.checking import check_upload, stored_result
+from checker.service.jobs.children import Children
+from checker.service.jobs.limits import StageLimits
+from checker.service.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
+from checker.service.jobs.port import Order, Stage
+from checker.service.store.store import SUMMARY, Store
 from tests.jobs.launched import tasks
 from tests.web.server import eventually
 

@@ -12,14 +12,14 @@ from pathlib import Path
 
 import pytest
 
-from checker.jobs.checking import check_upload
-from checker.jobs.children import Children
-from checker.jobs.limits import NICENESS
-from checker.jobs.outcome import Checked, Outcome
-from checker.jobs.port import Order, Stage
-from checker.sandbox.launcher import OwnLauncher
-from checker.sandbox.layers import NAMESPACES
-from checker.store.store import Store
+from checker.base.sandbox.launcher import OwnLauncher
+from checker.base.sandbox.layers import NAMESPACES
+from checker.service.jobs.checking import check_upload
+from checker.service.jobs.children import Children
+from checker.service.jobs.limits import NICENESS
+from checker.service.jobs.outcome import Checked, Outcome
+from checker.service.jobs.port import Order, Stage
+from checker.service.store.store import Store
 from tests.conftest import SAMPLES
 from tests.jobs.launched import is_alive, launchers, parent_of, tasks, wait_for
 from tests.web.server import eventually

@@ -12,10 +12,10 @@ from time import sleep
 import pytest
 import sqlalchemy as sa
 
-from checker.jobs.checking import result_key
-from checker.jobs.durable.keys import key_of_check
-from checker.jobs.durable.tables import CHECKS
-from checker.jobs.port import Stage, State
+from checker.service.jobs.checking import result_key
+from checker.service.jobs.durable.keys import key_of_check
+from checker.service.jobs.durable.tables import CHECKS
+from checker.service.jobs.port import Stage, State
 from tests.jobs.quick_worker import DEATH, PACKAGE, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in
 from tests.postgres import DATABASES, fresh_database

@@ -9,8 +9,8 @@ from time import monotonic
 
 import pytest
 
-from checker.jobs.crowd import let_pass
-from checker.store.store import Store
+from checker.service.jobs.crowd import let_pass
+from checker.service.store.store import Store
 
 CROWD = 8
 

@@ -10,12 +10,12 @@ from time import time
 import pytest
 import sqlalchemy as sa
 
-from checker.jobs.durable.client import durable_jobs
-from checker.jobs.durable.database import now, open_database, prepare
-from checker.jobs.durable.roll import Roll
-from checker.jobs.place import database_url
-from checker.jobs.port import JobsUnreachable, Order, Stage
-from checker.store.store import Store
+from checker.service.jobs.durable.client import durable_jobs
+from checker.service.jobs.durable.database import now, open_database, prepare
+from checker.service.jobs.durable.roll import Roll
+from checker.service.jobs.place import database_url
+from checker.service.jobs.port import JobsUnreachable, Order, Stage
+from checker.service.store.store import Store
 from tests.jobs.site import Site, site_in
 from tests.postgres import DATABASES, fresh_database
 

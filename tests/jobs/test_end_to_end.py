@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.jobs.port import Order, Stage
-from checker.sandbox.task import end_with_parent
+from checker.base.sandbox.task import end_with_parent
+from checker.service.jobs.port import Order, Stage
 from tests.jobs.launched import is_alive, tasks
 from tests.jobs.site import ROOT, Site, site_in
 from tests.web.server import eventually

@@ -6,10 +6,10 @@ import base64
 import hashlib
 from pathlib import Path
 
-from checker.jobs.durable.client import durable_jobs
-from checker.jobs.durable.keys import LENGTH, key_of_check
-from checker.jobs.port import Order
-from checker.store.store import Store
+from checker.service.jobs.durable.client import durable_jobs
+from checker.service.jobs.durable.keys import LENGTH, key_of_check
+from checker.service.jobs.port import Order
+from checker.service.store.store import Store
 
 
 def test_an_id_is_128_random_bits(tmp_path: Path) -> None:

@@ -11,11 +11,11 @@ import sqlalchemy as sa
 from hypothesis import settings
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from checker.jobs.durable.database import open_database
-from checker.jobs.durable.ledger import GIVEN_UP, Ledger, Step, Turn, forget
-from checker.jobs.durable.readings import events_of, state_of
-from checker.jobs.durable.tables import METADATA
-from checker.jobs.port import Event, Order, Stage, State
+from checker.service.jobs.durable.database import open_database
+from checker.service.jobs.durable.ledger import GIVEN_UP, Ledger, Step, Turn, forget
+from checker.service.jobs.durable.readings import events_of, state_of
+from checker.service.jobs.durable.tables import METADATA
+from checker.service.jobs.port import Event, Order, Stage, State
 from tests.effort import examples
 
 ORDER = Order("0" * 64, "robot.zip", "subt")

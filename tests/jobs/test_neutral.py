@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_paths
-from checker.jobs.neutral import without_folder
+from checker.pipeline import check_paths
 from checker.report.report import NotOpened, Report
+from checker.service.jobs.neutral import without_folder
 
 PLACE = Path("/data/incoming/4f2a")
 

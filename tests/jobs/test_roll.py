@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
-from checker.jobs.durable.client import durable_jobs
-from checker.jobs.durable.database import open_database, prepare
-from checker.jobs.durable.roll import Roll
-from checker.sandbox.layers import Layer
-from checker.store.store import Store
+from checker.base.sandbox.layers import Layer
+from checker.service.jobs.durable.client import durable_jobs
+from checker.service.jobs.durable.database import open_database, prepare
+from checker.service.jobs.durable.roll import Roll
+from checker.service.store.store import Store
 from tests.postgres import DATABASES, fresh_database
 
 LAYERS = (Layer("landlock", True, "version 7", hides=True), Layer("account", False, "no root"))

@@ -9,8 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.finding import Severity
-from checker.jobs.outcome import Checked
-from checker.jobs.summary import read_summary, summary
 from checker.report.report import (
     Cause,
     NotChecked,
@@ -18,6 +16,8 @@ from checker.report.report import (
     Report,
     ReportedFinding,
 )
+from checker.service.jobs.outcome import Checked
+from checker.service.jobs.summary import read_summary, summary
 
 FINDING = ReportedFinding("XML001", "odd", Severity.WARNING, "is odd", "f", ())
 PACKAGE = {"name": "a", "folder": "", "verdict": "ready", "errors": 0, "warnings": 1, "infos": 0}

@@ -10,8 +10,8 @@ from threading import Event
 import pytest
 import sqlalchemy as sa
 
-from checker.jobs.durable.database import open_database
-from checker.jobs.durable.together import Together
+from checker.service.jobs.durable.database import open_database
+from checker.service.jobs.durable.together import Together
 from tests.web.server import eventually
 
 NUMBERS = sa.Table("numbers", sa.MetaData(), sa.Column("number", sa.Integer, primary_key=True))

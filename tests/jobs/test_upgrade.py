@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 import sqlalchemy as sa
 
-from checker.jobs.durable.client import durable_jobs
-from checker.jobs.durable.database import open_database, prepare
-from checker.jobs.durable.keys import key_of_check
-from checker.jobs.durable.queues import queues_of
-from checker.jobs.port import Stage
-from checker.store.store import Store
+from checker.service.jobs.durable.client import durable_jobs
+from checker.service.jobs.durable.database import open_database, prepare
+from checker.service.jobs.durable.keys import key_of_check
+from checker.service.jobs.durable.queues import queues_of
+from checker.service.jobs.port import Stage
+from checker.service.store.store import Store
 from tests.jobs.quick_worker import WORDS
 from tests.jobs.site import Site, site_in
 from tests.postgres import DATABASES, dump, fresh_database

@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 
 import pytest
 
-from checker.model.launch.expand import expand_launch
-from checker.model.launch.graph import LaunchGraph
-from checker.model.launch.include import MissingLaunchFile
+from checker.expand.launch.expansion import expand_launch
+from checker.expand.launch.graph import LaunchGraph
+from checker.expand.launch.launch_file import MissingLaunchFile
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
 

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.launch.assumed import assumed_bridges, assumed_nodes
-from checker.model.launch.bridge import PROGRAMS, BridgeKind
-from checker.model.launch.expand import expand_launch
-from checker.model.launch.graph import LaunchGraph, UnresolvedInclude
-from checker.resources import table
+from checker.base.resources import table
+from checker.expand.launch.assumed_files import assumed_bridges, assumed_nodes
+from checker.expand.launch.bridge import PROGRAMS, BridgeKind
+from checker.expand.launch.expansion import expand_launch
+from checker.expand.launch.graph import LaunchGraph, UnresolvedInclude
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument
 from tests.launch.conftest import document

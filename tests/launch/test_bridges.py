@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.launch.bridge import BridgeKind, Direction, SensorTopic
-from checker.model.launch.command import LaunchCommand
-from checker.model.launch.graph import LaunchFaultKind as Kind
+from checker.expand.launch.bridge import BridgeKind, Direction, SensorTopic
+from checker.expand.launch.graph import LaunchFaultKind as Kind
+from checker.expand.launch.launch_file import LaunchCommand
 
 PREFIX = '<arg name="p" value="/world/w/model/X1/link/base/sensor"/>'
 

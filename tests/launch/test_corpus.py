@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.launch.expand import expand_launch
-from checker.model.launch.graph import LaunchFaultKind, LaunchGraph
-from checker.model.launch.include import MissingLaunchFile
-from checker.source.decode import decode
+from checker.expand.launch.expansion import expand_launch
+from checker.expand.launch.graph import LaunchFaultKind, LaunchGraph
+from checker.expand.launch.launch_file import MissingLaunchFile
 from checker.source.text import SourceText
+from checker.source.text_file import decode
 from checker.source.xml import XmlDocument, parse_xml
 from tests.real_packages import CORPUS, named_folder, needs
 

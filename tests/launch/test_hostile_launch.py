@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
-from checker.model.launch.description import robot_descriptions
-from checker.model.launch.expand import MAX_DEPTH
-from checker.model.launch.graph import LaunchFaultKind as Kind
-from checker.model.launch.reading import MAX_STEPS, Reader
+from checker.expand.launch.attributes import MAX_STEPS, Reader
+from checker.expand.launch.expansion import MAX_DEPTH
+from checker.expand.launch.graph import LaunchFaultKind as Kind
+from checker.model.ros.robot_description import robot_descriptions
+from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import Settings
 from checker.source.xml import Element

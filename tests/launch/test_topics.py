@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.launch.bridge import Direction
-from checker.model.launch.topics import (
+from checker.base.resources import table
+from checker.expand.launch.bridge import Direction
+from checker.model.ros.topics import (
     Channel,
     channels,
     comparable,
@@ -17,7 +18,6 @@ from checker.model.launch.topics import (
     suffixes,
 )
 from checker.model.sensing.kind import SensorType
-from checker.resources import table
 from tests.model.robots import sdf
 
 SENSOR = "/world/*/model/*/link/base/sensor/front"

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from checker.mesh.reader import read_mesh
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from checker.physics.mesh.reader import read_mesh
 from tests.effort import examples
 from tests.mesh.files import binary_stl, box, dae, obj, text_stl
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from checker.mesh.reader import read_mesh
 from checker.model.mesh import Mesh
+from checker.physics.mesh.reader import read_mesh
 
 
 def test_every_mesh_of_the_corpus_reads(corpus: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from checker.mesh.materials import textures_in
+from checker.physics.mesh.obj import textures_in
 
 
 @pytest.mark.parametrize(

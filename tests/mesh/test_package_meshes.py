@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
-from checker.cache import NO_CACHE, Cache
-from checker.confined import Child, Died
-from checker.display.early import EarlyChildren
-from checker.mesh import package_meshes
-from checker.mesh.early import early_child
-from checker.mesh.uris import MeshFile
+from checker.base.cache import NO_CACHE, Cache
+from checker.base.child_process import Child, Died
+from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
-from checker.package.opening import open_input
-from checker.subject import Subject
+from checker.package.inputs import open_input
+from checker.physics.mesh import package_meshes
+from checker.physics.mesh.early import early_child
+from checker.physics.mesh.uris import MeshFile
+from checker.report.scene.early import EarlyChildren
 from tests.examples import NAME, write_example
 from tests.mesh.files import binary_stl, box, dae, obj
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from checker.migrate import migrating
+from checker.migrate import migration
 from checker.migrate.thumbnails import Thumbnails
 
 MANIFEST = """<package format="2"><name>rover_description</name><version>1.0.0</version>
@@ -36,7 +36,7 @@ def write(tmp_path: Path) -> Write:
 @pytest.fixture
 def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draw nothing: for tests that look at other files."""
-    monkeypatch.setattr(migrating, "thumbnails_of", lambda *_: Thumbnails(trouble="not drawn"))
+    monkeypatch.setattr(migration, "thumbnails_of", lambda *_: Thumbnails(trouble="not drawn"))
 
 
 def speed_ratio(trial: Mapping[str, Any]) -> float:

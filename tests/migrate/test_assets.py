@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.migrate.migrating import migrate
-from checker.migrate.wishes import Wishes
+from checker.migrate.migration import migrate
+from checker.migrate.options import Wishes
 from tests.migrate.conftest import Write, body, urdf
 
 ACME = Wishes(organization="acme")

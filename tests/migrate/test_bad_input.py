@@ -14,10 +14,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.errors import UnreadableInput
-from checker.migrate.destination import staged
-from checker.migrate.migrating import migrate
-from checker.migrate.wishes import NotMigrated, Wishes
+from checker.base.errors import UnreadableInput
+from checker.migrate.migration import migrate
+from checker.migrate.new_package import staged
+from checker.migrate.options import NotMigrated, Wishes
 from tests.conftest import SAMPLES
 from tests.migrate.conftest import FOUR, MANIFEST, Write, body, urdf
 

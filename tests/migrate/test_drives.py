@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
 from checker.finding import Severity
-from checker.migrate.migrating import Migrated, migrate
-from checker.migrate.wishes import NotMigrated, Wishes
+from checker.migrate.migration import Migrated, migrate
+from checker.migrate.options import NotMigrated, Wishes
+from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import Settings
 from tests.migrate.conftest import FOUR, Write, body, knuckle, speed_ratio, wheel

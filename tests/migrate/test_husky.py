@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
 from checker.finding import Severity
-from checker.migrate.migrating import Migrated, migrate
-from checker.migrate.wishes import Wishes
+from checker.migrate.migration import Migrated, migrate
+from checker.migrate.options import Wishes
+from checker.pipeline import check_package
 from checker.report.report import PackageReport, VerdictKind
 from checker.settings import Settings
 from tests.conftest import SAMPLES

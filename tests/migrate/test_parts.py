@@ -10,15 +10,14 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from checker.convert.conversion import Conversion, Lumped
-from checker.migrate.angles import TOLERANCE, sharpen_angles
-from checker.migrate.base_link import call_base_link
 from checker.migrate.bridges import sensor_bridges
+from checker.migrate.names import call_base_link, check_names
+from checker.migrate.options import NotMigrated
 from checker.migrate.plugins import judge_plugins
-from checker.migrate.safe_names import check_names
 from checker.migrate.sensors import rewrite_sensors
-from checker.migrate.wishes import NotMigrated
+from checker.migrate.xml_parts import TOLERANCE, sharpen_angles
+from checker.model.geometry.transform import Transform
 from checker.model.sdf.reader import read_sdf
-from checker.model.transform import Transform
 from tests.convert.trees import converted
 from tests.model.robots import document
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.model.sdf.reader import read_sdf
-from checker.model.transform import Transform
 from checker.model.urdf.reader import read_urdf
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml

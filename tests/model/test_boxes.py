@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.boxes import Box
+from checker.model.geometry.boxes import Box
 from checker.model.mesh import Mesh
 from checker.source.text import Located
 from tests.model.robots import as_matrix, sdf

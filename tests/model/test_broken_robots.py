@@ -11,13 +11,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.discovery import all_rules
-from checker.engine import run_rules
-from checker.package.opening import open_input
-from checker.profiles import profile
+from checker.engine.run import run_rules
+from checker.engine.subject import Subject
+from checker.package.inputs import open_input
 from checker.report.report import Cause
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.profiles import profile
 from checker.settings import Settings
-from checker.subject import Subject
 from tests.effort import examples
 from tests.examples import NAME, write_example
 

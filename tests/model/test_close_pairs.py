@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.boxes import Box
-from checker.model.close_pairs import TooManyPairs, close_pairs, clusters
+from checker.model.geometry.boxes import Box, TooManyPairs, close_pairs, clusters
 
 CORNER = st.tuples(*[st.floats(-3, 3)] * 3)
 SIZE = st.tuples(*[st.floats(0, 2)] * 3)

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from checker.model.robot import Robot
-from checker.model.schema import walk
 from checker.model.sdf.reader import read_sdf
-from checker.source.decode import decode
+from checker.model.sdf.schema import walk
+from checker.source.text_file import decode
 from tests.model.robots import document, messages
 
 # package, links, joints, sensors, kilograms

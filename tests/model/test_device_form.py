@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.device_form import expression, problem_of_device, problem_of_match
-from checker.resources import table
+from checker.base.resources import table
+from checker.model.devices.form import expression, problem_of_device, problem_of_match
 from tests.effort import limited
 
 DEVICE: dict[str, Any] = {

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.known_devices import known_devices
+from checker.model.devices.known import known_devices
 from tests.model.test_device_form import DEVICE
 
 KNOWN = known_devices()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from checker.model.drive import is_legged
+from checker.model.locomotion.drive import is_legged
 from tests.model.robots import sdf
 
 

@@ -9,8 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.lift import controlled_motions, thrust_to_weight, yaw_imbalance
-from checker.model.locomotion import Rotor
+from checker.model.locomotion.locomotion import Rotor
+from checker.model.locomotion.rotors import (
+    controlled_motions,
+    thrust_to_weight,
+    yaw_imbalance,
+)
 from tests.model.robots import sdf
 
 QUADROTOR = [(1.0, -1.0, "ccw"), (-1.0, 1.0, "ccw"), (1.0, 1.0, "cw"), (-1.0, -1.0, "cw")]

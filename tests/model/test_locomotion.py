@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from checker.model.locomotion import DriveKind, Side, Wheel
+from checker.model.locomotion.locomotion import DriveKind, Side, Wheel
 from checker.model.robot import Robot
 from tests.model.robots import sdf, urdf
 

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.overlap import face_directions, overlap_depth
-from checker.model.placed import Placed, placed
+from checker.model.geometry.convex import face_directions, overlap_depth
+from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
-from checker.model.transform import Transform, Vector
 from tests.model.robots import sdf
 
 LENGTH = st.floats(0.05, 2.0)

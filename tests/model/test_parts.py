@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from checker.model.drive import drive_name
+from checker.model.locomotion.drive import drive_name
 from checker.model.robot import Robot
 from tests.model.robots import messages, sdf, urdf
 

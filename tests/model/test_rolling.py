@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from checker.model.interpenetration import interpenetrations
+from checker.model.geometry.interpenetration import interpenetrations
+from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts
+from checker.model.locomotion.wheel_heights import uneven_wheels
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
-from checker.model.rolling import carriers, on_one_axle, rolling_parts
-from checker.model.wheel_level import uneven_wheels
 from checker.source.text import Located
 from tests.model.robots import sdf
 

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.schema import VERSIONS, ElementType, all_tags, sdf_root, walk
-from checker.model.suggestions import Suggestions
+from checker.base.words import Suggestions
+from checker.model.sdf.schema import VERSIONS, ElementType, all_tags, sdf_root, walk
 from tests.model.robots import document
 
 ANYTHING = "<p:q/><anything><at/></anything>"

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from checker.model.faults import FaultKind
 from checker.model.frames import FrameGraph, FrameNode
+from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
-from checker.model.transform import Transform
 from tests.effort import seconds
 from tests.model.robots import assert_pose, document, messages, pose, sdf
 

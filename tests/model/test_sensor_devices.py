@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from checker.model.known_devices import known_devices
-from checker.model.sensor_devices import find_sensor_devices
+from checker.model.devices.known import known_devices
+from checker.model.devices.sensors import find_sensor_devices
 from checker.model.specification.sheet import Specification, read_specification
 from checker.source.text import SourceText
 from tests.model.robots import sdf

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.sensing.called import called_directions
-from checker.model.sensing.mounting import Mounted, mounted_sensors
+from checker.model.sensing.mounting import Mounted, called_directions, mounted_sensors
 from tests.model.robots import sdf
 
 

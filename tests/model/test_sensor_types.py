@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from checker.discovery import all_rules
 from checker.finding import Edit, Severity
-from checker.model.sensing.release import sensor_types
+from checker.model.sensing.kind import sensor_types
 from checker.rule import Context, Finding
+from checker.rulebook.discovery import all_rules
 from tests.model.robots import sdf
 
 RULES = {rule.id: rule for rule in all_rules()}

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.shapes import Geometry
-from checker.model.support import extent, support
-from checker.model.transform import Transform, Vector
+from checker.model.geometry.convex import extent, support
+from checker.model.geometry.shapes import Geometry
+from checker.model.geometry.transform import Transform, Vector
 from tests.model.robots import sdf
 
 SHAPES = {

@@ -10,7 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from checker.model.transform import Transform, rotation_from_quaternion, rotation_from_rpy
+from checker.model.geometry.transform import (
+    Transform,
+    rotation_from_quaternion,
+    rotation_from_rpy,
+)
 from tests.model.robots import as_matrix, assert_pose, pose
 
 LENGTHS = st.floats(-10, 10)

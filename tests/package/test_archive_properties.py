@@ -12,8 +12,8 @@ from pathlib import Path
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.errors import UnreadableInput
-from checker.package.archive import unpack_archive
+from checker.base.errors import UnreadableInput
+from checker.package.archives.archive import unpack_archive
 from tests.effort import examples
 
 PART = st.one_of(

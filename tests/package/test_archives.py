@@ -15,10 +15,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.errors import RefusedArchive, UnreadableInput
-from checker.package.archive import unpack_archive
-from checker.package.archive_index import _UNPRINTABLE, ArchiveLimits
-from checker.package.opening import open_input
+from checker.base.errors import RefusedArchive, UnreadableInput
+from checker.package.archives.archive import unpack_archive
+from checker.package.archives.index import _UNPRINTABLE, ArchiveLimits
+from checker.package.inputs import open_input
 from checker.source.text import SourceText
 
 Pack = Callable[[list[tuple[str, bytes]]], Path]

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.errors import UnreadableInput
-from checker.package.changed import changed_packages
+from checker.base.errors import UnreadableInput
+from checker.package.changed_files import changed_packages
 
 Write = Callable[[Mapping[str, str]], Path]
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from checker.base.disk_file import NotReadable
 from checker.package.inheritance import Found, Missing, Part
+from checker.package.inputs import open_input
 from checker.package.kind import PackageKind
-from checker.package.opening import open_input
-from checker.package.reading import NotReadable
 from checker.source.text import SourceText
 
 ALIASES = (

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.base.disk_file import NotReadable, read_bytes
 from checker.package.index import EntryKind, LinkState, normal_path
 from checker.package.package import Package
-from checker.package.reading import NotReadable, read_bytes
 from checker.package.workspace import Workspace
-from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
+from checker.source.xml_positions import XmlFault
 from tests.effort import limited
 
 Write = Callable[[Mapping[str, str]], Path]

@@ -10,8 +10,7 @@ import pytest
 from checker.package.inheritance import Found, Missing, Part
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.package.references import spawner_references
-from checker.package.ruby_comments import blank_comments
+from checker.package.references import blank_comments, spawner_references
 from checker.package.workspace import Workspace
 from checker.source.text import SourceText
 from tests.effort import limited

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.errors import UnreadableInput
+from checker.base.errors import UnreadableInput
+from checker.package.inputs import open_input
 from checker.package.kind import PackageKind
-from checker.package.opening import open_input
 
 Write = Callable[[Mapping[str, str]], Path]
 
@@ -147,8 +147,8 @@ def as_nobody(statement: str, *arguments: Path) -> str:
     """Run a statement as a user without rights and return what it prints."""
     program = (
         "import os, sys\nfrom pathlib import Path\n"
-        "from checker.package.opening import open_input\n"
-        "from checker.errors import UnreadableInput\n"
+        "from checker.package.inputs import open_input\n"
+        "from checker.base.errors import UnreadableInput\n"
         "if os.getuid() == 0: os.setgroups([]); os.setgid(65534); os.setuid(65534)\n" + statement
     )
     return subprocess.run(

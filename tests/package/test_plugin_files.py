@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from checker.package.dependencies import lenders_of, libraries_of
 from checker.package.package import Package
-from checker.package.plugin_files import lenders_of, libraries_of
 from checker.package.workspace import Workspace
 from tests.package.conftest import Write
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from checker.package.dependencies import uses_of
 from checker.package.package import Package
-from checker.package.uses import uses_of
 from checker.package.workspace import Workspace
 
 LAUNCH = """<launch>

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.paperwork import read_model_config, read_package_xml
-from checker.source.decode import decode
+from checker.package.manifests import read_model_config, read_package_xml
 from checker.source.text import SourceText
+from checker.source.text_file import decode
 from checker.source.xml import XmlDocument, parse_xml
 
 

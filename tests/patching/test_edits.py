@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.finding import Edit, Fix, Place, Safety
-from checker.patching.edits import EditedText, Stretch, take
+from checker.fix.rounds import EditedText, Stretch, take
 from checker.source.text import SourceText, Span
 
 TEXTS = st.text(st.sampled_from("ab \n\r\té🤖"), max_size=60)

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
-from checker.discovery import all_rules
 from checker.finding import Severity
+from checker.pipeline import check_package
 from checker.report.report import ReportedFinding
+from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 from tests.physics import ackermann, multicopter, skid_steer, tracked
 from tests.physics.fault import Fault, Swap, put_into

@@ -10,7 +10,7 @@ import jsonschema
 import pytest
 from lxml import etree
 
-from checker.check import check_paths
+from checker.pipeline import check_paths
 from checker.report.report import Report
 from tests.conftest import SAMPLES
 

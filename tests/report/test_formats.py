@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given
 
 from checker import cli
-from checker.output import EXIT_CLEAN, EXIT_FINDINGS
+from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS
+from checker.engine.report_cache import from_stored, to_stored
 from checker.report.formats import FORMATS
-from checker.report.manner import Manner
 from checker.report.palette import Palette
+from checker.report.render_settings import Manner
 from checker.report.report import Report
-from checker.report.stored import from_stored, to_stored
 from checker.report.text_report import SHOWN_LIMIT
 from tests.conftest import SAMPLES
 from tests.report.any_report import REPORTS, many

@@ -16,8 +16,8 @@ from checker.report import from_json
 from checker.report.formats import FORMATS
 from checker.report.from_json import NoReport, report_from_json
 from checker.report.json_report import to_dict, to_json
-from checker.report.manner import Manner
 from checker.report.palette import Palette
+from checker.report.render_settings import Manner
 from checker.report.report import PackageReport, Report, ReportedFinding
 from tests.conftest import SAMPLES
 from tests.report.any_report import REPORTS, many

@@ -9,9 +9,9 @@ import jsonschema
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.check import check_package
 from checker.finding import Edit, Fix, Place, Safety, Severity
 from checker.package.kind import PackageKind
+from checker.pipeline import check_package
 from checker.report.json_report import to_json
 from checker.report.report import (
     Cause,

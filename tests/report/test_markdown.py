@@ -11,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
+from checker.base.words import plain
 from checker.finding import Place, Severity
 from checker.report.markdown import SIZE_LIMIT, to_markdown
-from checker.report.markdown_words import code, escaped, fitting, with_code
+from checker.report.markdown_text import code, escaped, fitting, with_code
 from checker.report.report import (
     Cause,
     NotChecked,
@@ -23,7 +24,6 @@ from checker.report.report import (
     Suppressed,
     SuppressedBy,
 )
-from checker.report.wording import plain
 from tests.report.any_report import REPORTS, TEXT, many
 
 PARSER = MarkdownIt("commonmark", {"html": True}).enable(["table", "strikethrough"])

@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sarif_pydantic import Sarif
 
-from checker.check import check_package
 from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.pipeline import check_package
 from checker.report.report import (
     Cause,
     NotChecked,

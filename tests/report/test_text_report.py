@@ -7,6 +7,7 @@ from dataclasses import replace
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.base.words import count, listed, plain, shortened
 from checker.finding import Place, Severity
 from checker.report.palette import Palette
 from checker.report.report import (
@@ -19,7 +20,6 @@ from checker.report.report import (
     ReportedFinding,
 )
 from checker.report.text_report import to_text
-from checker.report.wording import count, listed, plain, shortened
 
 LINE = "      <resolution>0.1</resolution>"
 PLACE = Place("model.sdf", 141, 19, 141, 22, snippet=LINE)

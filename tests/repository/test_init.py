@@ -12,14 +12,12 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.base.resources import templates
 from checker.cli import PROFILES, main
-from checker.discovery import all_rules
-from checker.options import check_against_rules
-from checker.resources import templates
+from checker.cli.init import HOOKS_FILE, guessed_profile, has_hook, hook_entry, init, with_hook
+from checker.engine.options import check_against_rules
+from checker.rulebook.discovery import all_rules
 from checker.settings import find_settings, parse_settings
-from checker.starting.command import HOOKS_FILE, init
-from checker.starting.guess import guessed_profile
-from checker.starting.hook import has_hook, hook_entry, with_hook
 from tests.conftest import SAMPLES
 from tests.repository.conftest import GOOD, ROOT, git, repository
 

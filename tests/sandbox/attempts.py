@@ -27,7 +27,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from checker.sandbox.system_calls import architecture, number_of
+from checker.base.sandbox.system_calls import architecture, number_of
 
 Assets = dict[str, Any]
 ATTEMPTS: dict[str, Callable[[Assets], object]] = {}

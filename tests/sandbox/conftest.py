@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.sandbox.launcher import OwnLauncher
+from checker.base.sandbox.launcher import OwnLauncher
 from tests.sandbox.assets import Outside, laid_out
 
 HERE = Path(__file__).parent

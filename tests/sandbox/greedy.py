@@ -11,8 +11,8 @@ from contextlib import suppress
 
 from attempts import tried
 
-from checker.sandbox.files import Files
-from checker.sandbox.task import INNER
+from checker.base.sandbox.files import Files
+from checker.base.sandbox.task import INNER
 
 _ORDER = {"module": "os", "seconds": 1, "memory": 1_000_000_000, "works": False, "draws": False}
 

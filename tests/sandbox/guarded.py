@@ -11,15 +11,15 @@ import os
 
 from attempts import tried
 
-from checker.sandbox.files import Files
-from checker.xacro import guard
+from checker.base.sandbox.files import Files
+from checker.expand.xacro import worker
 
 
 def answer(request: bytes, _files: Files) -> bytes:
     """Make attempts, as `hostile` does."""
     asked = json.loads(request)
-    guard.sys.addaudithook = lambda _: None  # type: ignore[assignment]
-    guard.resource.setrlimit = lambda *_: None  # type: ignore[assignment]
+    worker.sys.addaudithook = lambda _: None  # type: ignore[assignment]
+    worker.resource.setrlimit = lambda *_: None  # type: ignore[assignment]
     assets = asked["assets"] | {"launcher": os.getppid(), "place": asked["assets"]["folder"]}
-    said = {name: tried(name, assets, guard.put_up) for name in asked["names"]}
+    said = {name: tried(name, assets, worker.put_up) for name in asked["names"]}
     return json.dumps(said).encode()

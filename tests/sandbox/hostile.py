@@ -11,7 +11,7 @@ from pathlib import Path
 
 from attempts import tried
 
-from checker.sandbox.files import Files
+from checker.base.sandbox.files import Files
 
 
 def answer(request: bytes, _files: Files) -> bytes:

@@ -1,4 +1,4 @@
-"""Stands for `checker.jobs.checking_child` where an upload says what to do: `hostile_checker`.
+"""Stands for `service.jobs.checking_child` where an upload says what to do.
 
 Such an upload holds `HOSTILE`, then JSON with a `deed` and what it needs. All others are checked.
 """
@@ -15,9 +15,9 @@ from typing import Any, NoReturn
 
 from attempts import ATTEMPTS, tried
 
-from checker.jobs import checking_child
-from checker.sandbox.files import Files
-from checker.sandbox.task import Answer
+from checker.base.sandbox.files import Files
+from checker.base.sandbox.task import Answer
+from checker.service.jobs import checking_child
 
 _SAID = re.compile(rb"HOSTILE(.*)HOSTILE", re.DOTALL)
 _PACKAGE = {

@@ -5,11 +5,11 @@ The rest is in the environment, as for `subt-check worker`.
 
 from __future__ import annotations
 
-from checker.jobs import children
-from checker.jobs.durable.worker import WorkerOptions, work
-from checker.jobs.place import database_url
-from checker.store.place import data_folder
-from checker.store.store import Store
+from checker.service.jobs import children
+from checker.service.jobs.durable.worker import WorkerOptions, work
+from checker.service.jobs.place import database_url
+from checker.service.store.place import data_folder
+from checker.service.store.store import Store
 
 
 def main() -> None:

@@ -16,8 +16,8 @@ from pathlib import Path
 import httpx
 import pytest
 
-from checker.sandbox import layers
-from checker.sandbox.launcher import OwnLauncher
+from checker.base.sandbox import layers
+from checker.base.sandbox.launcher import OwnLauncher
 from tests.sandbox.assets import Outside
 from tests.serving.conftest import (
     SECONDS,

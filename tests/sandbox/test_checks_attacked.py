@@ -14,14 +14,14 @@ from typing import Any
 
 import pytest
 
-from checker.jobs import children
-from checker.jobs.checking import check_upload
-from checker.jobs.children import Children
-from checker.jobs.outcome import Checked, Died, Outcome
-from checker.jobs.port import Order, Stage
-from checker.sandbox import layers, namespaces
-from checker.sandbox.launcher import OwnLauncher
-from checker.store.store import SUMMARY, Store
+from checker.base.sandbox import layers, namespaces
+from checker.base.sandbox.launcher import OwnLauncher
+from checker.service.jobs import children
+from checker.service.jobs.checking import check_upload
+from checker.service.jobs.children import Children
+from checker.service.jobs.outcome import Checked, Died, Outcome
+from checker.service.jobs.port import Order, Stage
+from checker.service.store.store import SUMMARY, Store
 from tests.sandbox.assets import SECRET, Outside
 from tests.sandbox.test_layers import MATRIX, ONLY_FOR_ROOT, claimed
 

@@ -9,9 +9,9 @@ from time import monotonic
 
 import pytest
 
-from checker.confined import Child, Limits
-from checker.sandbox import launcher, layers, namespaces
-from checker.sandbox.launcher import OwnLauncher
+from checker.base.child_process import Child, Limits
+from checker.base.sandbox import launcher, layers, namespaces
+from checker.base.sandbox.launcher import OwnLauncher
 from tests.sandbox.assets import Outside
 from tests.sandbox.attempts import ATTEMPTS
 from tests.sandbox.test_layers import need

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.confined import Child, Limits
-from checker.sandbox import layers, namespaces
-from checker.sandbox.launcher import OwnLauncher
+from checker.base.child_process import Child, Limits
+from checker.base.sandbox import layers, namespaces
+from checker.base.sandbox.launcher import OwnLauncher
 from tests.sandbox.assets import Outside
 from tests.sandbox.attempts import ATTEMPTS
 from tests.web.server import eventually

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from checker.confined import Child, Limits
-from checker.jobs import sandbox
-from checker.jobs.sandbox import layers_of_checks
-from checker.sandbox import layers, namespaces
-from checker.sandbox.launcher import OwnLauncher
-from checker.sandbox.program_files import program_paths
-from checker.store.store import Store
+from checker.base.child_process import Child, Limits
+from checker.base.sandbox import layers, namespaces
+from checker.base.sandbox.launcher import OwnLauncher
+from checker.base.sandbox.program_files import program_paths
+from checker.service.jobs import sandbox
+from checker.service.jobs.sandbox import layers_of_checks
+from checker.service.store.store import Store
 
 ECHO = "def answer(request, files):\n    return request\n"
 
@@ -58,8 +58,8 @@ def test_an_environment_that_is_reached_by_a_link(tmp_path: Path) -> None:
     (tmp_path / "release" / "lib" / "echoes.py").write_text(ECHO)
     (tmp_path / "current").symlink_to("release")
     script = (
-        "from checker.confined import Child, Limits\n"
-        "from checker.sandbox.launcher import OwnLauncher\n"
+        "from checker.base.child_process import Child, Limits\n"
+        "from checker.base.sandbox.launcher import OwnLauncher\n"
         "print(Child('echoes', b'yes', Limits(5), starter=OwnLauncher()).answer())\n"
     )
     folders = (f"{tmp_path}/current", f"{tmp_path}/current/lib", str(Path(__file__).parents[2]))

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from checker.check import check_package
 from checker.finding import Severity
+from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import Settings
 from tests.examples import write_example

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
 from checker.finding import Severity
+from checker.pipeline import check_package
 from checker.report.report import PackageReport, VerdictKind
 from checker.settings import Settings
 

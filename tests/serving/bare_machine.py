@@ -10,8 +10,8 @@ import platform
 import sys
 
 from checker import cli
-from checker.sandbox import seccomp
-from checker.sandbox.system_calls import architecture, number_of
+from checker.base.sandbox import seccomp
+from checker.base.sandbox.system_calls import architecture, number_of
 
 _CREATE_RULESET = 444
 _SETGROUPS = {"x86_64": 116, "aarch64": 159}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from checker import cli
-from checker.serving import command
+from checker.service.processes import command
 
 
 @pytest.mark.parametrize("words", [["serve"], ["serve", "--workers", "0"], ["worker"]])

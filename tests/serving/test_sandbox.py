@@ -9,11 +9,19 @@ from pathlib import Path
 
 import pytest
 
-from checker.errors import CheckerError
-from checker.jobs.sandbox import layers_of_checks
-from checker.sandbox.layers import ACCOUNT, ALL, LANDLOCK, NAMESPACES, SECCOMP, Layer, hides_files
-from checker.serving.exposure import risk_of
-from checker.store.store import Store
+from checker.base.errors import CheckerError
+from checker.base.sandbox.layers import (
+    ACCOUNT,
+    ALL,
+    LANDLOCK,
+    NAMESPACES,
+    SECCOMP,
+    Layer,
+    hides_files,
+)
+from checker.service.jobs.sandbox import layers_of_checks
+from checker.service.processes.exposure import risk_of
+from checker.service.store.store import Store
 from tests.serving.conftest import Serve, wait_for
 from tests.serving.test_serve import get, refused
 

@@ -14,9 +14,9 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from checker.submitting.connection import Connection
-from checker.submitting.form import Form
-from checker.submitting.server import parse_server
+from checker.service.client.connection import Connection
+from checker.service.client.form import Form
+from checker.service.client.server import parse_server
 from tests.conftest import SAMPLES
 from tests.serving.conftest import SECONDS, Serve, Serving, command_of, environment_of, wait_for
 

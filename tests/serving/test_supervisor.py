@@ -10,7 +10,7 @@ import time
 from itertools import pairwise
 from pathlib import Path
 
-from checker.serving.supervisor import Pace, Process, keep_running, stop_all
+from checker.service.processes.supervisor import Pace, Process, keep_running, stop_all
 from tests.serving.conftest import wait_for
 
 QUICK = Pace(first_wait=0.3, longest_wait=1.0, grace=1.0)

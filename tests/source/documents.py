@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
+from checker.source.xml_positions import XmlFault
 
 
 def document(text: str) -> XmlDocument:

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.source.fragments import parse_fragments
-from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
+from checker.source.xml_fragments import parse_fragments
+from checker.source.xml_positions import XmlFault
 from tests.source.documents import document, fault
 
 # text, place (line:column), what the message or the hint says

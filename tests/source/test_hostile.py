@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import pytest
 
-from checker.source.positions import XmlFault
 from checker.source.text import SourceText
 from checker.source.xml import MAX_DEPTH, XmlDocument, parse_xml
+from checker.source.xml_positions import XmlFault
 from tests.effort import seconds
 from tests.source.documents import document, fault
 

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.finding import Edit
-from checker.source.insertion import append_to, insert_into, removal
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument, parse_xml
+from checker.source.xml_insertion import append_to, insert_into, removal
 
 NEW = ["<new>", "  <inner>1</inner>", "</new>"]
 

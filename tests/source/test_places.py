@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from checker.finding import Place
-from checker.source.decode import NotText, decode
-from checker.source.fragments import parse_fragments
 from checker.source.text import SourceText
+from checker.source.text_file import NotText, decode
 from checker.source.xml import XmlDocument
+from checker.source.xml_fragments import parse_fragments
 from tests.source.documents import document
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.source.decode import decode
-from checker.source.fragments import parse_fragments, unwrapped
 from checker.source.text import SourceText, Span
+from checker.source.text_file import decode
 from checker.source.xml import Element, XmlDocument
+from checker.source.xml_fragments import parse_fragments, unwrapped
 from tests.effort import examples
 from tests.source.documents import document
 from tests.source.trees import Page, Written, pages

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from checker.expand.spawner.reader import Spawner, read_spawner
 from checker.source.text import SourceText
-from checker.spawner.reader import Spawner, read_spawner
 from tests.real_packages import CORPUS, named_folder, needed_folder
 
 

@@ -6,7 +6,11 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from checker.spawner.reader import EXECUTABLES_ARGUMENTS, SPAWNER_ARGUMENTS, Unread
+from checker.expand.spawner.reader import (
+    EXECUTABLES_ARGUMENTS,
+    SPAWNER_ARGUMENTS,
+    Unread,
+)
 from tests.effort import examples
 
 from .snippets import SNIPPETS

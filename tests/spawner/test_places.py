@@ -2,9 +2,9 @@
 
 import pytest
 
+from checker.expand.spawner.reader import Unread
 from checker.source.text import Span
 from checker.source.xml import XmlDocument, parse_xml
-from checker.spawner.reader import Unread
 
 ESCAPES = {"\n": "\\n", '"': '\\"', "\t": "\\t"}
 

@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 
+from checker.expand.spawner.syntax import syntax_faults
 from checker.source.ruby import parse_ruby
 from checker.source.text import SourceText
-from checker.spawner.syntax import syntax_faults
 
 CERTAIN = {
     "def f\n  <<~XML\n    a\nend\n": (2, "<<~XML"),

@@ -9,8 +9,8 @@ import pytest
 
 from checker.model.specification.motion import MotionQuantity as Motion
 from checker.model.specification.sheet import Specification, read_specification
-from checker.source.decode import decode
 from checker.source.text import SourceText
+from checker.source.text_file import decode
 
 # Mass in kg, endurance in s, greatest speed along x in m/s and about z in rad/s.
 NUMBERS = {

@@ -10,7 +10,7 @@ from time import sleep
 import pytest
 from blake3 import blake3
 
-from checker.store.store import Store
+from checker.service.store.store import Store
 
 UPLOADS = """
 import os, sys

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.store.naming import SUFFIXES, UnknownKind, safe_name
+from checker.service.store.naming import SUFFIXES, UnknownKind, safe_name
 
 HOSTILE = st.text(max_size=300) | st.sampled_from(["../" * 9, "C:\\", "\0", "\u202e", "…", "💥"])
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.errors import CheckerError
-from checker.store.place import data_folder
+from checker.base.errors import CheckerError
+from checker.service.store.place import data_folder
 
 
 def test_the_folder_that_the_environment_names(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from blake3 import blake3
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.store.store import SUMMARY, Store, TooLarge
+from checker.service.store.store import SUMMARY, Store, TooLarge
 
 KEY = "ab" * 32
 OTHER = "cd" * 32
@@ -172,7 +172,7 @@ def test_what_no_result_holds_is_refused(store: Store) -> None:
 def test_a_result_that_is_too_large_is_refused(
     store: Store, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("checker.store.store.RESULT_LIMIT", 10)
+    monkeypatch.setattr("checker.service.store.store.RESULT_LIMIT", 10)
     made(store, {"report.json": "x" * 10})
     with pytest.raises(ValueError, match="no more than"):
         made(store, {"report.json": "x" * 6, "report.html": "x" * 5}, key=OTHER)

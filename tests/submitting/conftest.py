@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from checker.report.json_report import to_json
-from checker.submitting.connection import Patience
+from checker.service.client.connection import Patience
 from tests.command.conftest import clean_environment
 from tests.report.any_report import many
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.errors import CheckerError
-from checker.submitting.connection import Answer, Connection, Patience
-from checker.submitting.form import Form
-from checker.submitting.server import parse_server
+from checker.base.errors import CheckerError
+from checker.service.client.connection import Answer, Connection, Patience
+from checker.service.client.form import Form
+from checker.service.client.server import parse_server
 from tests.submitting.conftest import QUICK, Asked, Service, StartService, answer, in_turn
 
 

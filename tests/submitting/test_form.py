@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.submitting.form import Form
+from checker.service.client.form import Form
 
 HOSTILE = ('a"; filename="b', "x\r\nContent-Type: text/html\r\n\r\n", "--", "ü\u202e.zip", "\ud800")
 TEXT = st.sampled_from(HOSTILE) | st.text(st.characters(exclude_categories=()), max_size=20)

@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.errors import UnreadableInput
-from checker.package.archive import unpack_archive
-from checker.package.archive_index import ArchiveLimits
-from checker.submitting.packing import pack
+from checker.base.errors import UnreadableInput
+from checker.package.archives.archive import unpack_archive
+from checker.package.archives.index import ArchiveLimits
+from checker.service.client.packing import pack
 from tests.conftest import SAMPLES
 
 BROKEN = SAMPLES / "broken_rover_sensor_config_1"

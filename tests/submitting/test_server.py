@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.errors import CheckerError
-from checker.submitting.server import Server, parse_server
+from checker.base.errors import CheckerError
+from checker.service.client.server import Server, parse_server
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_paths
 from checker.finding import Severity
+from checker.pipeline import check_paths
 from checker.report.json_report import to_json
 from checker.report.report import Report
 from tests.command.conftest import BROKEN, GOOD, clean_environment

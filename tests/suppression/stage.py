@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from checker.check import check_package
+from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import find_settings
 from tests.examples import write_example

@@ -9,19 +9,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.errors import InvalidSettings
+from checker.base.errors import InvalidSettings
+from checker.cli.baseline import baseline_to_renew
 from checker.finding import Severity
 from checker.report.report import IN_BASELINE
-from checker.settings import parse_settings
-from checker.suppression.baseline import (
+from checker.rulebook.suppression.baseline import (
     ENTRIES_LIMIT,
     SIZE_LIMIT,
     BaselineEntry,
     baseline_text,
     read_baseline,
 )
-from checker.suppression.entries import REASON_LIMIT
-from checker.suppression.writing import baseline_to_renew
+from checker.rulebook.suppression.entries import REASON_LIMIT
+from checker.settings import parse_settings
 from tests.examples import NAME, write_example
 from tests.suppression.stage import axle, checked_again, found, set_aside
 

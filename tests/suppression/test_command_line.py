@@ -11,7 +11,7 @@ import pytest
 from checker.cli import main
 from checker.finding import Place, Severity
 from checker.report.report import IN_BASELINE, ReportedFinding, Suppressed, SuppressedBy
-from checker.report.suppressed_text import suppressed_text
+from checker.report.text_report import suppressed_text
 from tests.examples import NAME, write_example
 from tests.suppression.stage import TYRE, axle, ignore
 

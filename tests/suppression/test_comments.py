@@ -8,15 +8,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.source.text import SourceText
-from checker.suppression.comments import (
+from checker.rulebook.suppression.comments import (
     COMMENTS_LIMIT,
     NAMES_LIMIT,
     TEXT_SUFFIXES,
     Comment,
     comments_of,
 )
-from checker.suppression.entries import REASON_LIMIT
+from checker.rulebook.suppression.entries import REASON_LIMIT
+from checker.source.text import SourceText
 
 
 def comments(text: str, file: str = "model.sdf") -> tuple[Comment, ...]:

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.check import check_package
-from checker.fingerprint import numbered
+from checker.finding import numbered
+from checker.pipeline import check_package
 from checker.settings import Settings
 from tests.conftest import SAMPLES
 from tests.suppression.stage import axle, checked

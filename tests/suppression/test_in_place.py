@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from checker.discovery import all_rules
 from checker.rule import Rule
+from checker.rulebook.discovery import all_rules
 from tests.examples import MINIMAL, NAME, SPAWNER, model_with, write_example
 from tests.suppression.stage import (
     REASON,

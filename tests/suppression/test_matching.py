@@ -9,9 +9,15 @@ from hypothesis import strategies as st
 
 from checker.finding import Place, Severity
 from checker.report.report import ReportedFinding
-from checker.suppression.baseline import BaselineEntry
-from checker.suppression.matching import Held, Matched, matched
-from checker.suppression.spots import NAME_LIMIT, Spot, place_name, spot, spots_of
+from checker.rulebook.suppression.baseline import BaselineEntry
+from checker.rulebook.suppression.baseline_match import Held, Matched, matched
+from checker.rulebook.suppression.spots import (
+    NAME_LIMIT,
+    Spot,
+    place_name,
+    spot,
+    spots_of,
+)
 
 ERROR, WARNING, INFO = Severity
 

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
-from checker.discovery import all_rules
-from checker.errors import InvalidSettings
+from checker.base.errors import InvalidSettings
+from checker.engine.options import check_against_rules
 from checker.finding import Place
-from checker.options import check_against_rules
+from checker.pipeline import check_package
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.suppression.entries import SettingsEntry
 from checker.settings import find_settings, parse_settings
-from checker.suppression.entries import SettingsEntry
 from tests.examples import NAME, write_example
 from tests.suppression.stage import REASON, axle, checked, checked_again, found, set_aside
 

@@ -18,9 +18,9 @@ import httpx
 import pytest
 import sqlalchemy as sa
 
-from checker.jobs.durable.database import open_database
-from checker.jobs.durable.tables import CHECKS
-from checker.sandbox.task import end_with_parent
+from checker.base.sandbox.task import end_with_parent
+from checker.service.jobs.durable.database import open_database
+from checker.service.jobs.durable.tables import CHECKS
 from tests.postgres import DATABASES, fresh_database
 from tests.serving.conftest import (
     SECONDS,

@@ -12,15 +12,15 @@ from functools import partial
 from pathlib import Path
 from time import sleep
 
-from checker.jobs.checking import result_key
-from checker.jobs.children import Children
-from checker.jobs.durable import stages
-from checker.jobs.durable.worker import WorkerOptions, work
-from checker.jobs.outcome import Checked, Outcome
-from checker.jobs.place import database_url
-from checker.jobs.port import Order, Stage
-from checker.store.place import data_folder
-from checker.store.store import Store
+from checker.service.jobs.checking import result_key
+from checker.service.jobs.children import Children
+from checker.service.jobs.durable import stages
+from checker.service.jobs.durable.worker import WorkerOptions, work
+from checker.service.jobs.outcome import Checked, Outcome
+from checker.service.jobs.place import database_url
+from checker.service.jobs.port import Order, Stage
+from checker.service.store.place import data_folder
+from checker.service.store.store import Store
 from tests.jobs.quick_worker import PACKAGE, WORDS, keep
 
 SECONDS = {Stage.STATIC: 0.3, Stage.TRIAL: 0.8}

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from checker.model.locomotion import DriveKind
+from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
+from checker.physics.trial.measures.figures import MEASURES
+from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.trial import Leg, Measurement, Trial
 from checker.rule import Finding, Rule
-from checker.trial.measures import MEASURES
-from checker.trial.robot_trial import RobotTrial
-from checker.trial.trial import Leg, Measurement, Trial
 from tests.model.robots import sdf
 
 LEGS = (

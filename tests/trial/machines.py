@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from checker.model.robot import Robot
-from checker.trial.drivers.planning import plan_of
-from checker.trial.scene import build_scene
-from checker.trial.trial import Trial
-from checker.trial.worker import driven
+from checker.physics.trial.drivers.plans import plan_of
+from checker.physics.trial.mjcf.scene import build_scene
+from checker.physics.trial.trial import Trial
+from checker.physics.trial.worker import driven
 from tests.model.robots import sdf
 
 STEP = 0.002

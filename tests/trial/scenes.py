@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from checker.model.robot import Robot
-from checker.trial.scene import Scene, build_scene
+from checker.physics.trial.mjcf.scene import Scene, build_scene
 from tests.model.robots import sdf
 
 INERTIAL = "<inertial><mass>2</mass></inertial>"

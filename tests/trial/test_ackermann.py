@@ -7,8 +7,8 @@ import math
 import pytest
 
 from checker.model.robot import Robot
-from checker.trial.drivers.planning import plan_of
-from checker.trial.profile import value_at
+from checker.physics.trial.drivers.plans import plan_of
+from checker.physics.trial.profile import value_at
 from tests.model.robots import sdf
 from tests.trial.machines import (
     box_inertia,

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
+from checker.engine.subject import Subject
 from checker.model.robot import Robot
-from checker.package.opening import open_input
-from checker.subject import Subject
+from checker.package.inputs import open_input
 from tests.effort import examples
 from tests.model.robots import sdf
 from tests.trial.weighing import Scales

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from checker.trial.contacts import ContactQuery, overlaps
-from checker.trial.trial import Measurement
+from checker.physics.trial.simulation.contacts import ContactQuery, overlaps
+from checker.physics.trial.trial import Measurement
 from tests.trial.scenes import box, collision, joint, link, scene_of
 
 CUBE = collision(box(1, 1, 1))
@@ -120,7 +120,7 @@ def test_many_parts_are_looked_at_within_bounds() -> None:
 
 
 def test_what_is_too_much_to_move_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.trial.contacts._EFFORT", 8)
+    monkeypatch.setattr("checker.physics.trial.simulation.contacts._EFFORT", 8)
     arms = "".join(link(f"arm{n}", CUBE, f"{3 * n} 0 3 0 0 0") + joint(f"arm{n}") for n in range(3))
     figures = overlaps(scene_of(link("a", CUBE) + arms))
     assert [each.value for each in figures if each.name == "unswept_joints"] == [3.0]

@@ -8,10 +8,10 @@ import math
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.trial.course import driving_legs, gentle_speed, linear_command
-from checker.trial.drivers.planning import plan_of
-from checker.trial.plan import Plan
-from checker.trial.profile import Limits, mixed, value_at
+from checker.physics.trial.course import driving_legs, gentle_speed, linear_command
+from checker.physics.trial.drivers.plans import plan_of
+from checker.physics.trial.plan import Plan
+from checker.physics.trial.profile import Limits, mixed, value_at
 from tests.trial.machines import four_wheels, tracks
 
 limits = st.builds(

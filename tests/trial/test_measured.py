@@ -8,13 +8,13 @@ from typing import Any
 
 import jsonschema
 
-from checker.discovery import all_rules
-from checker.engine import run_rules
-from checker.measured import measured
-from checker.profiles import profile
+from checker.engine.facts import measured
+from checker.engine.run import run_rules
+from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.trial import Measurement, Trial
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.profiles import profile
 from checker.settings import Settings
-from checker.trial.robot_trial import RobotTrial
-from checker.trial.trial import Measurement, Trial
 from tests.test_samples import SCHEMA
 from tests.trial.driven import rover, trial_of
 

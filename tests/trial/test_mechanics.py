@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from checker.trial.trial import Trial
+from checker.physics.trial.trial import Trial
 from tests.trial.machines import four_wheels, sound, tracks, trial_of, value
 
 GRAVITY = 9.81

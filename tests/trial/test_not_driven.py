@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.check import check_package
-from checker.package.opening import open_input
+from checker.engine.subject import Subject
+from checker.package.inputs import open_input
+from checker.physics.trial.drivers.plans import plan_of
+from checker.pipeline import check_package
 from checker.report.report import PackageReport, VerdictKind
 from checker.settings import Settings
-from checker.subject import Subject
-from checker.trial.drivers.planning import plan_of
 from tests.conftest import SAMPLES
 
 SPAWNER = "launch/spawner.rb"

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.cache import NO_CACHE
+from checker.base.cache import NO_CACHE
 from checker.model.robot import Robot
-from checker.trial.carriers import TRACKED, carriers_of
-from checker.trial.running import start_trial
-from checker.trial.scene import build_scene
-from checker.trial.trial import Replay, Trial
+from checker.physics.trial.mjcf.carriers import TRACKED, carriers_of
+from checker.physics.trial.mjcf.scene import build_scene
+from checker.physics.trial.run import start_trial
+from checker.physics.trial.trial import Replay, Trial
 from tests.model.robots import sdf
 from tests.trial.machines import four_wheels
 from tests.trial.scenes import joint, link

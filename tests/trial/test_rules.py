@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from checker.discovery import all_rules
+from checker.physics.trial.measures.figures import MEASURES
+from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
+from checker.physics.trial.trial import Leg, Measurement, Repair
 from checker.rule import Severity, Unchecked
-from checker.trial.measures import MEASURES
-from checker.trial.robot_trial import RepeatedTrial, RobotTrial
-from checker.trial.trial import Leg, Measurement, Repair
+from checker.rulebook.discovery import all_rules
 from tests.model.robots import sdf
 from tests.trial.driven import rover, said_by, trial_of
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.cache import NO_CACHE, Cache
+from checker.base.cache import NO_CACHE, Cache
 from checker.model.robot import Robot
-from checker.trial.running import start_trial
-from checker.trial.trial import Trial
+from checker.physics.trial.run import start_trial
+from checker.physics.trial.trial import Trial
 from tests.model.robots import sdf
 from tests.trial.machines import chassis, four_wheels, wheel
 

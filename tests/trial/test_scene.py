@@ -10,11 +10,11 @@ import mujoco
 import numpy as np
 import pytest
 
+from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
-from checker.package.opening import open_input
+from checker.package.inputs import open_input
+from checker.physics.trial.mjcf.scene import GROUND, Scene, build_scene
 from checker.source.text import Located
-from checker.subject import Subject
-from checker.trial.scene import GROUND, Scene, build_scene
 from tests.model.robots import sdf, urdf
 from tests.trial.scenes import (
     BALL,

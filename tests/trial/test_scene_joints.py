@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from checker.trial.scene import Scene, build_scene
+from checker.physics.trial.mjcf.scene import Scene, build_scene
 from tests.model.robots import sdf, urdf
 from tests.trial.scenes import INERTIAL, compiled, joint, link, scene_of
 

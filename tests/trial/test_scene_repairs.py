@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.trial.scene import Scene, build_scene
-from checker.trial.trial import Repair
+from checker.physics.trial.mjcf.scene import Scene, build_scene
+from checker.physics.trial.trial import Repair
 from tests.effort import examples
 from tests.model.robots import sdf, urdf
 from tests.trial.scenes import BALL, box, collision, compiled, joint, link, scene_of

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.cache import NO_CACHE
-from checker.package.opening import open_input
-from checker.subject import Subject
-from checker.trial.running import start_trial
-from checker.trial.trial import Trial
+from checker.base.cache import NO_CACHE
+from checker.engine.subject import Subject
+from checker.package.inputs import open_input
+from checker.physics.trial.run import start_trial
+from checker.physics.trial.trial import Trial
 from tests.trial.machines import value
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from checker.cache import NO_CACHE
-from checker.trial.running import start_trial
-from checker.trial.trial import Trial
+from checker.base.cache import NO_CACHE
+from checker.physics.trial.run import start_trial
+from checker.physics.trial.trial import Trial
 from tests.model.robots import sdf
 from tests.trial.machines import (
     LEFT,

@@ -9,9 +9,9 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from checker.dynamics.pin_model import PinModel, pin_model
 from checker.model.robot import Robot
-from checker.trial.scene import Scene, build_scene
+from checker.physics.mass.pinocchio_model import PinModel, pin_model
+from checker.physics.trial.mjcf.scene import Scene, build_scene
 
 Matrix = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.package.opening import open_input
-from checker.subject import Subject
+from checker.engine.subject import Subject
+from checker.package.inputs import open_input
 
 HEAD = '<robot name="acme" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 NAME = "acme_description"

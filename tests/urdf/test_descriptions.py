@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from checker.cache import NO_CACHE
-from checker.judging import judged
+from checker.base.cache import NO_CACHE
+from checker.base.progress import say_nothing
+from checker.engine.review import judged
 from checker.model.urdf.lumping import Lumping
-from checker.package.opening import open_input
-from checker.saying import say_nothing
+from checker.package.inputs import open_input
 from checker.settings import Settings
 from tests.urdf.conftest import NAME, Describe, robot
 

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.cache import Cache
-from checker.model.urdf.files import UrdfFiles, XacroFaultKind
-from checker.parts import NotAtHand
-from checker.subject import Subject
+from checker.base.cache import Cache
+from checker.base.errors import NotAtHand
+from checker.engine.subject import Subject
+from checker.expand.xacro.fault import XacroFaultKind
+from checker.model.urdf.files import UrdfFiles
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"
@@ -152,12 +153,12 @@ def test_what_was_expanded_is_kept(
     package = describe({FILE: robot('<link name="${1 + 1}"/>')}).package
     cache = Cache(tmp_path / "cache")
     assert links(Subject(package, cache)) == ["2"]
-    monkeypatch.setattr("checker.xacro.expansion.Child", None)
+    monkeypatch.setattr("checker.expand.xacro.expansion.Child", None)
     assert links(Subject(package, cache)) == ["2"]
 
 
 def test_a_plain_urdf_needs_no_process(describe: Describe, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.xacro.expansion.Child", None)
+    monkeypatch.setattr("checker.expand.xacro.expansion.Child", None)
     plain = f'<robot name="acme">{BASE}</robot>'
     assert links(describe({f"{NAME}/urdf/acme.urdf": plain})) == ["base"]
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.mesh.apart import Ended, apart
-from checker.model.urdf.files import XacroFault, XacroFaultKind
-from checker.xacro import guard
+from checker.base.forked_work import Ended, apart
+from checker.expand.xacro import worker
+from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from tests.urdf.conftest import NAME, Describe, robot
 
 FILE = f"{NAME}/urdf/acme.urdf.xacro"
@@ -137,7 +137,7 @@ ESCAPES = {
 @pytest.mark.parametrize("way", ESCAPES)
 def test_behind_the_guard_nothing_opens(way: str) -> None:
     def work() -> bytes:
-        guard.put_up()
+        worker.put_up()
         try:
             ESCAPES[way]()
         except (PermissionError, KeyError) as refusal:

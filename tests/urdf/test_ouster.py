@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from checker.engine.subject import Subject
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.package.opening import open_input
-from checker.subject import Subject
+from checker.package.inputs import open_input
 from tests.urdf.conftest import Describe, robot
 
 NAME = "ouster_description"

@@ -5,12 +5,12 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.cache import NO_CACHE
+from checker.base.cache import NO_CACHE
+from checker.expand.xacro.expanded import expanded_document
+from checker.expand.xacro.included_texts import Gathered
 from checker.model.components import Link
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument, parse_xml
-from checker.xacro.expanded import expanded_document
-from checker.xacro.gathering import Gathered
 from tests.effort import examples
 from tests.urdf.conftest import NAME, Describe, robot
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.view.grid import Grid, Steps, grid_from_json, grid_of
+from checker.physics.views.rays import Grid, Steps, grid_from_json, grid_of
 from tests.model.robots import sdf
 
 

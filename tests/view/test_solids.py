@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.view.grid import Grid, Steps
-from checker.view.solids import SOLIDS, entered
-from checker.view.triangles import met
+from checker.physics.views.rays import Grid, Steps
+from checker.physics.views.solids import SOLIDS, entered
+from checker.physics.views.triangles import met
 from tests.effort import examples
 from tests.mesh.files import box
 

@@ -1,7 +1,7 @@
 """Small robots as GLB files: boxes on links, in layers, that drive.
 
-Written independently of `checker.display`, after the glTF 2.0 specification and what the viewer
-expects: a node for each link, below it one for each item, told apart by their extras.
+Written independently of `checker.report.scene`, after the glTF 2.0 specification and what the
+viewer expects: a node for each link, below it one for each item, told apart by their extras.
 """
 
 from __future__ import annotations

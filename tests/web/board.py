@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 
-from checker.jobs.port import Alive, Event, Order, Stage, State
-from checker.store.store import Store
+from checker.service.jobs.port import Alive, Event, Order, Stage, State
+from checker.service.store.store import Store
 
 if TYPE_CHECKING:
     from fastapi import FastAPI

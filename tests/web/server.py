@@ -12,8 +12,8 @@ from time import monotonic, sleep
 import uvicorn
 from fastapi import FastAPI
 
-from checker.serving.connection import Connection
-from checker.store.store import Store
+from checker.service.processes.connection import Connection
+from checker.service.store.store import Store
 
 BOUNDARY = "limit-of-parts"
 

@@ -14,11 +14,11 @@ from fastapi.testclient import TestClient
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.jobs.port import Alive, Event, JobsUnreachable, Stage, State
-from checker.store.store import SUMMARY, Store
-from checker.web.app import create_app
-from checker.web.config import Config
-from checker.web.files import file_response
+from checker.service.jobs.port import Alive, Event, JobsUnreachable, Stage, State
+from checker.service.store.store import SUMMARY, Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
+from checker.service.web.files import file_response
 from tests.effort import examples
 from tests.web.board import DONE, ID, QUEUED, ROVER, BoardJobs, keep_result
 from tests.web.server import eventually, served

@@ -12,10 +12,10 @@ from blake3 import blake3
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.store.store import Store, TooLarge
-from checker.web.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm
-from checker.web.refusal import Refused
-from checker.web.sniffing import misfit
+from checker.service.store.store import Store, TooLarge
+from checker.service.web.form import FIELD_LIMIT, PARTS_LIMIT, UploadForm
+from checker.service.web.refusal import Refused
+from checker.service.web.sniffing import misfit
 from tests.web.server import BOUNDARY, form, left_behind
 
 TYPE = f"multipart/form-data; boundary={BOUNDARY}"

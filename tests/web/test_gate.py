@@ -12,15 +12,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from starlette.requests import HTTPConnection
 
-from checker.errors import InvalidSettings
+from checker.base.errors import InvalidSettings
 from checker.report.html.page import text_of
-from checker.store.store import Store
-from checker.web.app import create_app
-from checker.web.config import Config, config_from
-from checker.web.files import file_response
-from checker.web.gate import Gate
-from checker.web.headers import NOTHING, PAGE, POLICY
-from checker.web.rate import CLIENTS, Rate, Slots, client_of
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config, config_from
+from checker.service.web.files import file_response
+from checker.service.web.gate import Gate
+from checker.service.web.headers import NOTHING, PAGE, POLICY
+from checker.service.web.rate import CLIENTS, Rate, Slots, client_of
 from tests.web.board import DONE, ID, BoardJobs, keep_result
 
 MODEL = {"file": ("a.sdf", b"<sdf/>")}

@@ -12,13 +12,13 @@ from fastapi.testclient import TestClient
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.jobs.port import Alive, JobsUnreachable, State
-from checker.sandbox.layers import Layer
-from checker.store.store import Store
-from checker.web.app import create_app
-from checker.web.config import Config
-from checker.web.logs import FIELDS, JsonLines, short
-from checker.web.metrics import BOUNDS, Metrics
+from checker.base.sandbox.layers import Layer
+from checker.service.jobs.port import Alive, JobsUnreachable, State
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
+from checker.service.web.logs import FIELDS, JsonLines, short
+from checker.service.web.metrics import BOUNDS, Metrics
 from tests.web.board import DONE, ID, BoardJobs
 
 

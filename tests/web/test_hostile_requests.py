@@ -11,12 +11,12 @@ from pathlib import Path
 import httpx
 import pytest
 
-from checker.jobs.durable.client import durable_jobs
-from checker.jobs.port import Order
-from checker.store.store import Store
-from checker.web.app import create_app
-from checker.web.config import Config
-from checker.web.logs import JsonLines
+from checker.service.jobs.durable.client import durable_jobs
+from checker.service.jobs.port import Order
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
+from checker.service.web.logs import JsonLines
 from tests.web.board import DONE, ID, QUEUED, BoardJobs, keep_result
 from tests.web.server import eventually, left_behind, served
 from tests.web.test_receiving import GOOD

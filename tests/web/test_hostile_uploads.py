@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 from fastapi.testclient import TestClient
 
-from checker.store.store import Store
-from checker.web.app import create_app
-from checker.web.config import Config
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
 from tests.web.board import BoardJobs
 from tests.web.server import left_behind
 from tests.web.test_receiving import GOOD, zipped

@@ -15,7 +15,7 @@ from typing import Any
 
 import httpx
 
-FACTORY = "checker.web.main:app_from_environment"
+FACTORY = "checker.service.web.main:app_from_environment"
 ANSWERING = re.compile(r"running on (http://127\.0\.0\.1:\d+)")
 
 

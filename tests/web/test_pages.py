@@ -12,18 +12,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.check import check_package
-from checker.discovery import all_rules
-from checker.jobs.port import Event, Stage, State
-from checker.report.artefacts import package_folders
+from checker.pipeline import check_package
+from checker.report.files import package_folders
 from checker.report.json_report import to_json
 from checker.report.report import PackageReport, Report
+from checker.rulebook.discovery import all_rules
+from checker.service.jobs.port import Event, Stage, State
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
+from checker.service.web.first_findings import SHOWN, glance
+from checker.service.web.progress import headline, package_lines, steps_of
 from checker.settings import Settings
-from checker.store.store import Store
-from checker.web.app import create_app
-from checker.web.config import Config
-from checker.web.first_findings import SHOWN, glance
-from checker.web.progress import headline, package_lines, steps_of
 from tests.conftest import SAMPLES
 from tests.effort import examples
 from tests.report.any_report import HOSTILE, PACKAGES

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from checker.jobs.port import Event, Stage
-from checker.package.archive_index import ArchiveLimits
+from checker.package.archives.index import ArchiveLimits
 from checker.report.json_report import to_json
 from checker.report.report import Report
-from checker.store.store import Store
-from checker.web.app import create_app
-from checker.web.config import Config
+from checker.service.jobs.port import Event, Stage
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
 from tests.browser import watched_page
 from tests.conftest import SAMPLES
 from tests.web.board import DONE, ID, KEY, QUEUED, ROVER, BoardJobs, keep_result

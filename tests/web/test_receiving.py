@@ -14,11 +14,11 @@ import httpx
 import pytest
 from fastapi.testclient import TestClient
 
-from checker.jobs.port import JobsUnreachable, Order
-from checker.store.store import Store
-from checker.web.app import create_app
-from checker.web.config import Config
-from checker.web.receiving import AT_ONCE
+from checker.service.jobs.port import JobsUnreachable, Order
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
+from checker.service.web.receiving import AT_ONCE
 from tests.web.board import ID, BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, left_behind, request_head, served
 

@@ -15,13 +15,13 @@ from fastapi.testclient import TestClient
 from hypothesis import HealthCheck, settings
 from schemathesis import checks
 
-from checker.jobs.checking import result_key
-from checker.jobs.durable.client import DurableJobs, durable_jobs
-from checker.jobs.durable.roll import Roll
-from checker.jobs.port import Order, Stage
-from checker.store.store import SUMMARY, Store
-from checker.web.app import create_app
-from checker.web.config import Config
+from checker.service.jobs.checking import result_key
+from checker.service.jobs.durable.client import DurableJobs, durable_jobs
+from checker.service.jobs.durable.roll import Roll
+from checker.service.jobs.port import Order, Stage
+from checker.service.store.store import SUMMARY, Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
 from tests.conftest import SAMPLES
 from tests.effort import examples
 from tests.web.board import BoardJobs

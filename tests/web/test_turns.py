@@ -15,10 +15,10 @@ from typing import Any
 import httpx
 import pytest
 
-from checker.store.store import Store
-from checker.web.app import create_app
-from checker.web.config import Config
-from checker.web.turns import Turns
+from checker.service.store.store import Store
+from checker.service.web.app import create_app
+from checker.service.web.config import Config
+from checker.service.web.turns import Turns
 from tests.web.board import BoardJobs
 from tests.web.server import BOUNDARY, eventually, form, request_head, served
 

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from checker.mesh.apart import Ended, apart
-from checker.package.opening import open_input
+from checker.base.forked_work import Ended, apart
+from checker.expand.xacro.included_texts import Gathered
+from checker.expand.xacro.paths import path_of
+from checker.package.inputs import open_input
 from checker.package.package import Package
-from checker.xacro.gathering import Gathered
-from checker.xacro.paths import path_of
 
 _SECONDS = 20
 _ROUNDS = 6
@@ -56,7 +56,7 @@ def compared(gathered: Gathered, path: str) -> dict[str, Any]:
 
 
 def _compare(request: Request, path: str) -> bytes:
-    from checker.xacro import processor
+    from checker.expand.xacro import processor
     from tests.xacro import oracle
 
     native = processor.evaluate

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field, replace
 from checker.model.components import Frame, Joint, Link, Model, Plugin
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
+from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
+from checker.model.sdf.document import sdf_version
+from checker.model.sdf.frame_faults import unknown_frames
 from checker.model.sdf.joints import read_frame, read_joint
 from checker.model.sdf.links import read_link, read_plugin
 from checker.model.sdf.scope import Scope
-from checker.model.sdf.unknown_frames import unknown_frames
-from checker.model.sdf.version import sdf_version
-from checker.model.transform import Transform
 from checker.model.values import ValueReader
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from checker.base.record import record
 from checker.model.components import Pose
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
-from checker.model.sdf.pose_numbers import in_degrees, transform_of
-from checker.model.transform import Transform, Vector, rotation_from_quaternion
+from checker.model.geometry.transform import Transform, Vector, rotation_from_quaternion
+from checker.model.sdf.poses import in_degrees, transform_of
 from checker.model.values import ValueReader
-from checker.record import record
 from checker.source.text import Located
 from checker.source.xml import Element
 

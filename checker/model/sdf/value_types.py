@@ -10,8 +10,8 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
+from checker.base.record import record
 from checker.model.values import ValueReader, numbers_of_words
-from checker.record import record
 from checker.source.text import Located, Span
 
 _INTEGER = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]{1,16}|\d{1,400})\Z", re.ASCII)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from checker.base.record import record
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
-from checker.record import record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 

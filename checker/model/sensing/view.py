@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from checker.base.record import record
 from checker.model.components import Link, Visual
 from checker.model.robot import Robot
 from checker.model.sensing.mounting import Mounted
-from checker.record import record
 
 
 @record(eq=False)

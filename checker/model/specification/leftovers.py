@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from checker.record import record
+from checker.base.record import record
 from checker.source.markdown import Markdown
 from checker.source.text import Span
 

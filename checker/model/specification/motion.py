@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from checker.base.record import record
 from checker.model.specification.quantities import (
     NUMBER,
     Quantity,
@@ -18,7 +19,6 @@ from checker.model.specification.quantities import (
     resolution_of,
     sentences,
 )
-from checker.record import record
 from checker.source.markdown import Passage
 from checker.source.text import Span
 

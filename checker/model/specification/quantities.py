@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 
-from checker.record import record
+from checker.base.record import record
 from checker.source.markdown import Passage
 from checker.source.text import Span
 

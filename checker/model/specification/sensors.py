@@ -9,9 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from checker.base.record import record
 from checker.model.specification.quantities import WORDS, configurations_in, number_of
 from checker.model.specification.sensor_kinds import SensorKind, kinds_in
-from checker.record import record
 from checker.source.markdown import Passage, PassageKind
 from checker.source.text import Span
 

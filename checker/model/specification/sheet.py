@@ -7,9 +7,11 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from functools import cached_property
 
+from checker.base.record import record
 from checker.model.specification.endurance import durations, endurance
 from checker.model.specification.line_references import LineReference, line_references
-from checker.model.specification.mass import masses, total_mass
+from checker.model.specification.links import validation_links
+from checker.model.specification.mass_and_cost import masses, total_mass
 from checker.model.specification.motion import (
     Limit,
     MotionQuantity,
@@ -19,8 +21,6 @@ from checker.model.specification.motion import (
 )
 from checker.model.specification.quantities import Quantity
 from checker.model.specification.sensors import ListedSensor, listed_sensors
-from checker.model.specification.validation import validation_links
-from checker.record import record
 from checker.source.markdown import MAX_LENGTH, Markdown, Passage, PassageKind, read_markdown
 from checker.source.text import SourceText, Span
 

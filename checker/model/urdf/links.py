@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from checker.model.components import Collision, Inertial, Link, Pose, Visual
-from checker.model.shapes import Geometry, Material
-from checker.model.transform import Transform, Vector
+from checker.model.geometry.shapes import Geometry, Material
+from checker.model.geometry.transform import Transform, Vector
 from checker.model.values import ValueReader
 from checker.source.text import Located
 from checker.source.xml import Element

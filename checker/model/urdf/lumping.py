@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from checker.base.record import record
 from checker.model.components import Joint, Link
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.extensions import extension_flag
-from checker.record import record
 
 _KEEPING = ("preserveFixedJoint", "disableFixedJointLumping")
 """Tags below `<gazebo reference="joint">` that keep a fixed joint, or the link below it."""

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 from checker.model.components import Axis, Joint, Link, Plugin, Pose, Sensor
 from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
+from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.model.sdf.links import read_plugin, read_sensor
 from checker.model.sdf.scope import Scope
-from checker.model.transform import Transform
 from checker.model.urdf.links import read_link, read_origin
 from checker.model.values import ValueReader
 from checker.source.text import Located

@@ -10,29 +10,92 @@ from functools import cache
 from itertools import chain, repeat
 from typing import TYPE_CHECKING, Any
 
+from checker.base.record import record
+from checker.base.resources import templates
+from checker.base.words import count, plain, shortened
 from checker.finding import Severity
-from checker.report.fact_words import facts_in_words
-from checker.report.figures import rows_of
+from checker.report.figures import facts_in_words, rows_of
 from checker.report.html.findings import groups_of
 from checker.report.html.plots import plots_of, spans_of
-from checker.report.html.unchecked import (
-    SHOWN,
-    reasons_of,
-    suppressed_of,
-    why_not_driven,
-)
 from checker.report.json_report import to_json
-from checker.report.manner import Manner
-from checker.report.report import PackageReport, Report, VerdictKind
+from checker.report.render_settings import Manner
+from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed, VerdictKind
 from checker.report.sarif import to_sarif
 from checker.report.summary import has_suppressed
 from checker.report.verdict import sentence
-from checker.report.wording import count, plain
-from checker.resources import templates
 
 if TYPE_CHECKING:
     from jinja2 import Environment
     from markupsafe import Markup
+
+
+# What was not looked at and what was set aside, by reason.
+
+
+_TEXT_LIMIT = 600
+SHOWN = 300
+"""Entries of a list; what goes beyond is counted."""
+_CAUSES = {
+    Cause.CRASHED: "went wrong",
+    Cause.NOT_AT_HAND: "not at hand",
+    Cause.SWITCHED_OFF: "switched off",
+    Cause.NOT_APPLICABLE: "nothing to look at",
+}
+"""In words, what keeps a package from being ready first."""
+
+
+@record()
+class Reason:
+    """A reason and the rules that did not look because of it."""
+
+    cause: str
+    reason: str
+    rules: tuple[str, ...]
+
+
+@record()
+class SetAside:
+    """A finding that does not count: what it says, where, and why it does not."""
+
+    rule: str
+    message: str
+    where: str
+    by: str
+    reason: str
+
+
+def reasons_of(not_checked: Sequence[NotChecked]) -> list[Reason]:
+    """Join what has one reason; what keeps the package from being ready comes first."""
+    found: dict[tuple[Cause, str], list[str]] = {}
+    for each in not_checked:
+        found.setdefault((each.cause, each.reason), []).append(each.rule)
+    order = list(_CAUSES)
+    ordered = sorted(found.items(), key=lambda item: order.index(item[0][0]))
+    return [
+        Reason(_CAUSES[cause], plain(shortened(reason, _TEXT_LIMIT)), tuple(dict.fromkeys(rules)))
+        for (cause, reason), rules in ordered
+    ]
+
+
+def suppressed_of(suppressed: Sequence[Suppressed]) -> list[SetAside]:
+    """Return what was set aside, as far as the page shows it."""
+    return [
+        SetAside(
+            plain(each.finding.rule),
+            plain(shortened(each.finding.message, _TEXT_LIMIT)),
+            plain(str(each.finding.places[0])),
+            str(each.by),
+            plain(shortened(each.reason, _TEXT_LIMIT)),
+        )
+        for each in suppressed[:SHOWN]
+    ]
+
+
+def why_not_driven(not_checked: Sequence[NotChecked]) -> str:
+    """Return why the rules on the trial did not look; empty where they say nothing."""
+    reasons = (each.reason for each in not_checked if each.rule.startswith("TRI"))
+    return plain(shortened(next(reasons, ""), _TEXT_LIMIT))
+
 
 SCRIPTS = ("findings.js", "plots.js", "stage.js")
 """The page's own behaviour, in the order of their dependence."""

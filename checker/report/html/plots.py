@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from checker.record import record
-from checker.report.wording import plain, shortened
+from checker.base.record import record
+from checker.base.words import plain, shortened
 
 WIDTH, HEIGHT = 1000.0, 100.0
 """Of a plot's own units; the page stretches them to whatever room there is."""

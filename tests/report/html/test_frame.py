@@ -5,9 +5,9 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.base.words import plain
 from checker.finding import Edit, Fix, Place, Safety
-from checker.report.html.frame import WIDTH, changes_of, frame_of
-from checker.report.wording import plain
+from checker.report.html.findings import WIDTH, changes_of, frame_of
 
 
 def place(snippet: str, column: int, end_column: int, end_line: int = 7) -> Place:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from checker.check import check_package
+from checker.pipeline import check_package
 from checker.report.html.page import to_html
-from checker.report.manner import Manner
 from checker.report.palette import Palette
+from checker.report.render_settings import Manner
 from checker.settings import Settings
 from tests.browser import watched_page, without_webgl
 from tests.conftest import SAMPLES

@@ -10,10 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import html
 
+from checker.base.words import plain
 from checker.finding import Edit, Fix, Place, Safety, Severity
 from checker.report.html.page import to_html, to_index, with_code
-from checker.report.manner import Manner
 from checker.report.palette import Palette
+from checker.report.render_settings import Manner
 from checker.report.report import (
     Cause,
     InheritedPart,
@@ -25,7 +26,6 @@ from checker.report.report import (
     Suppressed,
     SuppressedBy,
 )
-from checker.report.wording import plain
 
 HOSTILE = [
     "</script><script>alert(1)</script>",

@@ -12,9 +12,9 @@ from time import sleep
 
 import pytest
 
-from checker.errors import UnreadableInput
-from checker.web.clerk import indexes
-from checker.web.clerk.indexes import Indexes
+from checker.base.errors import UnreadableInput
+from checker.service.web.clerk import indexes
+from checker.service.web.clerk.indexes import Indexes
 from tests.jobs.launched import is_alive, launchers, tasks
 from tests.web.server import eventually
 

@@ -16,15 +16,15 @@ from typing import Any, TypeVar
 import pytest
 from blake3 import blake3
 
-from checker.jobs.durable.client import durable_jobs
-from checker.jobs.place import database_url
-from checker.jobs.port import JobsUnreachable, Stage
-from checker.serving.child import CHILD
-from checker.store.store import Store
-from checker.web.clerk.port import Slip
-from checker.web.clerk.process import ProcessClerk
-from checker.web.clerk.wire import ClerkFailed
-from checker.web.refusal import Refused
+from checker.service.jobs.durable.client import durable_jobs
+from checker.service.jobs.place import database_url
+from checker.service.jobs.port import JobsUnreachable, Stage
+from checker.service.processes.child import CHILD
+from checker.service.store.store import Store
+from checker.service.web.clerk.port import Slip
+from checker.service.web.clerk.process import ProcessClerk
+from checker.service.web.clerk.wire import ClerkFailed
+from checker.service.web.refusal import Refused
 from tests.web.server import left_behind
 
 T = TypeVar("T")

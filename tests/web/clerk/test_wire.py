@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.jobs.port import JobsUnreachable
-from checker.web.clerk.port import Slip
-from checker.web.clerk.wire import (
+from checker.service.jobs.port import JobsUnreachable
+from checker.service.web.clerk.port import Slip
+from checker.service.web.clerk.wire import (
     ClerkFailed,
     answer_from_line,
     answer_line,
@@ -18,7 +18,7 @@ from checker.web.clerk.wire import (
     slip_from_line,
     slip_to_line,
 )
-from checker.web.refusal import Refused
+from checker.service.web.refusal import Refused
 
 WORDS = st.text(max_size=50)
 

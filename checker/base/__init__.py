@@ -1,0 +1,1 @@
+"""What everything else stands on: errors, the cache, words, processes and their sandbox."""

@@ -1,0 +1,221 @@
+"""Work on hostile or heavy input in a sandboxed process with limits; it may die, we go on.
+
+The process runs one function of one module: `answer(request, files)`. What goes to and fro are
+bytes (JSON, say), never pickles: a process that was taken over must not take who asked it. It is
+started in the sandbox (`checker.base.sandbox`), and given no path.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import signal
+import tempfile
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+from time import monotonic
+from typing import Any, BinaryIO
+
+from checker.base.record import record
+from checker.base.sandbox import files as handed
+from checker.base.sandbox.files import Content, Files
+from checker.base.sandbox.launcher import Launcher, Order, launcher
+from checker.base.sandbox.task import FAILED, OUT_OF_MEMORY
+
+ANSWER_LIMIT = 200_000_000
+"""Bytes; an answer has at least one."""
+_STARTUP_SECONDS = 10.0
+"""For the imports, on a machine that does something else as well."""
+_ENDS_SECONDS = 5.0
+"""Until a process that is killed has ended, at most."""
+_CODE_LIMIT = 16
+
+
+@record()
+class Limits:
+    """What a process may use.
+
+    Attributes:
+        seconds: Of processor time; four times as many pass on the clock before it is stopped.
+        memory: Bytes of address space.
+        draws: Whether it may use graphics cards.
+    """
+
+    seconds: float
+    memory: int = 1_000_000_000
+    draws: bool = False
+
+    @property
+    def clock_seconds(self) -> float:
+        """How long the process may take by the clock."""
+        return 4.0 * self.seconds + _STARTUP_SECONDS
+
+
+@record()
+class Died:
+    """No answer came.
+
+    Attributes:
+        reason: Why, as the end of a sentence whose subject is the work.
+    """
+
+    reason: str
+
+
+class Child:
+    """A process that works while who asked does something else."""
+
+    def __init__(
+        self,
+        module: str,
+        request: bytes | None,
+        limits: Limits,
+        contents: Iterable[tuple[str, Content]] = (),
+        starter: Launcher | None = None,
+        *,
+        works: bool = False,
+        folder: Path | None = None,
+    ) -> None:
+        """Start it.
+
+        Args:
+            module: Full name of the module whose `answer` does the work. Its `prepare`, if it has
+                one, is called before the request is there.
+            request: What `answer` is given; None when `give` brings it later.
+            limits: What the process may use.
+            contents: Files that go with the request: their names, and what is in them.
+            starter: Starts it; that of this process when None.
+            works: Whether it writes into the working folder, and asks for processes itself.
+            folder: On whose disk request and answer lie; that of temporary files when None.
+        """
+        self.limits = limits
+        self.deadline = monotonic() + limits.clock_seconds
+        # No names: one that is killed leaves none, and nobody else can open them.
+        self._request: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
+        self._answer: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
+        order = Order(module, int(limits.seconds), limits.memory, works, limits.draws)
+        # Kept, since all of its processes end with it.
+        self._starter = starter or launcher()
+        self._started = self._starter.start(order, self._request, self._answer)
+        self.code: int | None = None
+        """Its exit code once it has ended; of a signal, its negative number."""
+        self._stopped = False
+        if request is not None:
+            try:
+                self.give(request, contents)
+            except BaseException:  # such as a full disk: nobody else knows of the process
+                self.stop()
+                raise
+
+    @property
+    def alive(self) -> bool:
+        """Whether it has not ended."""
+        return not self.ends(0.0)
+
+    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> None:
+        """Bring the request to a process that was started without one; its time begins now."""
+        self.deadline = monotonic() + self.limits.clock_seconds
+        handed.write(self._request, request, contents)
+        # One that has died says why when it is asked for its answer.
+        with suppress(OSError):
+            os.write(self._started.input, b"!")
+
+    def answer(self) -> bytes | Died:
+        """Wait for the answer."""
+        try:
+            if not self.ends(self.deadline - monotonic()):
+                return Died(f"took longer than {self.limits.clock_seconds:g} s and was stopped")
+            if self.code is None:
+                return Died("could not be started")
+            if self.code != 0:
+                return Died(_cause(self.code, self.limits))
+            answer = self.answered(ANSWER_LIMIT)
+            return answer if isinstance(answer, Died) else answer[0]
+        finally:
+            self.stop()
+
+    def ends(self, seconds: float) -> bool:
+        """Wait for its end; False if it goes on after so many seconds."""
+        if self._stopped:
+            return True
+        poll = select.poll()
+        poll.register(self._started.code, select.POLLIN)
+        if not poll.poll(max(0.0, seconds) * 1000.0):
+            return False
+        said = os.read(self._started.code, _CODE_LIMIT)
+        if self.code is None:
+            self.code = _code(said)
+        return True
+
+    def answered(self, limit: int) -> tuple[bytes, Files] | Died:
+        """Return what it has written; the files can be read until it is stopped.
+
+        Args:
+            limit: Bytes of the answer; the files have limits of their own.
+        """
+        descriptor = self._answer.fileno()
+        # A library may end the process with exit code 0 before anything is said.
+        if os.fstat(descriptor).st_size == 0:
+            return Died("ended without an answer")
+        try:
+            answer, files = handed.read(descriptor, limit)
+        except handed.Damaged as damage:
+            return Died(f"left an answer that {damage}")
+        return (answer, files) if answer else Died("ended without an answer")
+
+    def stop(self) -> None:
+        """End the process, whatever it does; nothing happens if it has ended."""
+        if self._stopped:
+            return
+        os.close(self._started.input)
+        self.ends(_ENDS_SECONDS)
+        self._stopped = True
+        os.close(self._started.code)
+        self._request.close()
+        self._answer.close()
+
+
+def ask(
+    module: str, request: bytes, limits: Limits, contents: Iterable[tuple[str, Content]] = ()
+) -> bytes | Died:
+    """Let a process do the work of a module and wait for the answer; see `Child`."""
+    return Child(module, request, limits, contents).answer()
+
+
+NONSENSE = (AttributeError, IndexError, KeyError, TypeError, ValueError)
+"""What reading an answer raises that has not the form that was asked for."""
+
+
+def from_json(answer: bytes) -> Any:
+    """Return what an answer says as JSON; who answered may have been taken over.
+
+    Raises:
+        ValueError: It is no JSON, or nests too deeply.
+    """
+    try:
+        return json.loads(answer)
+    except RecursionError:
+        raise ValueError("nests too deeply") from None
+
+
+def _code(said: bytes) -> int | None:
+    """Return an exit code that the launcher tells; it may have been taken over."""
+    try:
+        code = int(said)
+    except ValueError:
+        return None
+    return code if code >= 0 or -code in {*signal.Signals} else FAILED
+
+
+def _cause(code: int, limits: Limits) -> str:
+    if code == OUT_OF_MEMORY:
+        return f"needs more than {limits.memory / 1e6:.0f} MB of memory"
+    if code == -signal.SIGXCPU:
+        return f"needs more than {limits.seconds:g} s of processor time"
+    if code == -signal.SIGKILL:
+        return "was killed: it needs too much time or memory"
+    if code < 0:
+        return f"ended in a crash (signal {signal.Signals(-code).name})"
+    return "failed in its process"

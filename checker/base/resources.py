@@ -1,0 +1,61 @@
+"""What comes with the checker beside its code: tables of facts (`checker/data`), and templates."""
+
+from __future__ import annotations
+
+import json
+import platform
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+# The versions that a report names.
+
+
+LIBRARIES = ("mujoco", "pin", "trimesh")
+"""What drives the robot, weighs it and reads its meshes: figures may differ between versions."""
+
+
+UNKNOWN = "unknown"
+
+
+@cache
+def version_of(distribution: str) -> str:
+    """Return the version of an installed distribution without importing it; else `UNKNOWN`.
+
+    Looking it up takes a millisecond, and many keys of the cache hold it.
+    """
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return UNKNOWN
+
+
+def tool_version() -> str:
+    """Return the version of subt-check; `unknown` when it runs without being installed."""
+    return version_of("subt-check")
+
+
+def versions() -> dict[str, str]:
+    """Return the versions that a result depends on; nothing is imported for it."""
+    found = {"subt-check": tool_version(), "python": platform.python_version()}
+    known = {library: version_of(library) for library in LIBRARIES}
+    return found | {library: number for library, number in known.items() if number != UNKNOWN}
+
+
+@cache
+def table(name: str) -> Any:
+    """Return a JSON table by its file name without `.json`; read once.
+
+    Raises:
+        FileNotFoundError: There is no such table.
+    """
+    return json.loads(files("checker").joinpath("data", f"{name}.json").read_text("utf-8"))
+
+
+def templates(name: str) -> Traversable:
+    """Return a folder of templates: in the wheel below `checker`, in a checkout beside it."""
+    installed = files("checker").joinpath("templates", name)
+    return installed if installed.is_dir() else Path(__file__).parents[2] / "templates" / name

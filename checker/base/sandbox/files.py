@@ -1,0 +1,153 @@
+"""A message with files, in one file without a name that is handed from process to process.
+
+Who asks opens files and copies them; who answers opens none, and sees nothing else of the disk. An
+answer is read likewise: nothing in it is a path that is followed, and its sizes are checked.
+
+First come the contents of the files, then the message, then a table of the files as JSON, and last
+the lengths of message and table, 8 bytes each.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from checker.base.disk_file import NotReadable, read_bytes
+
+FILES_LIMIT = 2_000_000_000
+"""Bytes of all files of one message."""
+TABLE_LIMIT = 20_000_000
+"""Bytes of a table."""
+_LENGTH = 8
+_TAIL = 2 * _LENGTH
+_PIECE = 1_000_000
+
+Content = bytes | NotReadable
+
+
+class Damaged(ValueError):
+    """What was handed over is no message with files; the text ends a sentence."""
+
+
+class Files:
+    """Files that came with a message, by name."""
+
+    def __init__(self, table: Mapping[str, Any], descriptor: int) -> None:
+        """Read nothing yet.
+
+        Args:
+            table: By name, where a file begins and how long it is, or why it could not be read.
+            descriptor: Of what holds them; it stays open as long as this object is used.
+        """
+        self._table, self._descriptor = table, descriptor
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Their names, in the order in which they were written."""
+        return tuple(self._table)
+
+    def size(self, name: str) -> int:
+        """Return the bytes of a file; 0 where it could not be read."""
+        found = self._table.get(name)
+        return found[1] if isinstance(found, list) else 0
+
+    def read(self, name: str) -> Content:
+        """Return what is in a file, or why it is not known."""
+        match self._table.get(name):
+            case [int(at), int(length)]:
+                return os.pread(self._descriptor, length, at)
+            case str(reason):
+                return NotReadable(name, reason)
+        return NotReadable(name, "was not handed over")
+
+    def copy(self, name: str, to: BinaryIO) -> None:
+        """Write what is in a file into another one; nothing where it could not be read."""
+        match self._table.get(name):
+            case [int(at), int(length)]:
+                for begin in range(at, at + length, _PIECE):
+                    piece = min(_PIECE, at + length - begin)
+                    to.write(os.pread(self._descriptor, piece, begin))
+
+
+NO_FILES = Files({}, -1)
+
+
+def write(file: BinaryIO, message: bytes, contents: Iterable[tuple[str, Content]] = ()) -> None:
+    """Write a message and files.
+
+    Args:
+        file: Empty.
+        message: Of any form.
+        contents: Names and what is in them; one at a time is held in memory.
+
+    Raises:
+        OSError: There is no room.
+    """
+    table: dict[str, Any] = {}
+    at = 0
+    for name, content in contents:
+        if isinstance(content, bytes) and at + len(content) > FILES_LIMIT:
+            content = NotReadable(name, "is too much together with the others")  # noqa: PLW2901
+        if isinstance(content, NotReadable):
+            table[name] = content.reason
+        else:
+            table[name] = [at, len(content)]
+            at += len(content)
+            file.write(content)
+    said = json.dumps(table).encode()
+    file.write(message + said)
+    file.write(len(message).to_bytes(_LENGTH, "big") + len(said).to_bytes(_LENGTH, "big"))
+    file.flush()
+
+
+def from_disk(wanted: Iterable[tuple[str, int]]) -> Iterable[tuple[str, Content]]:
+    """Yield files by their absolute paths, links resolved.
+
+    Args:
+        wanted: Each path, and how many bytes there may be.
+    """
+    for path, limit in wanted:
+        yield path, read_bytes(Path(path), path, limit)
+
+
+def read(descriptor: int, limit: int) -> tuple[bytes, Files]:
+    """Return the message and the files that somebody has written.
+
+    Args:
+        descriptor: Of what they were written to; whoever wrote may be hostile.
+        limit: Bytes of the message.
+
+    Raises:
+        Damaged: It is something else, or too long.
+    """
+    size = os.fstat(descriptor).st_size
+    tail = os.pread(descriptor, _TAIL, max(0, size - _TAIL))
+    message, table = (int.from_bytes(each, "big") for each in (tail[:_LENGTH], tail[_LENGTH:]))
+    at = size - _TAIL - table - message
+    if len(tail) < _TAIL or at < 0:
+        raise Damaged("is cut off")
+    if message > limit or table > TABLE_LIMIT or at > FILES_LIMIT:
+        raise Damaged(f"has {size / 1e6:.1f} MB, more than is read")
+    said = os.pread(descriptor, message, at)
+    return said, Files(_checked(os.pread(descriptor, table, at + message), at), descriptor)
+
+
+def _checked(said: bytes, end: int) -> dict[str, Any]:
+    """Return a table whose files lie where they can."""
+    try:
+        table = json.loads(said)
+    except (ValueError, RecursionError):
+        raise Damaged("has no table of its files") from None
+    if not isinstance(table, dict) or not all(_is_entry(entry, end) for entry in table.values()):
+        raise Damaged("has no table of its files")
+    return table
+
+
+def _is_entry(entry: Any, end: int) -> bool:
+    match entry:
+        case [int(at), int(length)]:
+            return at >= 0 and length >= 0 and at + length <= end
+    return isinstance(entry, str)

@@ -1,0 +1,224 @@
+"""The process that others are forked from: `python -m checker.base.sandbox.launcher_process`.
+
+It is started with nothing of its parent's but a socket, enters its sandbox, and reads
+nobody's files. Each process that it starts runs one function of one module in the sandbox.
+
+On the socket comes one JSON object a message (`Order` in `checker.base.sandbox.launcher`), with the
+descriptors of the new process: its input, the file of its request, that of its answer, and a pipe
+for its exit code. Who lets go of the other end of the input has the process killed. When the
+socket closes, all of them end.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import select
+import signal
+import socket
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from checker.base.sandbox.layers import ACCOUNT, Layer, Sandbox, enter
+from checker.base.sandbox.orphans import Orphans
+from checker.base.sandbox.task import run
+
+MESSAGE_LIMIT = 4096
+"""Bytes of one message."""
+DESCRIPTORS = 4
+_MOST_DESCRIPTORS = 1_048_576
+"""That come with the order to start a process."""
+_GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
+_TELL_SECONDS = 0.5
+_PROCESSES_LIMIT = 512
+_COUNTS_BY_NAMESPACE = (5, 14)
+
+
+class _Process:
+    """A process that was started: its input, and where its exit code goes."""
+
+    def __init__(self, id: int, input: int, code: int) -> None:
+        self.id, self.input, self.code = id, input, code
+
+
+class LauncherProcess:
+    """Starts processes until nobody asks for any more."""
+
+    def __init__(self, control: socket.socket, sandbox: Sandbox) -> None:
+        """Enter the sandbox, and say which layers hold."""
+        # A process in the sandbox asks for others by a socket of its own.
+        self._inner_client, inner = socket.socketpair()
+        self._controls = {control.fileno(): control, inner.fileno(): inner}
+        self._outer = control.fileno()
+        self._sandbox = sandbox
+        self._processes: dict[int, _Process] = {}
+        self._poll = select.poll()
+        self._woken, wake = os.pipe()
+        os.set_blocking(wake, False)
+        os.set_blocking(self._woken, False)
+        signal.signal(signal.SIGCHLD, lambda *_: None)
+        signal.signal(signal.SIGALRM, _give_up)
+        signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
+        self._orphans = Orphans()
+        layers = enter(sandbox)
+        _limit_processes(layers, sandbox)
+        said = json.dumps([[each.name, each.held, each.words, each.hides] for each in layers])
+        control.sendall(said.encode() + b"\n")
+        for descriptor in (*self._controls, self._woken):
+            self._poll.register(descriptor, select.POLLIN)
+
+    def serve(self) -> None:
+        """Start and end processes as told, until the socket closes."""
+        while True:
+            for descriptor, event in self._poll.poll():
+                if descriptor == self._woken:
+                    self._reap()
+                elif descriptor in self._controls:
+                    if not self._heed(self._controls[descriptor]) and descriptor == self._outer:
+                        self._orphans.end(())
+                        return
+                elif event & _GONE:
+                    self._kill(descriptor)
+
+    def _heed(self, control: socket.socket) -> bool:
+        """Do what a message asks for; False if there will be none any more."""
+        try:
+            message, descriptors, _, _ = socket.recv_fds(control, MESSAGE_LIMIT, DESCRIPTORS)
+        except ConnectionError:  # closed before all that was said to it was read
+            message, descriptors = b"", []
+        if message and len(descriptors) == DESCRIPTORS:
+            # What asks may have been taken over, and the system may have no room for a process.
+            with suppress(OSError, ValueError, TypeError):
+                self._start(json.loads(message), descriptors)
+                return True
+        for descriptor in descriptors:
+            os.close(descriptor)
+        if not message:
+            self._poll.unregister(control.fileno())
+            del self._controls[control.fileno()]
+        return bool(message)
+
+    def _start(self, order: dict[str, Any], descriptors: Sequence[int]) -> None:
+        """Start a process; where this fails, nobody has taken the descriptors."""
+        input, request, answer, code = descriptors
+        id = os.fork()
+        if id == 0:
+            os._exit(self._be(order, input, request, answer))
+        os.close(request)
+        os.close(answer)
+        self._processes[id] = _Process(id, input, code)
+        # What is written into it is for the process; here only its end counts.
+        self._poll.register(input, 0)
+
+    def _be(self, order: dict[str, Any], input: int, request: int, answer: int) -> int:
+        """Be the new process; return its exit code."""
+        signal.set_wakeup_fd(-1)
+        for each in (signal.SIGCHLD, signal.SIGALRM):
+            signal.signal(each, signal.SIG_DFL)
+        os.setpgid(0, 0)
+        inner = self._inner_client.fileno() if order["works"] else -1
+        _close_all_but({input, request, answer, inner})
+        return run(order, self._sandbox, (input, request, answer, inner))
+
+    def _reap(self) -> None:
+        """Tell how processes ended."""
+        with suppress(BlockingIOError):
+            os.read(self._woken, MESSAGE_LIMIT)
+        for process in [*self._processes.values()]:
+            code = _code_of(process.id)
+            if code is not None:
+                self._forget(process, code)
+        self._orphans.end(self._processes)
+
+    def _forget(self, process: _Process, code: int) -> None:
+        del self._processes[process.id]
+        _tell(process.code, code)
+        with suppress(KeyError):
+            self._poll.unregister(process.input)
+        os.close(process.input)
+        os.close(process.code)
+
+    def _kill(self, input: int) -> None:
+        """End the process on whose input nobody is any more."""
+        with suppress(KeyError):  # it has ended by itself at the same moment
+            self._poll.unregister(input)
+        for process in self._processes.values():
+            if process.input == input:
+                for end in (os.killpg, os.kill):
+                    with suppress(OSError):
+                        end(process.id, signal.SIGKILL)
+
+
+def _tell(pipe: int, code: int) -> None:
+    """Write an exit code; the pipe of a process that was taken over may be full."""
+    with suppress(OSError):
+        signal.setitimer(signal.ITIMER_REAL, _TELL_SECONDS)
+        try:
+            os.write(pipe, str(code).encode())
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+def _give_up(*_: object) -> None:
+    raise TimeoutError
+
+
+def _code_of(id: int) -> int | None:
+    """Return the exit code of a process that has ended, and end what it has left in its group."""
+    if hasattr(os, "waitid"):  # not on macOS before Python 3.13
+        if os.waitid(os.P_PID, id, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
+            return None
+        # Until it is waited for, nobody else can get the number of its group.
+        with suppress(OSError):
+            os.killpg(id, signal.SIGKILL)
+    ended, status = os.waitpid(id, os.WNOHANG)
+    return os.waitstatus_to_exitcode(status) if ended else None
+
+
+def _close_all_but(kept: set[int]) -> None:
+    """Close what the launcher has open, so that a process has nothing but its own."""
+    last = 2
+    for descriptor in sorted(each for each in kept if each > last):
+        os.closerange(last + 1, descriptor)
+        last = descriptor
+    os.closerange(last + 1, min(max(os.sysconf("SC_OPEN_MAX"), last + 1), _MOST_DESCRIPTORS))
+
+
+def _limit_processes(layers: Sequence[Layer], sandbox: Sandbox) -> None:
+    """Keep processes from starting too many, where only they count for their user."""
+    import resource
+
+    account = any(each.name == ACCOUNT and each.held for each in layers)
+    # A user namespace counts its own since Linux 5.14 (user_namespaces(7)); root has none here.
+    version = tuple(int(part) for part in re.findall(r"\d+", os.uname().release)[:2])
+    if account or (sandbox.wrapped and os.getuid() != 0 and version >= _COUNTS_BY_NAMESPACE):
+        resource.setrlimit(resource.RLIMIT_NPROC, (_PROCESSES_LIMIT, _PROCESSES_LIMIT))
+
+
+def _stand_back(niceness: int) -> None:
+    """Let come first what people wait for at this very moment: uploads, pages."""
+    os.nice(niceness)
+    # A session of its own may be a group of its own, within which alone niceness counts (sched(7)).
+    with suppress(OSError):
+        Path("/proc/self/autogroup").write_text(str(niceness), encoding="ascii")
+
+
+def main(descriptor: int, sandbox: str, niceness: int, loaded: str) -> None:
+    """Serve on a socket that was inherited."""
+    if niceness:
+        _stand_back(niceness)
+    if loaded:
+        import_module(loaded)
+    with socket.socket(fileno=descriptor) as control:
+        LauncherProcess(control, Sandbox(**json.loads(sandbox))).serve()
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), sys.argv[2], int(sys.argv[3]), sys.argv[4])
+    # What is still there ends with this process; nothing is to be tidied up.
+    os._exit(0)

@@ -1,0 +1,132 @@
+"""The sandbox of a process: its layers, and which of them hold on this machine.
+
+Each holds by itself, as far as it goes; docs/security.md tells what each keeps from what.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from contextlib import suppress
+
+from checker.base.record import record
+from checker.base.sandbox import account, landlock, namespaces, program_files, seccomp
+from checker.base.sandbox.seccomp import NotHeld
+
+NAMESPACES, ACCOUNT, LANDLOCK, SECCOMP = "namespaces", "account", "landlock", "seccomp"
+ALL = (NAMESPACES, ACCOUNT, LANDLOCK, SECCOMP)
+
+
+@record()
+class Layer:
+    """One layer of the sandbox.
+
+    Attributes:
+        name: One of `ALL`.
+        held: Whether it stands.
+        words: How, or why not; the end of a sentence.
+        hides: Whether it keeps files of others out of reach.
+    """
+
+    name: str
+    held: bool
+    words: str
+    hides: bool = False
+
+
+@record()
+class Sandbox:
+    """What to put up around a process.
+
+    Attributes:
+        names: Which of `ALL`; others than all are for tests of each alone.
+        wrapped: Whether bubblewrap has made the namespaces already.
+        account: User id to take; 0 to stay the same.
+        work: Folder that it may write in; empty for none.
+        read: Files and folders of the program, absolute.
+    """
+
+    names: tuple[str, ...] = ALL
+    wrapped: bool = False
+    account: int = 0
+    work: str = ""
+    read: tuple[str, ...] = ()
+
+
+def enter(sandbox: Sandbox) -> list[Layer]:
+    """Put this process and all that it will start in a sandbox, for good.
+
+    Those that the system does not have are left out, and the result says so.
+    """
+    return [_entered(name, sandbox) for name in ALL if name in sandbox.names]
+
+
+def _entered(name: str, sandbox: Sandbox) -> Layer:
+    try:
+        words = _WAYS[name](sandbox)
+    except NotHeld as error:
+        return Layer(name, False, str(error.args[-1]))
+    # Without bubblewrap, namespaces hide the network alone.
+    hides = sandbox.wrapped if name == NAMESPACES else name in (ACCOUNT, LANDLOCK)
+    return Layer(name, True, words, hides)
+
+
+def hides_files(layers: Iterable[Layer]) -> bool:
+    """Say whether a process that was taken over would not reach the files of who started it."""
+    return any(each.held and each.hides for each in layers)
+
+
+def _namespaces(sandbox: Sandbox) -> str:
+    if sandbox.wrapped:
+        return "bubblewrap: no network, no other processes, no other files"
+    namespaces.leave_network()
+    return "no network; bubblewrap would hide other processes and files"
+
+
+def _account(sandbox: Sandbox) -> str:
+    account.become(sandbox.account, sandbox.read, sandbox.work)
+    return f"user {sandbox.account}"
+
+
+def _landlock(sandbox: Sandbox) -> str:
+    seccomp.gain_nothing()
+    return f"version {_allow_files(sandbox, works=True, draws=True)}"
+
+
+def _allow_files(sandbox: Sandbox, *, works: bool, draws: bool) -> int:
+    """Leave this process the files of the program and what it needs besides; see `narrow`."""
+    return landlock.allow_only(
+        read=(*sandbox.read, *program_files.MACHINE),
+        work=(sandbox.work,) if works and sandbox.work else (),
+        devices=(*program_files.DEVICES, *(program_files.SCREENS if draws else ())),
+    )
+
+
+def _seccomp(_: Sandbox) -> str:
+    seccomp.gain_nothing()
+    seccomp.forbid_calls()
+    return f"{len(seccomp.FORBIDDEN)} system calls are forbidden"
+
+
+_WAYS = {
+    NAMESPACES: _namespaces,
+    ACCOUNT: _account,
+    LANDLOCK: _landlock,
+    SECCOMP: _seccomp,
+}
+
+
+def narrow(sandbox: Sandbox, *, works: bool, draws: bool) -> None:
+    """Take from a process in the sandbox what its own task does not need.
+
+    Args:
+        sandbox: Its own.
+        works: Whether it may write into the working folder.
+        draws: Whether it may use graphics cards.
+    """
+    # What cannot be narrowed stays in the sandbox that there is.
+    if LANDLOCK in sandbox.names:
+        with suppress(NotHeld):
+            _allow_files(sandbox, works=works, draws=draws)
+    if SECCOMP in sandbox.names:
+        with suppress(NotHeld):
+            seccomp.forbid_calls(changes=works, signals=False)

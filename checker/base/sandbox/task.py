@@ -1,0 +1,156 @@
+"""What a process in the sandbox does: one function of one module, and it ends.
+
+The module has `answer(request: bytes, files: Files)`, which returns bytes, or bytes and files (see
+`Answer`). Its `prepare()`, if it has one, is called before the request is there.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+from collections.abc import Iterable
+from contextlib import suppress
+from importlib import import_module
+from typing import Any, BinaryIO
+
+from checker.base.sandbox.files import Content, read, write
+from checker.base.sandbox.layers import Sandbox, narrow
+
+Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
+"""What comes back; files are made one by one, while they are written."""
+OUT_OF_MEMORY, FAILED = 71, 70
+"""Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
+_PR_SET_PDEATHSIG = 1
+_REQUEST_LIMIT = 500_000_000
+FAULT_LIMIT = 4_000
+"""Bytes of what is told of a fault."""
+_FILE_BYTES, _OPEN_FILES = 1_000_000_000, 512
+INPUT = 0
+"""Descriptor of the input: a byte comes when the request is there."""
+DEBUG = "SUBT_CHECK_DEBUG"
+"""Name of the variable that has faults of ours told with their traces."""
+
+
+def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, int, int, int]) -> int:
+    """Do what was ordered; return the exit code.
+
+    Args:
+        order: `module`, `seconds` of processor time, `memory` in bytes, `works` (whether it writes
+            into the working folder and asks for processes), `draws` and `serves` (whether its
+            request is a socket, by which it answers many).
+        sandbox: That of this process.
+        descriptors: The input, on which a byte comes when the request is there; the files of
+            request and answer; the socket by which to ask for processes, or -1.
+    """
+    input, request, answer, inner = descriptors
+    try:
+        end_with_parent()
+        _speak_to_nobody(input)
+        os.chdir(sandbox.work if order["works"] and sandbox.work else "/")
+        if inner >= 0:
+            from checker.base.sandbox.launcher import inherit
+
+            inherit(inner)
+        hold_to(order["seconds"], order["memory"])
+        narrow(sandbox, works=order["works"], draws=order["draws"])
+        module = import_module(order["module"])
+        if hasattr(module, "prepare"):
+            module.prepare()
+        if order["serves"]:
+            module.serve(socket.socket(fileno=request))
+        elif os.read(INPUT, 1):
+            said, files = read(request, _REQUEST_LIMIT)
+            with os.fdopen(os.dup(answer), "wb") as file:
+                _write(file, module.answer(said, files))
+    except MemoryError:
+        return OUT_OF_MEMORY
+    except BaseException:  # noqa: BLE001 - who waits for the answer is told that there is none
+        _tell_fault(answer)
+        return FAILED
+    return 0
+
+
+def _tell_fault(answer: int) -> None:
+    """Leave what went wrong in place of an answer, for a log."""
+    import sys
+    import traceback
+
+    words = traceback.format_exc()
+    if os.environ.get(DEBUG):
+        sys.stderr.write(words)
+    with suppress(OSError), open(answer, "wb") as file:
+        file.truncate(0)
+        file.seek(0)
+        write(file, words.encode(errors="replace")[-FAULT_LIMIT:])
+
+
+def _write(file: BinaryIO, answer: Answer) -> None:
+    if isinstance(answer, bytes):
+        write(file, answer)
+    else:
+        write(file, *answer)
+
+
+def _speak_to_nobody(input: int) -> None:
+    """Lead what libraries print nowhere; the input becomes the standard input."""
+    os.dup2(input, INPUT)
+    os.close(input)
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for stream in (1,) if os.environ.get(DEBUG) else (1, 2):
+        os.dup2(nowhere, stream)
+    os.close(nowhere)
+
+
+def end_with_parent() -> None:
+    """Have this process killed when its parent ends, where the system can (Linux: prctl)."""
+    import ctypes
+
+    with suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def hold_to(seconds: int, memory: int) -> None:
+    """Take from this process what it shall not use; no limit that it has already is raised."""
+    from resource import RLIMIT_AS, RLIMIT_CPU
+
+    tighten(RLIMIT_CPU, max(seconds, 1), max(seconds, 1) + 1)
+    tighten(RLIMIT_AS, memory, memory)
+    hold_files_to(_FILE_BYTES, _OPEN_FILES)
+
+
+def hold_files_to(file_bytes: int, open_files: int) -> None:
+    """Take from this process larger files, more open ones at a time, and all core dumps."""
+    from resource import RLIMIT_CORE, RLIMIT_FSIZE, RLIMIT_NOFILE
+
+    for kind, most in (
+        (RLIMIT_FSIZE, file_bytes),
+        (RLIMIT_NOFILE, open_files),
+        (RLIMIT_CORE, 0),
+    ):
+        tighten(kind, most, most)
+
+
+def tighten(kind: int, soft: int, hard: int) -> None:
+    """Set one limit of this process, of `resource.RLIMIT_…`; none that there is is raised."""
+    import resource
+
+    resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
+
+
+def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
+    """Return the soft and the hard limit to set where others are set already: the tighter of each.
+
+    Args:
+        given: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
+        soft: The soft limit that is wanted.
+        hard: The hard limit that is wanted, not below `soft`.
+    """
+    return tighter(given[0], soft), tighter(given[1], hard)
+
+
+def tighter(limit: int, wanted: int) -> int:
+    """Return what is wanted, or the limit that there is if it allows less."""
+    from resource import RLIM_INFINITY
+
+    return wanted if limit == RLIM_INFINITY else min(limit, wanted)

@@ -1,0 +1,74 @@
+"""Words for counts and lists, and user text made safe to print."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+
+# Did you mean: the known word that a misspelt one may stand for.
+
+
+EFFORT = 200_000
+"""Comparisons of words in all: some 0.3 s. A file may hold thousands of unknown names."""
+
+
+class Suggestions:
+    """Known words, among which misspelt ones are looked up until the effort is used up."""
+
+    def __init__(self, known: Iterable[str]) -> None:
+        self._known = tuple(dict.fromkeys(known))
+        self._found: dict[str, str | None] = {}
+        self._effort = EFFORT
+
+    def near(self, word: str) -> str | None:
+        """Return the known word that is nearest to another, if one is near enough."""
+        if word not in self._found and self._effort >= len(self._known):
+            self._effort -= len(self._known)
+            matches = get_close_matches(word[:200], self._known, n=1, cutoff=0.8)
+            self._found[word] = matches[0] if matches else None
+        return self._found.get(word)
+
+    def hint(self, word: str) -> str:
+        """Return the end of a message: `; did you mean 'wheel'?`, or nothing."""
+        near = self.near(word)
+        return f"; did you mean {near!r}?" if near else ""
+
+
+# Values in a sentence.
+
+
+def either(values: Iterable[float]) -> str:
+    """Return numbers as a choice: `512, 1024 or 2048`."""
+    words = [f"{value:g}" for value in values]
+    return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+_CONTROL = re.compile(
+    r"[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff]"
+)
+
+
+def count(number: int, noun: str) -> str:
+    """Return `1 error`, `2 errors`."""
+    return f"{number} {noun}" + ("" if number == 1 else "s")
+
+
+def listed(words: Sequence[str]) -> str:
+    """Return `a`, `a and b`, `a, b and c`."""
+    if len(words) < 2:
+        return "".join(words)
+    return ", ".join(words[:-1]) + " and " + words[-1]
+
+
+def plain(text: str) -> str:
+    """Replace characters that would steer a terminal: escapes, line breaks, bidi marks.
+
+    Halves of surrogate pairs, which stand for bytes of file names that are no text, go too.
+    """
+    return _CONTROL.sub("\N{REPLACEMENT CHARACTER}", text)
+
+
+def shortened(text: str, limit: int) -> str:
+    """Return a text, or its beginning with an ellipsis when it is longer than `limit`."""
+    return text if len(text) <= limit else text[: limit - 1] + "…"

@@ -1,0 +1,149 @@
+"""What `subt-check export` does: a package's robot as URDF for RViz, or as MJCF."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from checker.base.cache import NO_CACHE, Cache, cache_folder
+from checker.base.errors import CheckerError, NotAtHand
+from checker.base.output import EXIT_CLEAN, say_progress, show, write
+from checker.base.record import record
+from checker.base.words import plain, shortened
+from checker.convert.mjcf_files import meshes_apart, mjcf_of, scene_of_trial
+from checker.convert.sdf_to_urdf import converted_to_urdf
+from checker.convert.xml_writer import document_text
+from checker.engine.subject import Subject
+from checker.model.robot import Robot
+from checker.package.inputs import open_input
+from checker.package.package import Package
+from checker.physics.mesh.uris import MeshFile, file_behind
+
+_MODEL = re.compile(r"(?:model|package)://")
+_SUFFIXES = {"urdf": ".urdf", "mjcf": ".xml"}
+
+
+@record()
+class Exported:
+    """The robot in another format.
+
+    Attributes:
+        name: Of the package, and so of the files.
+        text: The document.
+        files: Files that it needs beside it, path and text.
+        notes: What was left out or decided.
+    """
+
+    name: str
+    text: str
+    files: Sequence[tuple[str, str]] = ()
+    notes: Sequence[str] = ()
+
+
+def export(path: Path, form: str, output: Path | None, *, cached: bool = True) -> int:
+    """Write the robot of one package in another format; return the exit code.
+
+    Args:
+        path: Package, archive or model file.
+        form: `urdf` or `mjcf`.
+        output: A file, or a folder, which then also gets the meshes of an MJCF; the standard
+            output when None.
+        cached: Whether meshes may come from the cache.
+
+    Raises:
+        CheckerError: There is not one robot at the path, or nothing can be written.
+    """
+    folder = output if output is not None and output.is_dir() else None
+    done = exported(path, form, apart=folder is not None, cached=cached)
+    for note in done.notes:
+        say_progress(plain(shortened(note, 400)))
+    if folder is not None:
+        for beside, text in done.files:
+            write(folder / beside, text)
+        write(folder / f"{done.name}{_SUFFIXES[form]}", done.text)
+    elif output is not None:
+        write(output, done.text)
+    else:
+        show(done.text)
+    return EXIT_CLEAN
+
+
+def exported(path: Path, form: str, *, apart: bool = False, cached: bool = True) -> Exported:
+    """Return the robot of one package in another format.
+
+    Args:
+        path: Package, archive or model file.
+        form: `urdf` or `mjcf`.
+        apart: Whether the meshes of an MJCF are files of their own.
+        cached: Whether meshes may come from the cache.
+
+    Raises:
+        CheckerError: There is not one robot at the path, or it cannot be written.
+    """
+    with open_input(path) as opened:
+        if len(opened.packages) != 1:
+            found = len(opened.packages)
+            raise CheckerError(f"{path} holds {found} packages; give one, for one robot is written")
+        package = opened.packages[0]
+        subject = Subject(package, Cache(cache_folder()) if cached else NO_CACHE)
+        try:
+            return _exported(path, package, subject, form, apart=apart)
+        finally:
+            subject.close()
+
+
+def _exported(
+    path: Path, package: Package, subject: Subject, form: str, *, apart: bool
+) -> Exported:
+    robots = subject.robots
+    if isinstance(robots, NotAtHand):
+        raise CheckerError(f"{path} gives no robot to write: {robots.reason}")
+    robot = robots[0]
+    if form == "mjcf":
+        return _as_mjcf(path, package, robot, apart=apart)
+    done = converted_to_urdf(robot, mesh_uri=package_uris(package, robot))
+    return Exported(_name(package), document_text(done.tree), notes=done.notes)
+
+
+def _as_mjcf(path: Path, package: Package, robot: Robot, *, apart: bool) -> Exported:
+    scene = scene_of_trial(robot)
+    if scene.unusable:
+        raise CheckerError(f"{path} cannot be written as MJCF: {scene.unusable}")
+    tree = mjcf_of(robot, scene)
+    files = list(meshes_apart(tree)) if apart else []
+    repairs = [f"{repair.part} {repair.what}" for repair in scene.repairs]
+    return Exported(_name(package), document_text(tree), files, (*repairs, *scene.notes))
+
+
+def _name(package: Package) -> str:
+    return Path(package.only).stem if package.only else package.name
+
+
+def package_uris(package: Package, robot: Robot) -> Callable[[str], str]:
+    """Return what turns the URIs of a robot's meshes and textures into `package://` ones.
+
+    A URI that leads to no file keeps its path; one with another scheme stays as it is.
+    """
+    folders = {uri.value: Robot.folder_of(uri) for uri in reversed(robot.file_uris)}
+
+    def uri_of(uri: str) -> str:
+        folder = folders.get(uri, "")
+        file = file_behind(package, folder, uri)
+        if isinstance(file, MeshFile):
+            return _package_uri(package, file.path)
+        if _MODEL.match(uri):
+            return _MODEL.sub("package://", uri, count=1)
+        if ":" in uri or uri.startswith("/"):
+            return uri
+        return _package_uri(package, posixpath.normpath(posixpath.join(folder, uri)))
+
+    return uri_of
+
+
+def _package_uri(package: Package, path: str) -> str:
+    """Return the URI of a file by its path relative to the package."""
+    if path.startswith("../"):
+        return f"package://{path.removeprefix('../')}"
+    return f"package://{package.name}/{path}"

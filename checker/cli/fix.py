@@ -1,0 +1,145 @@
+"""What `--fix` and `--diff` do and say."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from checker.base.cache import NO_CACHE, Cache, cache_folder
+from checker.base.errors import UnreadableInput
+from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, say_progress, show, write
+from checker.base.record import record
+from checker.base.words import count, listed, plain
+from checker.engine.review import findings_of
+from checker.finding import Safety
+from checker.fix.files import write_files
+from checker.fix.rounds import Fixed, Judge, fix_package, patch
+from checker.package.inputs import open_input
+from checker.pipeline import Task
+from checker.report.report import ReportedFinding
+from checker.settings import Settings
+
+# Fixes the packages that the user names: on disk, or only as a patch.
+
+
+_ARCHIVES_STAY = "unpack it first; --diff shows what would change"
+
+
+@record()
+class FixedPackage:
+    """A package and what fixing it comes to; `shown` is its path as the user would write it."""
+
+    name: str
+    shown: str
+    fixed: Fixed
+
+
+def fix_paths(
+    paths: Sequence[Path],
+    wishes: Mapping[str, Any],
+    allowed: Collection[Safety],
+    *,
+    write: bool,
+) -> list[FixedPackage]:
+    """Fix every package at the paths, one after the other.
+
+    Args:
+        paths: What to fix.
+        wishes: Fields of `Settings` that the command line sets; None leaves them.
+        allowed: Fixes that may be made.
+        write: Whether files are changed; else it is only found out what would change.
+
+    Raises:
+        UnreadableInput: There is nothing to fix at a path, or it is an archive; then nothing was
+            written at any.
+        NotWritten: A file cannot be written.
+        InvalidSettings: The settings name what does not exist.
+    """
+    for path in paths if write else ():
+        _refuse_archives(path)
+    return [
+        each for path in paths for each in _fix_input(Task(path, wishes=wishes), allowed, write)
+    ]
+
+
+def _refuse_archives(path: Path) -> None:
+    """Raise for what cannot be fixed, before anything is."""
+    with open_input(path) as opened:
+        if path.is_file() and any(not package.only for package in opened.packages):
+            raise UnreadableInput(path, "is an archive, which is not changed", _ARCHIVES_STAY)
+
+
+def _fix_input(task: Task, allowed: Collection[Safety], write: bool) -> Iterator[FixedPackage]:
+    with open_input(task.path) as opened:
+        for package in opened.packages:
+            fixed = fix_package(package, _judge(task.settings_for(package)), allowed)
+            if write:
+                write_files(package, fixed.files)
+            yield FixedPackage(package.name, task.shown(package), fixed)
+
+
+def _judge(settings: Settings) -> Judge:
+    """Return how a package is checked between rounds: without a trial, which mends nothing."""
+    still = settings.overridden(trial=False, thorough=False)
+    cache = Cache(cache_folder()) if settings.cache else NO_CACHE
+    return lambda package: findings_of(package, still, cache)
+
+
+def show_patch(
+    paths: Sequence[Path], wishes: Mapping[str, Any], allowed: Collection[Safety], output: str = ""
+) -> int:
+    """Print what fixing would change, or write it to a file; return 1 when there is something."""
+    packages = fix_paths(paths, wishes, allowed, write=False)
+    text = "".join(patch(each.fixed.files, _folder(each, packages)) for each in packages)
+    if output:
+        write(Path(output), text)
+    else:
+        show(text)
+    return EXIT_FINDINGS if text else EXIT_CLEAN
+
+
+def _folder(package: FixedPackage, packages: Sequence[FixedPackage]) -> str:
+    """Return a package's folder as seen from here: `git apply` finds its files from here.
+
+    What lies elsewhere is applied within the package, or within the folder of several.
+    """
+    shown = posixpath.normpath(Path(package.shown).as_posix())
+    if shown == ".":
+        return ""
+    if shown.startswith(("/", "..")):
+        return package.name if len(packages) > 1 else ""
+    return shown
+
+
+def apply_fixes(
+    paths: Sequence[Path], wishes: Mapping[str, Any], allowed: Collection[Safety]
+) -> None:
+    """Fix files, and say on the standard error what was done."""
+    for package in fix_paths(paths, wishes, allowed, write=True):
+        for line in _summary(package):
+            say_progress(f"{plain(package.shown)}: {line}")
+
+
+def _summary(package: FixedPackage) -> Iterator[str]:
+    fixed = package.fixed
+    if fixed.findings:
+        where = listed([plain(file.path) for file in fixed.files])
+        yield f"fixed {count(len(fixed.findings), 'finding')} in {where} ({_rules(fixed.findings)})"
+    else:
+        yield "nothing to fix"
+    if fixed.left:
+        yield f"could not fix {count(len(fixed.left), 'finding')} ({_rules(fixed.left)})"
+    if fixed.elsewhere:
+        edits = [edit for each in fixed.elsewhere if each.fix for edit in each.fix.edits]
+        files = sorted({plain(edit.place.file) for edit in edits})
+        said = count(len(fixed.elsewhere), "finding")
+        yield f"{said} to fix in {listed(files)}, with the package that holds it"
+    if fixed.withheld:
+        said = count(len(fixed.withheld), "finding")
+        yield f"{said} left whose fix changes behaviour ({_rules(fixed.withheld)}): --diff --unsafe"
+
+
+def _rules(findings: Sequence[ReportedFinding]) -> str:
+    return ", ".join(sorted({each.rule for each in findings}))

@@ -1,0 +1,257 @@
+"""`subt-check init`: writes what is missing, overwrites nothing, and says what it did."""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import suppress
+from itertools import islice
+from pathlib import Path
+from textwrap import indent
+from typing import Any
+
+from checker.base.disk_file import NotReadable, read_bytes
+from checker.base.errors import CheckerError, UnreadableInput
+from checker.base.record import record
+from checker.base.resources import templates
+from checker.base.words import plain
+from checker.package.inputs import open_input
+from checker.package.kind import PackageKind
+from checker.package.model_file import own_model
+from checker.package.package import Package
+from checker.settings import FILE_NAME, find_settings, folders_above
+from checker.source.text import SourceText
+
+# Adds the hook to a `.pre-commit-config.yaml` and leaves every other character as it is.
+
+
+ID = "subt-check"
+NEW_FILE = "repos:\n"
+
+
+def hook_entry() -> str:
+    """Return the entry for the list `repos`."""
+    return templates("init").joinpath("hook.yaml").read_text("utf-8")
+
+
+def has_hook(text: str) -> bool:
+    """Say whether a configuration runs the hook already, wherever it takes it from."""
+    content = _loaded(text)
+    repositories = content.get("repos") if isinstance(content, dict) else None
+    hooks = [hook for each in _mappings(repositories) for hook in _mappings(each.get("hooks"))]
+    return any(hook.get("id") == ID for hook in hooks)
+
+
+def with_hook(text: str) -> str | None:
+    """Return a configuration with the hook behind the others.
+
+    None where it cannot be added as text with certainty: the result is read again, and must hold
+    what was there before and the hook.
+    """
+    before = _loaded(text)
+    place = _end_of_repositories(text)
+    if place is None or not isinstance(before, dict) or not isinstance(before.get("repos"), list):
+        return None
+    end, column = place
+    head = _without_trailing_comments(text[:end])
+    line_end = "\r\n" if "\r\n" in text else "\n"
+    entry = indent(hook_entry(), " " * column).replace("\n", line_end)
+    joint = "" if head.endswith("\n") else line_end
+    after = head + joint + entry + text[len(head) :]
+    wanted = {**before, "repos": [*before["repos"], *_loaded(hook_entry())]}
+    return after if _loaded(after) == wanted else None
+
+
+def _mappings(value: object) -> list[dict[Any, Any]]:
+    return [each for each in value if isinstance(each, dict)] if isinstance(value, list) else []
+
+
+def _loaded(text: str) -> Any:
+    """Return the content of YAML without aliases, by which a short text can mean a huge one."""
+    import yaml
+
+    try:
+        if any(isinstance(token, yaml.AliasToken) for token in yaml.scan(text, yaml.SafeLoader)):
+            return None
+        return yaml.safe_load(text)
+    except (yaml.YAMLError, ValueError, RecursionError):
+        return None
+
+
+def _end_of_repositories(text: str) -> tuple[int, int] | None:
+    """Return where the block list `repos` ends, and the column of its dashes."""
+    import yaml
+
+    try:
+        root = yaml.compose(text, yaml.SafeLoader)
+    except (yaml.YAMLError, ValueError, RecursionError):
+        return None
+    for key, value in root.value if isinstance(root, yaml.MappingNode) else ():
+        if key.value == "repos" and isinstance(value, yaml.SequenceNode) and not value.flow_style:
+            return value.end_mark.index, value.start_mark.column
+    return None
+
+
+def _without_trailing_comments(text: str) -> str:
+    """Cut blank lines and comments off an end: they belong to what follows."""
+    lines = text.splitlines(keepends=True)
+    while lines and (not lines[-1].strip() or lines[-1].lstrip().startswith("#")):
+        lines.pop()
+    return "".join(lines)
+
+
+# Guesses what the packages of a folder are made for.
+
+
+_LOOKED_AT = 100
+"""Packages; more of them tell nothing new."""
+_SUBMISSIONS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
+_HARMONIC = re.compile(r"\b(?:lib)?gz-sim-|\bgz::sim::")
+"""Plugins by the names that they have since Gazebo Garden."""
+
+
+@record()
+class Guess:
+    """A profile, and what speaks for it.
+
+    Attributes:
+        profile: Empty where nothing, or more than one thing, is to be guessed.
+        reason: A part of a sentence; holds no text of a user.
+    """
+
+    profile: str
+    reason: str
+
+
+def guessed_profile(folder: Path) -> Guess:
+    """Return the profile that suits all packages of a folder."""
+    try:
+        with open_input(folder) as opened:
+            found = Counter(filter(None, map(_profile_of, islice(opened.packages, _LOOKED_AT))))
+    except UnreadableInput:
+        found = Counter()
+    counted = ", ".join(
+        f"{number} {'package' if number == 1 else 'packages'} for {profile}"
+        for profile, number in sorted(found.items())
+    )
+    if len(found) == 1:
+        return Guess(next(iter(found)), counted)
+    if found:
+        return Guess("", f"{counted}; each is judged by subt, or by urdf if it is URDF")
+    return Guess("", "nothing, there is no robot yet")
+
+
+def _profile_of(package: Package) -> str:
+    """Return the profile that suits a package; empty for one that holds no robot."""
+    if package.is_urdf:
+        return "urdf"
+    if package.kind in _SUBMISSIONS:
+        return "subt"
+    model = own_model(package)
+    text = package.read(model) if model else None
+    if not isinstance(text, SourceText):
+        return ""
+    return "gazebo-harmonic" if _HARMONIC.search(text.text) else "sdf"
+
+
+HOOKS_FILE = ".pre-commit-config.yaml"
+_SIZE_LIMIT = 1_000_000
+
+
+def init(path: Path) -> str:
+    """Write settings for the packages in a folder, and a hook for the repository around it.
+
+    Returns:
+        What was done, and what was left as it is, in lines.
+
+    Raises:
+        CheckerError: The folder is none, or cannot be written to.
+        InvalidSettings: There are settings that cannot be read.
+    """
+    folder = path.resolve()
+    if not folder.is_dir():
+        raise CheckerError(f"{path} is no folder; give the folder that holds the packages")
+    try:
+        lines = [*_settings(folder), *_hook(folder)]
+    except OSError as error:
+        raise CheckerError(f"{error.filename} cannot be written: {error.strerror}") from None
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _settings(folder: Path) -> Iterator[str]:
+    known = find_settings(folders_above(folder)).source
+    if known is not None:
+        yield f"left {plain(str(known))} as it is"
+        return
+    target = folder / FILE_NAME
+    if os.path.lexists(target):
+        yield f"left {plain(str(target))} as it is: it is no file that holds settings"
+        return
+    from jinja2 import StrictUndefined, Template
+
+    guess = guessed_profile(folder)
+    source = templates("init").joinpath(f"{FILE_NAME}.j2").read_text("utf-8")
+    template = Template(source, undefined=StrictUndefined, keep_trailing_newline=True)
+    _create(target, template.render(profile=guess.profile, reason=guess.reason))
+    profile = f"profile {guess.profile}" if guess.profile else "no profile"
+    yield f"wrote {plain(str(target))}: {profile} ({guess.reason})"
+
+
+def _hook(folder: Path) -> Iterator[str]:
+    root = next((each for each in folders_above(folder) if (each / ".git").exists()), None)
+    if root is None:
+        yield f"added no hook: {plain(str(folder))} lies in no git repository"
+        return
+    file = root / HOOKS_FILE
+    if not os.path.lexists(file):
+        _create(file, NEW_FILE + indent(hook_entry(), "  "))
+        yield f"wrote {plain(str(file))} with the hook {ID}; `pre-commit install` starts it"
+    else:
+        yield from _hook_into(file)
+
+
+def _hook_into(file: Path) -> Iterator[str]:
+    data = read_bytes(file, file.name, _SIZE_LIMIT)
+    reason = data.reason if isinstance(data, NotReadable) else ""
+    text = _decoded(data) if isinstance(data, bytes) else None
+    if text is not None and has_hook(text):
+        yield f"left {plain(str(file))} as it is: it has the hook {ID}"
+        return
+    after = with_hook(text) if text is not None else None
+    if after is None:
+        reason = reason or "is not in a form to which it can be added safely"
+        yield f"added no hook: {plain(str(file))} {reason}; add this to its list `repos`:"
+        yield hook_entry().rstrip()
+        return
+    _replace(file, after)
+    yield f"added the hook {ID} to {plain(str(file))}; `pre-commit install` starts it"
+
+
+def _decoded(data: bytes) -> str | None:
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return None
+
+
+def _create(file: Path, text: str) -> None:
+    """Write a file that is not there yet, nor a link."""
+    with file.open("x", encoding="utf-8") as stream:
+        stream.write(text)
+
+
+def _replace(file: Path, text: str) -> None:
+    """Write a whole file or nothing."""
+    with tempfile.NamedTemporaryFile(dir=file.parent, prefix=file.name, delete=False) as new:
+        try:
+            new.write(text.encode())
+            new.close()
+            Path(new.name).chmod(file.stat().st_mode & 0o7777)
+            Path(new.name).replace(file)
+        except OSError:
+            with suppress(OSError):
+                Path(new.name).unlink()
+            raise

@@ -1,0 +1,64 @@
+"""The page of a rule as text for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from textwrap import wrap
+
+from checker.rule import Rule
+from checker.rulebook.options import Option, told_options
+from checker.rulebook.pages import parse_page
+
+_WIDTH = 96
+"""Characters of a line that is wrapped here, without its indentation."""
+
+
+def page_text(rule: Rule) -> str:
+    """Return all that is known about a rule."""
+    page = parse_page(rule.page)
+    parts = [f"{rule.id} {rule.name} ({rule.severity})", page.title + ".", page.why]
+    parts += [f"Fix: {page.fix}", f"Source: {page.source}"]
+    if rule.options:
+        options = _indented("\n".join(map(_option, told_options(rule))))
+        parts.append(f"Options, in subt-check.toml below [rules.{rule.id}]:\n{options}")
+    if rule.bad:
+        parts.append("Reported:\n" + _indented(_example(rule.bad[0])))
+    if rule.good:
+        parts.append("Right:\n" + _indented(_example(rule.good[0])))
+    return "\n\n".join(parts)
+
+
+def _option(option: Option) -> str:
+    """Show an option as lines that a settings file can take, what it does above it."""
+    lines = wrap(option.words, _WIDTH, initial_indent="# ", subsequent_indent="# ")
+    return "\n".join([*lines, f"{option.name} = {option.default}"])
+
+
+def _example(example: object) -> str:
+    """Show an example: a fragment of model.sdf, or files by their paths."""
+    if not isinstance(example, Mapping):
+        return str(example).strip("\n")
+    shown = []
+    for path, text in example.items():
+        match path, text:
+            case "@reported" | "@with", _:
+                pass
+            case "@fragment", _:
+                shown.append(f"model.sdf:\n{_indented(text.strip())}")
+            case "@urdf", True:
+                shown.append("urdf/arm.urdf holds an arm with a transmission for its joint")
+            case "@urdf", _:
+                shown.append(f"urdf/arm.urdf:\n{_indented(text.strip())}")
+            case "@name", _:
+                shown.append(f"folder {text}/")
+            case "@links", _:
+                shown += [f"{link} is a link to {target}" for link, target in text.items()]
+            case _, None:
+                shown.append(f"{path} is missing")
+            case _:
+                shown.append(f"{path}:\n{_indented(text.strip())}")
+    return "\n".join(shown)
+
+
+def _indented(text: str) -> str:
+    return "\n".join(f"  {line}".rstrip() for line in text.splitlines())

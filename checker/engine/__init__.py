@@ -1,0 +1,1 @@
+"""Runs the rules over the parts of a package."""

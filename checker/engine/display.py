@@ -1,0 +1,140 @@
+"""The robot of a package in 3D: its meshes are read early, then it is put together."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from checker.base.cache import Cache
+from checker.base.progress import Stages
+from checker.base.record import record
+from checker.model.robot import Robot
+from checker.physics.mesh.package_meshes import TimedMeshes
+from checker.physics.trial.trial import Trial
+from checker.report.report import Display
+from checker.report.scene.builder import scene_of
+from checker.report.scene.early import NO_CHILDREN, EarlyChildren
+from checker.report.scene.glb import glb_of
+from checker.report.scene.mesh_files import MeshFiles, surfaces_of
+from checker.report.scene.pictures import Drawing
+from checker.report.scene.scene import DisplayScene, Layer
+from checker.report.scene.surface import NoSurfaces, Surfaces
+
+if TYPE_CHECKING:
+    from checker.physics.trial.trial import Trial
+
+
+# The robot and its trial for those who look: one animated GLB.
+
+
+BYTES = 4_500_000
+"""The most that a GLB takes: a report with it stays below 10 MB."""
+
+_MARKS = (Layer.INERTIA, Layer.FRAME, Layer.JOINT, Layer.MASS, Layer.VIEW)
+_SPARED: Sequence[Collection[Layer]] = (
+    (),
+    (Layer.COLLISION,),
+    _MARKS,
+    (Layer.COLLISION, *_MARKS),
+    (Layer.VISUAL, *_MARKS),
+    tuple(Layer),
+)
+"""Layers that are left out, one choice after the other, until the rest is small enough."""
+
+
+def display_of(
+    robot: Robot, trial: Trial | None, surfaces: Surfaces, drawing: Drawing | None = None
+) -> Display | None:
+    """Return the robot in 3D; None where nothing of it can be shown.
+
+    Args:
+        robot: It.
+        trial: How it moved; None without a trial.
+        surfaces: What its mesh files look like.
+        drawing: Makes pictures of it, while the rest is put together; None for none.
+    """
+    scene = scene_of(robot, trial, surfaces)
+    if not any(link.items for link in scene.links):
+        return None
+    if drawing is not None:
+        drawing.give(scene)
+    for spared in _SPARED:
+        glb = glb_of(without(scene, spared))
+        if len(glb) <= BYTES:
+            left_out = tuple(f"the layer {layer} is not shown: it is too large" for layer in spared)
+            pictures = drawing.pictures if drawing is not None else ()
+            return Display(glb, pictures, (*scene.notes, *left_out))
+    return None
+
+
+def without(scene: DisplayScene, layers: Collection[Layer]) -> DisplayScene:
+    """Return a scene without some of its layers."""
+    if not layers:
+        return scene
+    links = (
+        replace(link, items=tuple(item for item in link.items if item.layer not in layers))
+        for link in scene.links
+    )
+    return replace(scene, links=tuple(links))
+
+
+@record(eq=False)
+class Displaying:
+    """The first of some robots, to be shown.
+
+    Attributes:
+        robots: At least one.
+        cache: Where results are kept.
+        stages: Told of what takes long.
+        early: Children that wait; whoever has started them ends them.
+    """
+
+    robots: tuple[Robot, ...]
+    cache: Cache
+    stages: Stages
+    early: EarlyChildren = NO_CHILDREN
+
+    def begin(self) -> None:
+        """Begin to read the meshes and to load what draws, while the caller does something else."""
+        # What goes wrong is met again when the robot is put together.
+        with suppress(Exception), self.stages.stage("display"):
+            self._drawing.begin()
+            if isinstance(self._surfaces, MeshFiles):
+                self._surfaces.begin()
+
+    def stop(self) -> None:
+        """End what nobody has waited for."""
+        self._drawing.stop()
+        surfaces = self.__dict__.get("_surfaces")
+        if isinstance(surfaces, MeshFiles):
+            surfaces.stop()
+
+    def made(self, trial: Trial | None) -> Display | None:
+        """Return the robot in 3D; None where there is nothing to see.
+
+        Args:
+            trial: How it moved; None without a trial.
+        """
+        with self.stages.stage("display", "drawing the robot"):
+            display = display_of(self.robots[0], trial, self._surfaces, self._drawing)
+        count = len(self.robots)
+        if display is None or count == 1:
+            return display
+        return replace(
+            display, notes=(f"of {count} robots only the first is shown", *display.notes)
+        )
+
+    @cached_property
+    def _drawing(self) -> Drawing:
+        return Drawing(self.cache, self.early.artist)
+
+    @cached_property
+    def _surfaces(self) -> MeshFiles | NoSurfaces:
+        robot = self.robots[0]
+        meshes = robot.meshes
+        if isinstance(meshes, TimedMeshes):
+            return surfaces_of(meshes.meshes, robot, self.cache, self.early.looks)
+        return NoSurfaces()

@@ -1,0 +1,216 @@
+"""Figures about a robot that every report shows; nothing is read or weighed for their sake."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from checker.base.errors import NotAtHand
+from checker.engine.run import Outcome
+from checker.engine.subject import Subject
+from checker.finding import Place, Severity
+from checker.model.components import Collision, Visual
+from checker.model.mesh import Mesh
+from checker.model.robot import Robot
+from checker.physics.mass.mass_properties import MassProperties
+from checker.physics.mesh.package_meshes import TimedMeshes
+from checker.physics.trial.measures.figures import MEASURES, Measure
+from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.trial import Measurement, Trial
+
+# A trial as the report shows it: every figure with its limits and a verdict.
+
+
+_JUDGES = frozenset(measure.rule for measure in MEASURES.values())
+"""Rules that judge figures. They key each finding with the figures it is about."""
+
+NOT_JUDGED = "not judged"
+_SERIES_DIGITS = 6
+
+
+def measured(driven: RobotTrial, outcome: Outcome) -> dict[str, Any]:
+    """Return what JSON can express of a trial and of what the rules said about its figures."""
+    trial = driven.trial
+    said = replace(trial, replay=None).as_json()
+    return {
+        "drive": trial.drive,
+        "versions": dict(trial.versions),
+        "course": said["legs"],
+        "refused": trial.refused,
+        "refused_part": trial.refused_part,
+        "measurements": list(_measurements(driven, outcome)),
+        "repairs": said["repairs"],
+        "notes": list(trial.notes),
+        "trouble": list(trial.trouble),
+        "series": _series(trial),
+    }
+
+
+def _measurements(driven: RobotTrial, outcome: Outcome) -> Iterator[dict[str, Any]]:
+    verdicts = _verdicts(outcome)
+    for each in driven.trial.measurements:
+        measure = MEASURES.get(each.name, Measure(each.name.replace("_", " ")))
+        if not math.isfinite(each.value):
+            continue
+        looked = measure.rule in outcome.looked
+        yield {
+            "name": each.name,
+            "label": measure.label,
+            "value": _rounded_value(each.value),
+            "unit": measure.unit,
+            "part": each.part,
+            "other": each.other,
+            "rule": measure.rule,
+            "limits": _limits(each.name, outcome.looked.get(measure.rule, {})),
+            "verdict": _verdict(each, driven, verdicts, looked),
+        }
+
+
+_Verdicts = dict[str, list[tuple[Severity, frozenset[tuple[str, int, int]]]]]
+"""By the name of a figure: how grave each finding about it is, and where its places start."""
+
+
+def _verdicts(outcome: Outcome) -> _Verdicts:
+    verdicts: _Verdicts = {}
+    # A figure is out of its limits also where that shall not count.
+    aside = (each.finding for each in outcome.suppressed)
+    for found in (*outcome.findings, *aside):
+        if found.rule in _JUDGES or found.rule.startswith("TRI"):
+            places = frozenset(map(_start, found.places))
+            for name in found.key.split():
+                verdicts.setdefault(name, []).append((found.severity, places))
+    return verdicts
+
+
+def _start(place: Place) -> tuple[str, int, int]:
+    return place.file, place.line, place.column
+
+
+def _verdict(each: Measurement, driven: RobotTrial, verdicts: _Verdicts, looked: bool) -> str:
+    """Return the gravest that was said about a figure; `ok` when its rule looked and was silent."""
+    said = verdicts.get(each.name, [])
+    if each.part:
+        start = _start(driven.part(each.part).span.place())
+        said = [(severity, places) for severity, places in said if start in places]
+    if said:
+        return str(min((severity for severity, _ in said), key=lambda severity: severity.rank))
+    return "ok" if looked and MEASURES[each.name].silence_is_ok else NOT_JUDGED
+
+
+def _limits(name: str, options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options that are about a figure, without its name in front.
+
+    A rule of several figures names its options after them, as `settle_tilt_above`.
+    """
+    own = {key: value for key, value in options.items() if key.startswith(f"{name}_")}
+    if own:
+        return {key.removeprefix(f"{name}_"): value for key, value in own.items()}
+    return {key: value for key, value in options.items() if not _names_a_figure(key)}
+
+
+def _names_a_figure(option: str) -> bool:
+    return any(option.startswith(f"{name}_") for name in MEASURES)
+
+
+def _series(trial: Trial) -> dict[str, list[float | None]]:
+    return {
+        name: [_rounded_value(value) if math.isfinite(value) else None for value in values]
+        for name, values in trial.series.items()
+    }
+
+
+def _rounded_value(value: float) -> float:
+    """Return a figure with as many digits as anybody can tell apart."""
+    return float(f"{value:.{_SERIES_DIGITS}g}")
+
+
+_DIGITS = 6
+
+
+def facts_of(subject: Subject) -> dict[str, Any]:
+    """Return what is known of the first robot by now; nothing without a robot.
+
+    Masses in kg, lengths in m, angles in degrees, inertia in kg·m². What only meshes, Pinocchio
+    or the trial can tell is there when a rule has asked for it.
+    """
+    robots = subject.robots
+    if isinstance(robots, NotAtHand):
+        return {}
+    robot = robots[0]
+    known: dict[str, Any] = {
+        "robot": robot.name.value[:200],
+        "mass_kg": robot.mass,
+        "links": len(robot.links),
+        "joints": len(robot.joints),
+        "sensors": len(robot.sensors),
+        "plugins": len(robot.all_plugins),
+        "drive": str(robot.locomotion.kind),
+    }
+    if _meshes_are_known(robot):
+        known |= {"size_m": _size(robot), **_triangles(robot)}
+    for masses in subject.provided(MassProperties)[:1]:
+        known |= _balance(masses)
+    for driven in subject.provided(RobotTrial)[:1]:
+        known["thrust_to_weight"] = driven.trial.value("thrust_to_weight")
+    return dict(_finite(known))
+
+
+def _balance(masses: MassProperties) -> Mapping[str, Any]:
+    tip = masses.tip_angle
+    return {
+        "centre_of_mass_m": masses.centre,
+        "inertia_kg_m2": masses.inertia,
+        "tip_angle_deg": None if tip is None else math.degrees(tip),
+    }
+
+
+def _meshes_are_known(robot: Robot) -> bool:
+    meshes = robot.meshes
+    return isinstance(meshes, TimedMeshes) and (meshes.read or not meshes.number)
+
+
+def _size(robot: Robot) -> list[float] | None:
+    """Return the sides of the box around the robot; None where a part's extent is not known."""
+    shaped = [link for link in robot.links if link.collisions or link.visuals]
+    boxes = [box for link in shaped if (box := robot.box_of(link)) is not None]
+    if not boxes or len(boxes) < len(shaped):
+        return None
+    return [
+        max(box.high[axis] for box in boxes) - min(box.low[axis] for box in boxes)
+        for axis in range(3)
+    ]
+
+
+def _triangles(robot: Robot) -> dict[str, int]:
+    """Return how many triangles the meshes of collisions and of visuals have."""
+    return {
+        "collision_triangles": sum(
+            _triangles_of(robot, shape) for link in robot.links for shape in link.collisions
+        ),
+        "visual_triangles": sum(
+            _triangles_of(robot, shape) for link in robot.links for shape in link.visuals
+        ),
+    }
+
+
+def _triangles_of(robot: Robot, shape: Collision | Visual) -> int:
+    mesh = robot.mesh_of(shape)
+    return mesh.triangles if isinstance(mesh, Mesh) else 0
+
+
+def _finite(known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield what JSON can express and somebody can read: finite numbers of few digits."""
+    for name, value in known.items():
+        if isinstance(value, int | str):
+            yield name, value
+        elif value is not None and (figures := _rounded(value)) is not None:
+            yield name, figures
+
+
+def _rounded(value: float | Sequence[Any]) -> float | list[Any] | None:
+    if isinstance(value, float):
+        return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None
+    rounded = [_rounded(each) for each in value]
+    return None if None in rounded else rounded

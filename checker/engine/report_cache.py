@@ -1,0 +1,146 @@
+"""Remembers reports: a package that did not change is not checked again.
+
+What a report depends on is hashed: the program, the settings, the package's content, and which
+files lie in the packages beside it (by size and time of change).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+from base64 import b64encode
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import asdict, replace
+from functools import cache as once
+from importlib.metadata import entry_points
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from checker.base.cache import Cache, code_hash, key_of
+from checker.base.resources import version_of
+from checker.package.kind import looks_like_package
+from checker.package.package import Package
+from checker.package.walk import SKIPPED_FOLDERS
+from checker.report.reading import read_as
+from checker.report.report import PackageReport
+from checker.settings import Settings
+
+# A package's report as JSON that can be read back, for the cache: nothing is left out.
+
+
+def to_stored(report: PackageReport) -> dict[str, Any]:
+    """Return what `from_stored` makes the same report of."""
+    display = report.display
+    return {
+        **asdict(replace(report, display=None)),
+        "display": None if display is None else _to_text(asdict(display)),
+    }
+
+
+def from_stored(said: Mapping[str, Any], path: str) -> PackageReport:
+    """Return the report that was stored.
+
+    Args:
+        said: As `to_stored` made it.
+        path: Of the package, as the user gives it this time.
+
+    Raises:
+        Unfit, TypeError: It is no stored report.
+    """
+    return replace(read_as(PackageReport, said), path=path)
+
+
+def _to_text(said: dict[str, Any]) -> dict[str, Any]:
+    """Make JSON's strings of what is bytes."""
+    pictures = [
+        {**each, "jpeg": b64encode(each["jpeg"]).decode("ascii")} for each in said["pictures"]
+    ]
+    return {**said, "glb": b64encode(said["glb"]).decode("ascii"), "pictures": pictures}
+
+
+KIND = "report"
+_LIBRARIES = (
+    *("fast-simplification", "lxml", "markdown-it-py", "mujoco", "numpy", "pillow", "pin"),
+    *("pycollada", "pyelftools", "pyyaml", "scipy", "subt-check", "tree-sitter"),
+    *("tree-sitter-ruby", "trimesh", "xacro", "yourdfpy"),
+)
+ENTRIES_LIMIT = 100_000
+"""Files beside a package; with more of them, looking at all takes longer than checking."""
+
+
+def memory_key(package: Package, settings: Settings) -> str:
+    """Return the key of a package's report; empty when it is not worth remembering."""
+    if package.only:
+        return ""
+    parts: list[bytes | str] = [*program_parts(), repr(settings), str(package.root)]
+    parts += _content(package)
+    beside = list(islice(_beside(package), ENTRIES_LIMIT))
+    return key_of(*parts, *beside) if len(beside) < ENTRIES_LIMIT else ""
+
+
+def program_parts() -> list[str]:
+    """Return what every report depends on, whatever is checked: the program, libraries, rules."""
+    return [code_hash("", "../rules"), *map(version_of, _LIBRARIES), *_rules_of_others()]
+
+
+def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
+    """Return the report that was remembered under a key; None when there is none."""
+    said = cache.get(KIND, key) if key else None
+    if said is None:
+        return None
+    try:
+        return from_stored(said, shown)
+    except (KeyError, TypeError, ValueError):
+        return None
+
+
+def remember(cache: Cache, key: str, report: PackageReport) -> None:
+    """Keep a report, unless something was not at hand or not drawn: it may be the next time."""
+    undrawn = report.display is not None and not report.display.pictures
+    if key and not report.blind_spots and not undrawn:
+        cache.put(KIND, key, to_stored(report))
+
+
+@once
+def _rules_of_others() -> tuple[str, ...]:
+    """Return who brings rules; to look through all that is installed takes 15 ms."""
+    entries = entry_points(group="subt_check.rules")
+    return tuple(sorted(f"{it.value} {it.dist.version if it.dist else ''}" for it in entries))
+
+
+def _content(package: Package) -> Iterator[bytes | str]:
+    for entry in package.index.entries.values():
+        yield f"{entry.path} {entry.kind} {entry.target} {entry.target_state}"
+        if entry.is_file:
+            with suppress(OSError), entry.location.open("rb") as file:
+                yield hashlib.file_digest(file, "sha256").digest()
+
+
+def _beside(package: Package) -> Iterator[str]:
+    """Yield what can be seen of the other packages without opening their files."""
+    for directory in package.workspace.directories:
+        for folder in _folders(directory):
+            yield str(folder)
+            if folder != package.root and looks_like_package(folder):
+                yield from _below(folder)
+
+
+def _folders(directory: Path) -> list[Path]:
+    try:
+        return sorted(Path(item.path) for item in os.scandir(directory) if item.is_dir())
+    except OSError:
+        return []
+
+
+def _below(folder: Path) -> Iterator[str]:
+    waiting = [folder]
+    while waiting:
+        with suppress(OSError), os.scandir(waiting.pop()) as items:
+            for item in sorted(items, key=lambda item: item.name):
+                found = item.stat(follow_symlinks=item.is_symlink() and item.is_file())
+                yield f"{item.path} {found.st_mode} {found.st_size} {found.st_mtime_ns}"
+                if stat.S_ISDIR(found.st_mode) and item.name not in SKIPPED_FOLDERS:
+                    waiting.append(Path(item.path))

@@ -1,0 +1,192 @@
+"""Judges one package: its parts, the rules over them, and what is known at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from checker.base.cache import Cache
+from checker.base.errors import NotAtHand, Parts
+from checker.base.garbage_collection import collection_put_off
+from checker.base.progress import Say, Stages
+from checker.base.record import record
+from checker.engine.facts import facts_of, measured
+from checker.engine.options import check_against_rules
+from checker.engine.run import Outcome, crashed, joined, needed_parts, run_rules
+from checker.engine.subject import Subject
+from checker.model.devices.known import known_devices
+from checker.package.package import Package
+from checker.physics.trial.robot_trial import RobotTrial
+from checker.report.report import (
+    Cause,
+    Display,
+    InheritedPart,
+    NotChecked,
+    PackageReport,
+    ReportedFinding,
+)
+from checker.report.scene.early import NO_CHILDREN, EarlyChildren
+from checker.rule import Rule
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.profiles import Profile, profile
+from checker.rulebook.suppression.parts import BaselineUse, Suppressions
+from checker.rulebook.suppression.silencer import Silencer
+from checker.settings import Settings
+
+# Rules about suppressions need to know what all others found; those about the baseline, which of
+# its entries nothing was found of.
+
+
+@record()
+class _With:
+    """The parts of a package, and one that is known only at the end."""
+
+    parts: Parts
+    last: object
+
+    def part(self, kind: type) -> Sequence[object] | NotAtHand:
+        """Return the part."""
+        return (self.last,) if isinstance(self.last, kind) else self.parts.part(kind)
+
+
+def run_and_set_aside(
+    rules: Sequence[Rule], subject: Subject, profile: Profile, settings: Settings
+) -> Outcome:
+    """Run rules over a package and part what they find from what does not count."""
+    of_suppressions = [rule for rule in rules if Suppressions in rule.needs.values()]
+    of_baseline = [rule for rule in rules if BaselineUse in rule.needs.values()]
+    first = [rule for rule in rules if rule not in (*of_suppressions, *of_baseline)]
+
+    held = settings.baseline.packages.get(subject.package.name, ())
+    silencer = Silencer(subject.package, settings.suppress, all_rules(), held)
+    outcome = run_rules(first, subject, profile, settings, silencer)
+    used = silencer.suppressions(_looked(outcome), settings.source)
+    said = run_rules(of_suppressions, _With(subject, used), profile, settings, silencer)
+    outcome = joined(outcome, said)
+    stale = _stale(silencer, outcome, settings)
+    said = run_rules(of_baseline, _With(subject, stale), profile, settings, silencer)
+    return joined(outcome, said)
+
+
+def _looked(outcome: Outcome) -> set[str]:
+    """Return the rules that looked at all they ask for, so that their silence tells something."""
+    return set(outcome.looked) - {each.rule for each in outcome.not_checked}
+
+
+def _stale(silencer: Silencer, outcome: Outcome, settings: Settings) -> BaselineUse:
+    """Return what of the baseline is gone."""
+    path = settings.baseline.path
+    ids = {rule.id for rule in all_rules()}
+    return BaselineUse(silencer.held.stale(ids, _looked(outcome), path.name if path else ""))
+
+
+def judged(
+    package: Package,
+    shown: str,
+    settings: Settings,
+    cache: Cache,
+    say: Say,
+    early: EarlyChildren = NO_CHILDREN,
+) -> PackageReport:
+    """Return the report of a package; what goes wrong with it is in it, and nothing is raised.
+
+    Args:
+        package: What to judge.
+        shown: Its path as the user gave it.
+        settings: By which rules, and how strictly.
+        cache: Where results that take long are kept.
+        say: Told what takes long when it begins.
+        early: Children that wait for something to do; they are stopped in the end.
+
+    Raises:
+        InvalidSettings: The settings name a rule or option that does not exist.
+    """
+    settings = settings.suiting(urdf=package.is_urdf)
+    stages = Stages(lambda words: say(f"{package.name}: {words}"))
+    devices = known_devices(settings.devices)
+    subject = Subject(package, cache, stages, devices, early)
+    try:
+        if not settings.select:
+            # Whatever the rules are, some ask for the meshes: these are read while those load.
+            subject.start_meshes()
+        check_against_rules(settings, all_rules())
+        return _report_or_crash(subject, shown, settings)
+    finally:
+        subject.close()
+
+
+@collection_put_off()
+def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[ReportedFinding, ...]:
+    """Return what the rules find in a package; for what needs no more than that.
+
+    Raises:
+        InvalidSettings: The settings name a rule or option that does not exist.
+    """
+    settings = settings.suiting(urdf=package.is_urdf)
+    subject = Subject(package, cache, devices=known_devices(settings.devices))
+    try:
+        check_against_rules(settings, all_rules())
+        judge = profile(settings.profile)
+        return run_and_set_aside(all_rules(), subject, judge, settings).findings
+    finally:
+        subject.close()
+
+
+def _report_or_crash(subject: Subject, shown: str, settings: Settings) -> PackageReport:
+    try:
+        return _report(subject, shown, settings)
+    except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
+        broken = (crashed("check", error),)
+        return PackageReport(subject.package.name, shown, "unknown", (), broken)
+
+
+def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
+    package, judge = subject.package, profile(settings.profile)
+    with subject.stages.stage("rules", "rules"):
+        subject.start(needed_parts(all_rules(), judge, settings))
+        if settings.display and not isinstance(subject.displaying, NotAtHand):
+            subject.displaying.begin()
+        outcome = run_and_set_aside(all_rules(), subject, judge, settings)
+    blind = [
+        NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
+        for fault in package.index.faults
+    ]
+    facts, trouble = _facts(subject)
+    driven = subject.provided(RobotTrial)
+    display, undrawn = _display(subject) if settings.display else (None, ())
+    return PackageReport(
+        package.name,
+        shown,
+        str(package.kind),
+        outcome.findings,
+        (*outcome.not_checked, *blind, *trouble, *undrawn),
+        tuple(
+            InheritedPart(each.part, each.package_name, each.at_hand) for each in package.inherited
+        ),
+        facts,
+        dict(subject.stages.seconds),
+        settings.profile,
+        settings.fail_on,
+        settings.description,
+        measured(driven[0], outcome) if driven else None,
+        suppressed=outcome.suppressed,
+        looked=tuple(outcome.looked),
+        display=display,
+    )
+
+
+def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]:
+    try:
+        return facts_of(subject), ()
+    except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
+        return {}, (crashed("facts", error),)
+
+
+def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
+    if isinstance(subject.displaying, NotAtHand):
+        return None, ()
+    driven = subject.provided(RobotTrial)
+    try:
+        return subject.displaying.made(driven[0].trial if driven else None), ()
+    except Exception as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
+        return None, (crashed("display", error),)

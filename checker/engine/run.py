@@ -1,0 +1,256 @@
+"""Runs the rules over one package: selects, isolates, groups, sorts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import field, replace
+from functools import partial
+from itertools import product
+from typing import Any
+
+from checker.base.errors import NotAtHand, Parts
+from checker.base.record import record
+from checker.base.words import shortened
+from checker.engine.options import options_of
+from checker.finding import (
+    Fix,
+    Place,
+    Safety,
+    Severity,
+    fingerprint,
+    numbered,
+    without_line_numbers,
+)
+from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
+from checker.report.report import NO_TRIAL, Cause, NotChecked, ReportedFinding, Suppressed
+from checker.rule import Context, Finding, Rule, Unchecked
+from checker.rulebook.pages import parse_page
+from checker.rulebook.profiles import Profile
+from checker.rulebook.suppression.silencer import Silencer, parted
+from checker.rulebook.suppression.spots import Spot, spot
+from checker.settings import Settings
+
+TEXT_LIMIT = 1000
+"""Characters of a message, note or reason; names in a package may be longer than any of them."""
+
+
+@record()
+class Outcome:
+    """What the rules said, and which of them could not look.
+
+    Attributes:
+        looked: Ids of the rules that had all they asked for, each with the options it used.
+        suppressed: What they said and does not count.
+    """
+
+    findings: tuple[ReportedFinding, ...]
+    not_checked: tuple[NotChecked, ...]
+    looked: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    suppressed: tuple[Suppressed, ...] = ()
+
+
+def run_rules(
+    rules: Iterable[Rule],
+    parts: Parts,
+    profile: Profile,
+    settings: Settings,
+    silencer: Silencer | None = None,
+) -> Outcome:
+    """Run the rules that profile and settings want; one that crashes stops no other."""
+    findings: list[ReportedFinding] = []
+    suppressed: list[Suppressed] = []
+    not_checked: list[NotChecked] = []
+    looked: dict[str, Mapping[str, Any]] = {}
+    for rule in rules:
+        if not wanted(rule, profile, settings):
+            not_checked += _switched_off(rule, profile, settings)
+            continue
+        said = _run_isolated(rule, parts, profile.context, settings)
+        if isinstance(said, NotChecked):
+            not_checked.append(said)
+            continue
+        looked[rule.id] = {**rule.options, **options_of(rule, settings)}
+        found = [each for each in said if isinstance(each, Finding)]
+        spot_of = partial(_spot, rule, profile, settings)
+        for silence, group in parted(rule.id, found, silencer, spot_of).items():
+            reported = _report(rule, group, profile, settings)
+            if silence is None:
+                findings += reported
+            else:
+                suppressed += [
+                    Suppressed(each, silence.by, silence.reason, silence.place) for each in reported
+                ]
+        unchecked = (each.reason for each in said if isinstance(each, Unchecked))
+        reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
+        not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
+    return _outcome(_sorted(findings), suppressed, not_checked, looked)
+
+
+def _outcome(
+    findings: list[ReportedFinding],
+    suppressed: list[Suppressed],
+    not_checked: list[NotChecked],
+    looked: Mapping[str, Mapping[str, Any]],
+) -> Outcome:
+    """Number findings that would have one fingerprint: those that count first."""
+    aside = [each.finding for each in suppressed]
+    prints = numbered(each.fingerprint for each in (*findings, *aside))
+    distinct = [
+        replace(each, fingerprint=own)
+        for each, own in zip((*findings, *aside), prints, strict=True)
+    ]
+    counting, others = distinct[: len(findings)], distinct[len(findings) :]
+    set_aside = (
+        replace(each, finding=found) for each, found in zip(suppressed, others, strict=True)
+    )
+    return Outcome(tuple(counting), tuple(not_checked), looked, tuple(set_aside))
+
+
+def joined(*outcomes: Outcome) -> Outcome:
+    """Return what different rules said together."""
+    looked: dict[str, Mapping[str, Any]] = {}
+    for each in outcomes:
+        looked.update(each.looked)
+    return Outcome(
+        tuple(_sorted([found for each in outcomes for found in each.findings])),
+        tuple(unseen for each in outcomes for unseen in each.not_checked),
+        looked,
+        tuple(aside for each in outcomes for aside in each.suppressed),
+    )
+
+
+def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:
+    """Say whether a rule is to run; the user's selection counts more than the profile's."""
+    asked_for = _asked_for(rule, profile, settings)
+    return asked_for and (settings.trial or not _needs_trial(rule))
+
+
+def needed_parts(rules: Iterable[Rule], profile: Profile, settings: Settings) -> set[type]:
+    """Return the parts that the rules to be run ask for."""
+    to_run = (rule for rule in rules if wanted(rule, profile, settings))
+    return {kind for rule in to_run for kind in rule.needs.values()}
+
+
+def _asked_for(rule: Rule, profile: Profile, settings: Settings) -> bool:
+    if RepeatedTrial in rule.needs.values() and not settings.thorough:
+        return False
+    return settings.selects(rule) and (bool(settings.select) or profile.includes(rule))
+
+
+def _needs_trial(rule: Rule) -> bool:
+    return bool({RobotTrial, RepeatedTrial} & set(rule.needs.values()))
+
+
+def _switched_off(rule: Rule, profile: Profile, settings: Settings) -> Iterator[NotChecked]:
+    """Say what the user switched off; what was not asked for in the first place goes unsaid."""
+    if _asked_for(rule, profile, settings):
+        yield NotChecked(rule.id, NO_TRIAL, Cause.SWITCHED_OFF)
+    elif not settings.selects(rule) and profile.includes(rule) and not settings.select:
+        yield NotChecked(rule.id, "switched off", Cause.SWITCHED_OFF)
+
+
+def _run_isolated(
+    rule: Rule, parts: Parts, context: Context, settings: Settings
+) -> list[Finding | Unchecked] | NotChecked:
+    """Run one rule; what goes wrong inside it is the checker's fault and says so."""
+    try:
+        arguments = _arguments(rule, parts, context)
+        if isinstance(arguments, NotAtHand):
+            cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
+            return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
+        options = options_of(rule, settings)
+        return [found for each in arguments for found in rule.check(**each, **options)]
+    except Exception as error:  # noqa: BLE001 - the other rules go on, the exit code says so
+        return crashed(rule.id, error)
+
+
+def crashed(what: str, error: Exception) -> NotChecked:
+    """Say that a part of the check could not run because of the checker itself."""
+    problem = shortened(f"{type(error).__name__}: {error}", TEXT_LIMIT)
+    reason = f"{what} could not run ({problem}); please report this"
+    return NotChecked(what, reason, Cause.CRASHED)
+
+
+def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any]] | NotAtHand:
+    """Return one set of arguments for each combination of the parts that a rule asks for."""
+    wanted: dict[str, Sequence[object]] = {}
+    for name, kind in rule.needs.items():
+        had = (context,) if kind is Context else parts.part(kind)
+        if isinstance(had, NotAtHand):
+            return had
+        wanted[name] = had
+    return [dict(zip(wanted, each, strict=True)) for each in product(*wanted.values())]
+
+
+def _report(
+    rule: Rule, found: list[Finding], profile: Profile, settings: Settings
+) -> Iterator[ReportedFinding]:
+    """Join findings that are one fault in many places, and add what the rule's page says."""
+    page = parse_page(rule.page)
+    groups: dict[tuple[Severity, str], list[Finding]] = {}
+    for each in found:
+        severity = _severity(rule, each, profile, settings)
+        groups.setdefault((severity, each.key or each.message), []).append(each)
+    for (severity, _), group in groups.items():
+        first = group[0]
+        places = tuple(dict.fromkeys(_bounded(place) for each in group for place in each.places))
+        yield ReportedFinding(
+            rule.id,
+            rule.name,
+            severity,
+            shortened(first.message, TEXT_LIMIT),
+            fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
+            places,
+            _joined_fix([each.fix for each in group if each.fix]),
+            page.reason,
+            " ".join(page.fix.split()),
+            first.key,
+            page.title,
+            " ".join(page.source.split()),
+        )
+
+
+def _bounded(place: Place) -> Place:
+    return replace(place, note=shortened(place.note, TEXT_LIMIT))
+
+
+def _joined_fix(fixes: list[Fix]) -> Fix | None:
+    """Return one fix that makes all edits; it is as safe as the least safe of them."""
+    if not fixes:
+        return None
+    edits = dict.fromkeys(edit for fix in fixes for edit in fix.edits)
+    return Fix(max((fix.safety for fix in fixes), key=list(Safety).index), tuple(edits))
+
+
+def _spot(rule: Rule, profile: Profile, settings: Settings, found: Finding) -> Spot:
+    """Return how the baseline knows a finding, in the words of the report."""
+    severity = _severity(rule, found, profile, settings)
+    message = shortened(found.message, TEXT_LIMIT)
+    return spot(rule.id, severity, found.places[0], found.key, message)
+
+
+def _severity(rule: Rule, found: Finding, profile: Profile, settings: Settings) -> Severity:
+    """The user's word counts most, then the finding's, then the rule's; a profile can lower it."""
+    if rule.id in settings.severity:
+        return settings.severity[rule.id]
+    severity = found.severity or rule.severity
+    limit = profile.severity.get(rule.id)
+    return max(severity, limit, key=lambda s: s.rank) if limit else severity
+
+
+def _identity(found: Finding) -> str:
+    """Return what tells a fault from others of its rule in the same element or file.
+
+    An element's path stays when its value changes, the message does not; elsewhere the message
+    has to do, without the numbers of lines in it.
+    """
+    message = "" if found.places[0].element else found.message
+    return without_line_numbers(found.key or message)
+
+
+def _sorted(findings: list[ReportedFinding]) -> list[ReportedFinding]:
+    def key(each: ReportedFinding) -> tuple[int, str, int, int, str]:
+        place = each.places[0]
+        return each.severity.rank, place.file, place.line, place.column, each.rule
+
+    return sorted(findings, key=key)

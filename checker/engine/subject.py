@@ -1,0 +1,404 @@
+"""The parts of one package, as rules ask for them; each is read once, when first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from contextlib import suppress
+from dataclasses import field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeVar
+
+from checker.base.cache import NO_CACHE, Cache
+from checker.base.child_process import Child
+from checker.base.disk_file import NotReadable
+from checker.base.errors import NotAtHand
+from checker.base.progress import Stages
+from checker.base.record import record
+from checker.expand.launch.graph import LaunchGraph
+from checker.expand.launch.package_launch import LaunchEntries, launch_entries, launch_graph
+from checker.expand.spawner.emitted_xml import (
+    SpawnedXml,
+    StartedXml,
+    WorkspaceFiles,
+    emitted_xml,
+)
+from checker.expand.spawner.reader import Spawner, read_spawner
+from checker.model.control.controllers import ControlSystem
+from checker.model.control.system import control_system
+from checker.model.devices.devices import SensorDevices
+from checker.model.devices.known import KnownDevices, known_devices
+from checker.model.devices.sensors import find_sensor_devices
+from checker.model.first_configuration import FirstConfiguration
+from checker.model.robot import Robot
+from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.includes import ModelIncludes
+from checker.model.sdf.links import read_plugin
+from checker.model.sdf.reader import read_sdf
+from checker.model.sensing.view import SensorViews
+from checker.model.specification.sheet import Specification, read_specification
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.files import UrdfFiles
+from checker.model.urdf.package_descriptions import Describing
+from checker.package.configuration import configuration_number, first_configuration
+from checker.package.inheritance import SPAWNER, Missing
+from checker.package.kind import PackageKind
+from checker.package.manifests import Paperwork
+from checker.package.package import Package
+from checker.physics.mass.mass_properties import MassProperties
+from checker.physics.mass.robot_mass import weigh
+from checker.physics.mesh.package_meshes import PackageMeshes, TimedMeshes, mesh_uris
+from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
+from checker.physics.trial.run import Driving
+from checker.physics.views.sensor_views import Viewing
+from checker.report.scene.early import NO_CHILDREN, EarlyChildren
+from checker.source.xml import XmlDocument
+from checker.source.xml_positions import XmlFault
+
+if TYPE_CHECKING:
+    from checker.engine.display import Displaying
+
+T = TypeVar("T")
+
+_WITHOUT_ROBOT = {
+    PackageKind.PLUGIN: "the package only carries a plugin",
+    PackageKind.UNKNOWN: "the package holds no robot",
+}
+
+
+@record(eq=False)
+class Subject:
+    """One package under review.
+
+    Attributes:
+        package: Its files.
+        cache: Where results that take long are kept.
+        stages: Told of what takes long.
+        devices: Sensor devices of which figures are known.
+        early: Children that wait for something to do.
+    """
+
+    package: Package
+    cache: Cache = NO_CACHE
+    stages: Stages = field(default_factory=Stages)
+    devices: KnownDevices = field(default_factory=known_devices)
+    early: EarlyChildren = NO_CHILDREN
+    _provided: dict[type, Sequence[object]] = field(default_factory=dict, repr=False)
+
+    def part(self, kind: type) -> Sequence[object] | NotAtHand:
+        """Return the part that is an instance of `kind`; a file may hold several robots.
+
+        Raises:
+            LookupError: A rule asks for something that is no part of a package.
+        """
+        provide = _PROVIDERS.get(kind)
+        if provide is None:
+            raise LookupError(f"{kind.__name__} is no part of a package")
+        had = provide(self)
+        if isinstance(had, NotAtHand):
+            return had
+        self._provided[kind] = had if isinstance(had, tuple) else (had,)
+        return self._provided[kind]
+
+    def provided(self, kind: type[T]) -> Sequence[T]:
+        """Return a part that some rule had; nothing when none asked for it or it is not at hand."""
+        return [each for each in self._provided.get(kind, ()) if isinstance(each, kind)]
+
+    def start(self, kinds: Collection[type]) -> None:
+        """Begin with parts that take long, so that they come about while the rules run."""
+        twice = RepeatedTrial in kinds
+        driven = twice or RobotTrial in kinds
+        if driven or MassProperties in kinds:
+            self._begin_meshes()
+        if driven and not isinstance(self.driving, NotAtHand):
+            self.driving.begin(twice=twice)
+        if SensorViews in kinds and not isinstance(self.viewing, NotAtHand):
+            self.viewing.begin()
+        if UrdfFiles in kinds or UrdfDescription in kinds:
+            _ = self.describing
+
+    def start_meshes(self) -> None:
+        """Begin to read the robot's meshes; what goes wrong is met again by who asks for it."""
+        with suppress(Exception):
+            self._begin_meshes()
+
+    def _begin_meshes(self) -> None:
+        meshes = self.robots[0].meshes if isinstance(self.robots, tuple) else None
+        if isinstance(meshes, TimedMeshes):
+            meshes.begin()
+
+    def close(self) -> None:
+        """End what was begun and nobody asked for."""
+        self.early.stop()
+        robots = self.__dict__.get("robots")
+        for robot in robots if isinstance(robots, tuple) else ():
+            if isinstance(robot.meshes, TimedMeshes):
+                robot.meshes.stop()
+        names = ("driving", "describing", "displaying", "viewing")
+        for each in map(self.__dict__.get, names):
+            if each is not None and not isinstance(each, NotAtHand):
+                each.stop()
+
+    @cached_property
+    def paperwork(self) -> Paperwork:
+        """What the package's own papers say."""
+        return Paperwork(self.package)
+
+    @cached_property
+    def model(self) -> XmlDocument | NotAtHand:
+        """The model file."""
+        without = _WITHOUT_ROBOT.get(self.package.kind)
+        if without is not None:
+            return NotAtHand(without, applicable=False)
+        if self.package.kind is PackageKind.URDF_DESCRIPTION:
+            return self._urdf
+        path = self.package.model_path
+        if isinstance(path, Missing):
+            return NotAtHand(path.reason)
+        document = self.document(path.path)
+        if isinstance(document, XmlDocument) and document.root.tag == "robot":
+            return self._urdf if self.package.only else document
+        return document
+
+    @property
+    def _urdf(self) -> XmlDocument | NotAtHand:
+        """The first description of a URDF package, or of a file."""
+        found = self.descriptions
+        return found if isinstance(found, NotAtHand) else found[0].document
+
+    @cached_property
+    def describing(self) -> Describing:
+        """The URDF files that stand for a robot, as they are being expanded."""
+        return Describing(self.package, self.cache)
+
+    @property
+    def urdf_files(self) -> UrdfFiles | NotAtHand:
+        """What became of the URDF files."""
+        if not self.describing.applicable:
+            return NotAtHand("no URDF file stands for a robot", applicable=False)
+        return self.describing.files
+
+    @cached_property
+    def descriptions(self) -> tuple[UrdfDescription, ...] | NotAtHand:
+        """The robots that URDF files describe."""
+        files = self.urdf_files
+        if isinstance(files, NotAtHand) or files.descriptions:
+            return files if isinstance(files, NotAtHand) else files.descriptions
+        wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
+        reasons = [*wrong, *files.unread]
+        said = next(iter((*reasons, *files.set_aside)), "the URDF files hold no robot")
+        return NotAtHand(said, applicable=bool(reasons))
+
+    def document(self, path: str) -> XmlDocument | NotAtHand:
+        """Return a file as XML, or say why it cannot be had."""
+        document = self.package.xml(path)
+        if isinstance(document, XmlFault):
+            return NotAtHand(f"{path} is not well-formed")
+        if isinstance(document, NotReadable):
+            return NotAtHand(f"{path} {document.reason}")
+        return document
+
+    @cached_property
+    def sdf(self) -> SdfDocument | NotAtHand:
+        """The model file as SDF."""
+        if isinstance(self.model, NotAtHand):
+            return self.model
+        if self.model.root.tag == "robot":
+            return NotAtHand("the model is a URDF file", applicable=False)
+        return SdfDocument(self.model, (self.model.root.get("version") or "").strip())
+
+    @cached_property
+    def robots(self) -> tuple[Robot, ...] | NotAtHand:
+        """The robots of the package with their meshes."""
+        robots = self._read_robots()
+        if isinstance(robots, NotAtHand):
+            return robots
+        waiting = (self.early.meshes, *(None for _ in robots))
+        return tuple(
+            replace(robot, meshes=self._meshes(robot, child))
+            for robot, child in zip(robots, waiting, strict=False)
+        )
+
+    def _meshes(self, robot: Robot, waiting: Child | None) -> TimedMeshes:
+        uris = mesh_uris(robot)
+        meshes = PackageMeshes(self.package, uris, self.cache, waiting)
+        return TimedMeshes(meshes, len(uris), self.stages)
+
+    def _read_robots(self) -> tuple[Robot, ...] | NotAtHand:
+        """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
+        if isinstance(self.model, NotAtHand):
+            return self.model
+        if self.model.root.tag == "robot":
+            found = self.descriptions
+            return found if isinstance(found, NotAtHand) else tuple(each.robot for each in found)
+        robots = read_sdf(self.model, ModelIncludes(self.package))
+        if self.package.kind is not PackageKind.SINGLE_FILE:
+            robots = robots[:1]
+        if not robots:
+            nothing_to_see = self.model.root.child("world") is not None
+            reason = f"{self.model.source.file} holds no model"
+            return NotAtHand(reason, applicable=not nothing_to_see)
+        return (self._with_spawned_plugins(robots[0]), *robots[1:])
+
+    def _with_spawned_plugins(self, robot: Robot) -> Robot:
+        if isinstance(self.spawned, NotAtHand):
+            unread = self.spawned.reason if self.spawned.applicable else ""
+            return replace(robot, unread_plugins=unread)
+        added = (read_plugin(element) for element in self.spawned.plugins)
+        return replace(robot, plugins=(*robot.plugins, *added))
+
+    @cached_property
+    def masses(self) -> tuple[MassProperties, ...] | NotAtHand:
+        """The robots as Pinocchio weighs them."""
+        if isinstance(self.robots, NotAtHand):
+            return self.robots
+        with self.stages.stage("weigh"):
+            return tuple(weigh(robot, self.cache) for robot in self.robots)
+
+    @cached_property
+    def first_configuration(self) -> FirstConfiguration | NotAtHand:
+        """The configuration of the same robot that has the lowest number at hand."""
+        package = first_configuration(self.package)
+        if package is None:
+            return NotAtHand("no earlier configuration is at hand to compare", applicable=False)
+        robots = Subject(package)._read_robots()
+        if isinstance(robots, NotAtHand):
+            return NotAtHand(f"{package.name} cannot be compared: {robots.reason}")
+        return FirstConfiguration(package.name, robots[0])
+
+    @cached_property
+    def driving(self) -> Driving | NotAtHand:
+        """The trials of the robots."""
+        if isinstance(self.robots, NotAtHand):
+            return self.robots
+        return Driving(self.robots, self.cache, self.stages)
+
+    @property
+    def driven(self) -> tuple[RobotTrial, ...] | NotAtHand:
+        """The robots and their trials."""
+        return self.driving if isinstance(self.driving, NotAtHand) else self.driving.once
+
+    @property
+    def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAtHand:
+        """The robots and their trials, also at half the time step."""
+        return self.driving if isinstance(self.driving, NotAtHand) else self.driving.twice
+
+    @cached_property
+    def displaying(self) -> Displaying | NotAtHand:
+        """The robot in 3D; a check that shows nothing loads none of the modules behind it."""
+        from checker.engine.display import Displaying
+
+        had = self.robots
+        if isinstance(had, NotAtHand):
+            return had
+        return Displaying(had, self.cache, self.stages, self.early)
+
+    @cached_property
+    def viewing(self) -> Viewing | NotAtHand:
+        """The views of the robots' sensors."""
+        if isinstance(self.robots, NotAtHand):
+            return self.robots
+        return Viewing(self.robots, self.cache, self.stages)
+
+    @property
+    def views(self) -> tuple[SensorViews, ...] | NotAtHand:
+        """The robots and what of themselves their sensors see."""
+        return self.viewing if isinstance(self.viewing, NotAtHand) else self.viewing.views
+
+    @cached_property
+    def spawner(self) -> Spawner | NotAtHand:
+        """The spawner, read without running it."""
+        if self.package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
+            return NotAtHand("the package needs no spawner", applicable=False)
+        source = self.package.read(SPAWNER)
+        if isinstance(source, NotReadable):
+            return NotAtHand(f"{SPAWNER} {source.reason}")
+        files = WorkspaceFiles(self.package)
+        return read_spawner(files, files.entry, source)
+
+    @cached_property
+    def spawned(self) -> SpawnedXml | NotAtHand:
+        """What the function `spawner` emits."""
+        if isinstance(self.spawner, NotAtHand):
+            return self.spawner
+        return emitted_xml(SpawnedXml, "spawner", self.spawner.spawn)
+
+    @cached_property
+    def started(self) -> StartedXml | NotAtHand:
+        """What the function `rosExecutables` emits."""
+        if isinstance(self.spawner, NotAtHand):
+            return self.spawner
+        return emitted_xml(StartedXml, "rosExecutables", self.spawner.executables)
+
+    @cached_property
+    def launch(self) -> LaunchGraph | NotAtHand:
+        """What the launch files start that the spawner calls for; of a URDF package, all."""
+        if self.package.kind is PackageKind.URDF_DESCRIPTION:
+            if not self.launch_entries.entries:
+                return NotAtHand("the package has no launch files", applicable=False)
+            return self.launch_entries.graph
+        return launch_graph(self.package, self.started)
+
+    @cached_property
+    def launch_entries(self) -> LaunchEntries:
+        """The launch files that a URDF package can be started with."""
+        if self.package.kind is not PackageKind.URDF_DESCRIPTION:
+            return LaunchEntries()
+        return launch_entries(self.package)
+
+    @cached_property
+    def control(self) -> ControlSystem | NotAtHand:
+        """What controls the joints of a URDF package."""
+        alone = self.package.only and self.describing.applicable
+        if self.package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
+            return NotAtHand("the package is no URDF package", applicable=False)
+        return control_system(self.package, self.launch_entries, self.robots, self.descriptions)
+
+    @cached_property
+    def specification(self) -> Specification | NotAtHand:
+        """The specification sheet."""
+        if self.package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
+            return NotAtHand("the package needs no specifications.md", applicable=False)
+        part = self.package.part("specifications.md")
+        if isinstance(part, Missing):
+            return NotAtHand(part.reason)
+        source = self.package.read(part.path)
+        if isinstance(source, NotReadable):
+            return NotAtHand(f"{part.path} {source.reason}")
+        return read_specification(source)
+
+    @cached_property
+    def sensor_devices(self) -> SensorDevices | NotAtHand:
+        """The devices that sensors stand for; without the sheet, as far as the model tells."""
+        if isinstance(self.robots, NotAtHand):
+            return self.robots
+        sheet = None if isinstance(self.specification, NotAtHand) else self.specification
+        path = self.package.model_path
+        numbers = {configuration_number(self.package)}
+        if not isinstance(path, Missing):
+            numbers.add(configuration_number(path.package))
+        found = [find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots]
+        known = tuple(each for devices in found for each in devices.known)
+        return SensorDevices(known, found[0].diversions)
+
+
+_PROVIDERS: dict[type, Callable[[Subject], object]] = {
+    Package: lambda subject: subject.package,
+    Paperwork: lambda subject: subject.paperwork,
+    SdfDocument: lambda subject: subject.sdf,
+    Robot: lambda subject: subject.robots,
+    FirstConfiguration: lambda subject: subject.first_configuration,
+    MassProperties: lambda subject: subject.masses,
+    RobotTrial: lambda subject: subject.driven,
+    RepeatedTrial: lambda subject: subject.driven_twice,
+    Spawner: lambda subject: subject.spawner,
+    SpawnedXml: lambda subject: subject.spawned,
+    StartedXml: lambda subject: subject.started,
+    LaunchGraph: lambda subject: subject.launch,
+    ControlSystem: lambda subject: subject.control,
+    Specification: lambda subject: subject.specification,
+    UrdfDescription: lambda subject: subject.descriptions,
+    UrdfFiles: lambda subject: subject.urdf_files,
+    KnownDevices: lambda subject: subject.devices,
+    SensorDevices: lambda subject: subject.sensor_devices,
+    SensorViews: lambda subject: subject.views,
+}

@@ -1,0 +1,151 @@
+"""`<include>`: which file is meant, and what is handed over to it."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Protocol
+
+from checker.base.record import record
+from checker.expand.launch.attributes import Reader, truth_of
+from checker.expand.launch.graph import UnresolvedInclude
+from checker.expand.launch.scope import HERE, Scope
+from checker.expand.launch.substitution import is_known
+from checker.source.text import Located, Span
+from checker.source.xml import Element, XmlDocument
+
+# The command line that starts a launch file, as a spawner writes it.
+
+
+@record()
+class LaunchCommand:
+    """`roslaunch --wait P vehicle_topics.launch world_name:=w name:=n`, taken apart.
+
+    Attributes:
+        package: The package; empty when the launch file is named by its path.
+        file: Name or path of the launch file; empty when the command names none.
+        arguments: Args by name; the last one counts.
+        options: Words that start with a hyphen.
+        leftover: Words that fit nowhere.
+    """
+
+    package: str
+    file: str
+    arguments: Mapping[str, str]
+    options: tuple[str, ...] = ()
+    leftover: tuple[str, ...] = ()
+
+    @classmethod
+    def parse(cls, command: str) -> LaunchCommand | None:
+        """Read a command line; None when it does not call roslaunch."""
+        program, *words = command.split() or [""]
+        if program.rsplit("/", 1)[-1] != "roslaunch":
+            return None
+        arguments: dict[str, str] = {}
+        options, names = [], []
+        for word in words:
+            name, assigned, value = word.partition(":=")
+            if assigned and name:
+                arguments[name] = value
+            elif word.startswith("-"):
+                options.append(word)
+            else:
+                names.append(word)
+        package, file, leftover = _package_and_file(names)
+        return cls(package, file, arguments, tuple(options), tuple(leftover))
+
+
+def _package_and_file(names: list[str]) -> tuple[str, str, list[str]]:
+    if names and names[0].endswith((".launch", ".xml")):
+        return "", names[0], names[1:]
+    if len(names) >= 2:
+        return names[0], names[1], names[2:]
+    return "", "", names
+
+
+_FOUND = re.compile(r"\$\(find\s+([^\s()]+)\s*\)/*(.*)\Z", re.DOTALL)
+
+
+class MissingLaunchFile(str):
+    """The reason of a resolver that has the package at hand, but no such file in it."""
+
+    __slots__ = ()
+
+
+class ReadLaunch(Protocol):
+    """Finds an included launch file."""
+
+    def __call__(self, package: str, path: str, from_file: str) -> XmlDocument | str:
+        """Return the document, or the reason why it is not at hand.
+
+        A reason that is a `MissingLaunchFile` makes a fault of it. The same file should be
+        returned as the same document, so that it is parsed once.
+
+        Args:
+            package: Package that holds the file; empty when `path` starts where `from_file` does,
+                at the package's folder.
+            path: Path of the file, without `.` and `//`; it may start with `..`.
+            from_file: The including file (`SourceText.file`).
+        """
+        ...
+
+
+@record(eq=False)
+class Inclusion:
+    """An `<include>` as written, substitutions made.
+
+    Attributes:
+        package: Package of `$(find …)`, else empty.
+        path: Path within the package; empty when it is not known before the launch.
+        file: The `file` attribute.
+        arguments: All that is handed over.
+        argument_places: The `<arg>` elements below it, by name.
+        passes_all: Whether `pass_all_args` is set.
+        span: The start tag.
+    """
+
+    package: str
+    path: str
+    file: Located[str]
+    arguments: MappingProxyType[str, str]
+    argument_places: Mapping[str, Span]
+    passes_all: bool
+    span: Span
+
+    def unresolved(self, namespace: str, reason: str) -> UnresolvedInclude:
+        """Return the record of a file that is not at hand."""
+        path = self.path or self.file.value
+        arguments = self.arguments
+        return UnresolvedInclude(self.package, path, arguments, namespace, str(reason), self.span)
+
+
+def read_inclusion(reader: Reader, element: Element, scope: Scope) -> Inclusion:
+    """Read an `<include>`."""
+    file = reader.text(element, "file", scope) or Located("", element.span, stated=False)
+    passes_all = truth_of(reader.value(element, "pass_all_args", scope)) or False
+    arguments = dict(scope.args) if passes_all else {}
+    places: dict[str, Span] = {}
+    for child in element.all("arg"):
+        if not reader.enabled(child, scope):
+            continue
+        given = reader.text(child, "value", scope) or reader.text(child, "default", scope)
+        if given is not None:
+            name = child.get("name") or ""
+            arguments[name], places[name] = given.value, child.span
+    package, path = target_of(file.value)
+    given_arguments = MappingProxyType(arguments)
+    return Inclusion(package, path, file, given_arguments, places, passes_all, element.span)
+
+
+def target_of(file: str) -> tuple[str, str]:
+    """Return package and path of an included file; an empty path when they are not known."""
+    found = _FOUND.match(file)
+    if found:
+        package, path = found.groups()
+    elif file.startswith(HERE):
+        package, path = "", file
+    else:
+        return "", ""
+    return package, posixpath.normpath(path) if path and is_known(path) else ""

@@ -1,0 +1,124 @@
+"""What a package's spawner emits, as XML whose places are lines of Ruby."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from functools import cached_property
+from typing import TypeVar
+
+from checker.base.disk_file import NotReadable
+from checker.base.errors import NotAtHand
+from checker.base.record import record
+from checker.expand.spawner.emitted import EmittedText
+from checker.expand.spawner.signals import Unread
+from checker.package.inheritance import SPAWNER
+from checker.package.package import Package
+from checker.source.text import SourceText, Span
+from checker.source.xml import Element, XmlDocument
+from checker.source.xml_fragments import parse_fragments, unwrapped
+from checker.source.xml_positions import XmlFault
+
+
+@record()
+class WorkspaceFiles:
+    """Gives the spawner reader the texts of a package and of its siblings."""
+
+    package: Package
+
+    @property
+    def entry(self) -> str:
+        """Path of the spawner, from the workspace."""
+        return f"{self.package.root.name}/{SPAWNER}"
+
+    def _local(self, path: str) -> str:
+        """Return a path of the workspace as the package sees it."""
+        return posixpath.relpath(path, self.package.root.name)
+
+    def read(self, path: str) -> SourceText | str:
+        """Return a text, or the reason why it cannot be given."""
+        text = self.package.read(self._local(path))
+        if isinstance(text, NotReadable):
+            return f"{path} {text.reason}"
+        return text
+
+    def exists(self, path: str) -> bool:
+        """Whether there is a file or folder of this path."""
+        return self.package.exists(self._local(path))
+
+    def package_folder(self, name: str) -> str | None:
+        """Return the folder of a package, None when it is not at hand."""
+        found = self.package.workspace.package(name)
+        return found.root.name if found is not None else None
+
+
+@record(eq=False)
+class EmittedXml:
+    """What a function of the spawner emits, as XML.
+
+    Attributes:
+        text: The text, which knows its Ruby.
+        document: The same as XML; its elements stand below `emitted`.
+    """
+
+    text: EmittedText
+    document: XmlDocument
+
+    def parameters_of(self, span: Span) -> frozenset[str]:
+        """Return the function's parameters and the globals that made a stretch of the text."""
+        start, end = unwrapped(span)
+        return self.text.parameters_in(start, end)
+
+    def words_of(self, span: Span) -> list[Span]:
+        """Return the words of a stretch, as blanks part them."""
+        words = re.finditer(r"\S+", span.text)
+        return [Span(span.source, span.start + w.start(), span.start + w.end()) for w in words]
+
+
+@record(eq=False)
+class SpawnedXml(EmittedXml):
+    """What `spawner` emits: the robot and the plugins that it gets."""
+
+    @cached_property
+    def spawns(self) -> list[Element]:
+        """The outermost `<spawn>` elements."""
+        return self.document.root.all("spawn")
+
+    @cached_property
+    def gazebo_factories(self) -> list[Element]:
+        """The plugins that older spawners wrap the robot in instead of `<spawn>`."""
+        plugins = self.document.root.descendants("plugin")
+        return [each for each in plugins if "gazebo-factory" in (each.get("filename") or "")]
+
+    @cached_property
+    def plugins(self) -> list[Element]:
+        """The plugins that `spawner` adds to the robot."""
+        return self.document.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
+
+
+@record(eq=False)
+class StartedXml(EmittedXml):
+    """What `rosExecutables` emits: the commands that start the robot's ROS nodes."""
+
+    @cached_property
+    def commands(self) -> list[Element]:
+        """The `<command>` elements."""
+        return self.document.find_all("executable/command")
+
+
+Emitted = TypeVar("Emitted", bound=EmittedXml)
+
+
+def emitted_xml(
+    kind: type[Emitted], function: str, emitted: EmittedText | Unread
+) -> Emitted | NotAtHand:
+    """Parse what a function of the spawner emits; what cannot be read is not at hand."""
+    if isinstance(emitted, Unread):
+        place = emitted.span.place()
+        return NotAtHand(
+            f"{function} cannot be read at {place.file}:{place.line}: {emitted.reason}"
+        )
+    document = parse_fragments(emitted)
+    if isinstance(document, XmlFault):
+        return NotAtHand(f"what {function} emits is not well-formed: {document.message}")
+    return kind(emitted, document)

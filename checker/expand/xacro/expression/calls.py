@@ -1,0 +1,150 @@
+"""What calls mean, and the lambda functions that are handed to them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any
+
+from xacro import NameSpace, YamlDictWrapper
+
+from checker.expand.xacro.expression.bounds import RefusedExpression
+from checker.expand.xacro.expression.builtins import is_of
+from checker.expand.xacro.expression.function import Function, counting
+from checker.expand.xacro.expression.interpreter import Handler, Interpreter, Scope
+from checker.expand.xacro.expression.methods import METHODS, TAKING_A_KEY, method_of
+from checker.expand.xacro.expression.nodes import attribute, items, resolve
+from checker.expand.xacro.expression.values import LAZY, MAPPINGS, PLAIN, consumed, plain
+
+Found = tuple[Callable[..., Any], frozenset[int | str]]
+"""What a call calls, but for the budget and the arguments, and which of these may be functions."""
+
+
+def _call(run: Interpreter, node: ast.Call, scope: Scope | None) -> Any:
+    if type(node.func) is ast.Attribute:
+        work, takes = _through_dot(run, node.func, scope)
+    else:
+        work, takes = _function(resolve(run, node.func, scope))
+    if work is is_of and len(node.args) == 2:
+        return work(run.budget, run.data(node.args[0], scope), _kinds(run, node.args[1], scope))
+    return work(
+        run.budget, *_positional(run, node, scope, takes), **_named(run, node, scope, takes)
+    )
+
+
+def _through_dot(run: Interpreter, node: ast.Attribute, scope: Scope | None) -> Found:
+    """Return what `x.name(…)` calls: a method, or a function of a namespace."""
+    base = resolve(run, node.value, scope)
+    kind = type(base)
+    if kind is NameSpace or (kind is YamlDictWrapper and node.attr not in METHODS[kind]):
+        return _function(attribute(base, node.attr))
+    if kind not in PLAIN and kind not in LAZY:
+        raise RefusedExpression(f"{ast.unparse(node)[:40]}()")
+    method = method_of(base, node.attr)
+    return (
+        lambda budget, *arguments, **named: method(budget, base, *arguments, **named),
+        TAKING_A_KEY.get(method, frozenset()),
+    )
+
+
+def _function(found: Any) -> Found:
+    if type(found) is Function:
+        return found.work, found.takes
+    if type(found) in PLAIN or type(found) in LAZY:
+        raise TypeError(f"{type(found).__name__!r} object is not callable")
+    raise RefusedExpression("a call of a namespace")
+
+
+def _positional(
+    run: Interpreter, node: ast.Call, scope: Scope | None, takes: frozenset[int | str]
+) -> list[Any]:
+    if takes and any(type(each) is ast.Starred for each in node.args[:1]):
+        takes = frozenset()
+    found: list[Any] = []
+    for number, each in enumerate(node.args):
+        if number in takes:
+            found.append(_function_or_value(run, each, scope))
+        elif type(each) is ast.Starred:
+            found.extend(items(run, [each], scope))
+        else:
+            found.append(run.value(each, scope))
+    return found
+
+
+def _named(
+    run: Interpreter, node: ast.Call, scope: Scope | None, takes: frozenset[int | str]
+) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for each in node.keywords:
+        if each.arg is None:
+            more = run.value(each.value, scope)
+            if type(more) not in MAPPINGS:
+                raise TypeError("argument after ** must be a mapping")
+            more = dict(consumed(more, run.budget))
+        elif each.arg in takes:
+            more = {each.arg: _function_or_value(run, each.value, scope)}
+        else:
+            more = {each.arg: run.value(each.value, scope)}
+        if found.keys() & more.keys():
+            raise TypeError("a keyword argument is given twice")
+        if not all(type(name) is str for name in more):
+            raise TypeError("keywords must be strings")
+        found |= more
+    return found
+
+
+def _function_or_value(run: Interpreter, node: ast.expr, scope: Scope | None) -> Any:
+    """Return an argument that may be a function, as functions of Python take it."""
+    if type(node) is ast.Lambda:
+        return _lambda(run, node, scope)
+    if type(node) in (ast.Name, ast.Attribute):
+        found = resolve(run, node, scope)
+        if type(found) is Function:
+            return counting(found, run.budget)
+    return run.data(node, scope)
+
+
+def _lambda(run: Interpreter, node: ast.Lambda, scope: Scope | None) -> Callable[..., Any]:
+    """Return what evaluates the body; it lives no longer than the expression."""
+    of = node.args
+    if of.vararg or of.kwarg or of.kwonlyargs:
+        raise RefusedExpression("a lambda function with other than plain parameters")
+    parameters = [each.arg for each in (*of.posonlyargs, *of.args)]
+    defaults = [run.data(each, scope) for each in of.defaults]
+
+    def called(*arguments: Any) -> Any:
+        missing = len(parameters) - len(arguments)
+        if not 0 <= missing <= len(defaults):
+            raise TypeError(
+                f"<lambda>() takes {len(parameters)} arguments, {len(arguments)} are given"
+            )
+        inner = Scope(parameters, scope)
+        values = (*arguments, *defaults[len(defaults) - missing :])
+        inner.values.update(zip(parameters, map(plain, values), strict=True))
+        return run.data(node.body, inner)
+
+    return called
+
+
+def _kinds(run: Interpreter, node: ast.expr, scope: Scope | None) -> tuple[type, ...]:
+    """Return the types that the second argument of `isinstance` names."""
+    if type(node) is ast.Tuple:
+        return tuple(kind for each in node.elts for kind in _kinds(run, each, scope))
+    if type(node) in (ast.Name, ast.Attribute):
+        found = resolve(run, node, scope)
+        if type(found) is Function and found.stands_for is not None:
+            return (found.stands_for,)
+    raise RefusedExpression("isinstance() with other than the types of data")
+
+
+def _lone_lambda(_: Interpreter, __: ast.Lambda, ___: Scope | None) -> Any:
+    raise RefusedExpression(
+        "a lambda function that is not handed to map, filter, sorted, min or max"
+    )
+
+
+CALLS: Mapping[type[ast.AST], Handler] = MappingProxyType(
+    {ast.Call: _call, ast.Lambda: _lone_lambda}
+)
+"""By type of node."""

@@ -1,0 +1,45 @@
+"""Why xacro files do not expand."""
+
+from __future__ import annotations
+
+import enum
+
+from checker.base.record import record
+from checker.source.text import Span
+
+
+class XacroFaultKind(enum.StrEnum):
+    """Why there is no robot to be had from a file.
+
+    `EMPTY`: it holds nothing. `MALFORMED`: it is no well-formed XML. `EXPANSION`: xacro refuses it.
+    `ENVIRONMENT`: it needs an environment variable. `ARGUMENT`: it needs an argument that nobody
+    gives. `LIMIT`: expanding it does not come to an end.
+    """
+
+    EMPTY = "empty"
+    MALFORMED = "malformed"
+    EXPANSION = "expansion"
+    ENVIRONMENT = "environment"
+    ARGUMENT = "argument"
+    LIMIT = "limit"
+
+
+@record(eq=False)
+class XacroFault:
+    """Why and where a file does not expand.
+
+    Attributes:
+        kind: What sort of fault it is.
+        file: The file that was to be expanded; the fault may stand in one that it includes.
+        span: Where it stands.
+        message: The end of a sentence.
+        hint: How to mend it; may be empty.
+        loaded: Whether a launch file of the package loads the file.
+    """
+
+    kind: XacroFaultKind
+    file: str
+    span: Span
+    message: str
+    hint: str = ""
+    loaded: bool = True

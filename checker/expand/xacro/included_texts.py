@@ -1,0 +1,112 @@
+"""Which texts xacro needs to expand some files: what they include, followed without running it."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from checker.base.disk_file import NotReadable
+from checker.expand.xacro.paths import ROOT, local_path, package_in, path_of
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+from checker.source.xml_positions import XmlFault
+
+FILES_LIMIT = 400
+SIZE_LIMIT = 20_000_000
+"""Characters of all texts together."""
+_SUFFIXES = (".xacro", ".urdf", ".xml", ".yaml", ".yml")
+_FIND = re.compile(r"\$\(find\s{1,8}([\w.-]{1,200})\s{0,8}\)")
+_YAML = re.compile(r"""load_yaml\(\s{0,8}(?:'([^'"]{1,500})'|"([^'"]{1,500})"|([^)]{0,500}))""")
+_COMPUTED = re.compile(r"\$[{(]|[*?\[]")
+
+
+@dataclass(eq=False)
+class Gathered:
+    """Texts by the paths under which xacro sees them; it grows while they are followed.
+
+    Attributes:
+        package: That is checked.
+        sources: The texts.
+        documents: Those that are XML.
+        faults: Those that are no well-formed XML.
+        absent: Paths at which there is no file.
+        beyond: Names of packages that are not at hand.
+    """
+
+    package: Package
+    sources: dict[str, SourceText] = field(default_factory=dict)
+    documents: dict[str, XmlDocument] = field(default_factory=dict)
+    faults: dict[str, XmlFault] = field(default_factory=dict)
+    absent: set[str] = field(default_factory=set)
+    beyond: set[str] = field(default_factory=set)
+    _size: int = 0
+
+    def request(self, jobs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+        """Return what the child is asked."""
+        texts = {
+            path: source.text for path, source in self.sources.items() if path not in self.faults
+        }
+        faulty = {path: fault.message for path, fault in self.faults.items()}
+        others = {"absent": sorted(self.absent), "beyond": sorted(self.beyond)}
+        return {"texts": texts, "faulty": faulty, **others, "jobs": list(jobs)}
+
+    def follow(self, paths: Iterable[str]) -> None:
+        """Take up files, and all that they include by a name that is no expression."""
+        waiting = [*paths]
+        while waiting and len(self.sources) < FILES_LIMIT and self._size < SIZE_LIMIT:
+            path = posixpath.normpath(waiting.pop())
+            if path not in self.sources and path not in self.absent:
+                waiting += self._take(path)
+
+    def _take(self, path: str) -> Iterator[str]:
+        """Read one file; yield what it includes."""
+        local = local_path(self.package, path)
+        source = self.package.read(local) if local is not None else None
+        if local is None or source is None or isinstance(source, NotReadable):
+            self._miss(path)
+            return
+        self.sources[path] = source
+        self._size += len(source.text)
+        if posixpath.splitext(path)[1].lower() in (".yaml", ".yml"):
+            return
+        document = self.package.xml(local)
+        if isinstance(document, XmlDocument):
+            if document.tolerated:
+                self.faults[path] = document.tolerated[0]
+                return
+            self.documents[path] = document
+            yield from self._named_in(path, document)
+        elif isinstance(document, XmlFault):
+            self.faults[path] = document
+
+    def _miss(self, path: str) -> None:
+        name = package_in(path)
+        if name in ("", self.package.root.name) or self.package.workspace.package(name):
+            self.absent.add(path)
+        else:
+            self.beyond.add(name)
+
+    def _named_in(self, path: str, document: XmlDocument) -> Iterator[str]:
+        folder = posixpath.dirname(path)
+        if "load_yaml" not in document.source.text and "include" not in document.source.text:
+            return
+        yaml = ("".join(filter(None, found)) for found in _YAML.findall(document.source.text))
+        included = (
+            each.get("filename") or "" for each in document.elements if each.tag == "xacro:include"
+        )
+        for name in (*yaml, *included):
+            spelled = _FIND.sub(lambda found: f"{ROOT}/{found[1]}", name)
+            if _COMPUTED.search(spelled) or not spelled or "." not in spelled:
+                yield from self._all_candidates()
+            else:
+                yield posixpath.normpath(posixpath.join(folder, spelled))
+
+    def _all_candidates(self) -> Iterator[str]:
+        """Yield every file of the package that could be meant."""
+        for file in self.package.index.with_suffix(*_SUFFIXES):
+            if file.is_file:
+                yield path_of(self.package, file.path)

@@ -1,0 +1,187 @@
+"""The names that every expression of a xacro file finds: those that xacro itself lists."""
+
+from __future__ import annotations
+
+import builtins
+import os
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import xacro
+from xacro import substitution_args
+
+from checker.expand.xacro.expression.bounds import (
+    Allowance,
+    Budget,
+    ExpressionLimit,
+    RefusedExpression,
+)
+from checker.expand.xacro.expression.builtins import FUNCTIONS, mapping
+from checker.expand.xacro.expression.format import text_of
+from checker.expand.xacro.expression.function import (
+    Function,
+    functions,
+    refused,
+    weighed,
+)
+from checker.expand.xacro.expression.mathematics import NAMES
+from checker.expand.xacro.expression.values import weigh
+
+# Evaluates texts of xacro files, which mix plain words, `${…}` and `$(…)`: as xacro, bounded.
+
+
+LENGTH_LIMIT = 2_000_000
+"""Characters that one text may come to."""
+_TOKEN = re.compile(
+    r"\$(?P<escaped>\$+[{(])|\$\{(?P<expression>[^}]*)\}|\$\((?P<extension>[^)]*)\)"
+    r"|(?P<words>[^$]+|\$[^{($]+|\$$)"
+)
+
+
+def text_value(text: str, symbols: Any, allowance: Allowance) -> Any:
+    """Return what a text comes to; if it is one expression alone, that value as it is.
+
+    Stands in for `xacro.eval_text`.
+
+    Raises:
+        xacro.XacroException: It is no such text, or an expression in it fails.
+        ExpressionLimit: It would be too long.
+    """
+    results = [_result(token, symbols) for token in _parts_of(text)]
+    if len(results) == 1:
+        return results[0]
+    budget = Budget(allowance)
+    try:
+        for each in results:
+            if type(each) is not str:
+                weigh(each, budget)
+        shown = [str(each) for each in results]
+    finally:
+        budget.close()
+    if sum(map(len, shown)) > LENGTH_LIMIT:
+        raise ExpressionLimit(f"comes to more than {LENGTH_LIMIT} characters")
+    return "".join(shown)
+
+
+def _parts_of(text: str) -> Iterator[re.Match[str]]:
+    """Yield the parts of a text; what xacro cannot read counts one part earlier, as there."""
+    position, before = 0, None
+    while position < len(text):
+        token = _TOKEN.match(text, position)
+        if token is None:
+            raise xacro.XacroException("invalid expression: " + text[position:])
+        if before is not None:
+            yield before
+        before, position = token, token.end()
+    if before is not None:
+        yield before
+
+
+def _result(token: re.Match[str], symbols: Any) -> Any:
+    kind, part = str(token.lastgroup), token[str(token.lastgroup)]
+    if kind == "expression":
+        try:
+            return xacro.safe_eval(xacro.eval_text(part, symbols), symbols)
+        except Exception as error:
+            suffix = f"{os.linesep}when evaluating expression '{part}'"
+            raise xacro.XacroException(exc=error, suffix=suffix) from error
+    if kind == "extension":
+        # As in xacro, where what is not text is written as Python writes it.
+        return xacro.eval_extension("$(%s)" % xacro.eval_text(part, symbols))  # noqa: UP031
+    return part
+
+
+_DIRECT = (
+    *("list", "dict", "map", "len", "str", "float", "int", "bool", "min", "max", "round"),
+    *("sorted", "range"),
+)
+_SILENT = ("message", "warning", "error", "print_location")
+_TRUTH = {"True": True, "False": False}
+
+LoadYaml = Callable[[str, Budget], Any]
+"""Returns what a YAML file holds, by the name that the expression gives."""
+
+
+def global_symbols(load_yaml: LoadYaml) -> dict[str, Any]:
+    """Return what stands in for `xacro.create_global_symbols()`."""
+    named = functions(
+        [
+            ("load_yaml", lambda budget, filename: load_yaml(filename, budget)),
+            ("abs_filename", weighed(xacro.abs_filename_spec)),
+            ("dotify", mapping(xacro.YamlDictWrapper)),
+        ]
+    )
+    others = functions(
+        [("arg", _arg), ("fatal", _fatal), ("tokenize", _tokens)]
+        + [(f"xacro.{name}", _silent) for name in _SILENT]
+    )
+    own = {each.rpartition(".")[2]: work for each, work in (named | others).items()}
+    return {
+        **{name: FUNCTIONS[name] for name in _DIRECT},
+        **_TRUTH,
+        **NAMES,
+        **named,
+        "math": _namespace(NAMES),
+        "python": _namespace({**FUNCTIONS, **_TRUTH}),
+        "xacro": _namespace(own),
+    }
+
+
+def python_symbols() -> dict[str, Any]:
+    """Return all of Python's own names; most of them are refused."""
+    known = {name: refused(name) for name in dir(builtins) if not name.startswith("_")}
+    return {**known, **FUNCTIONS, **_TRUTH}
+
+
+def _namespace(names: Mapping[str, Any]) -> Any:
+    made = xacro.NameSpace()
+    made.update(names)
+    return made
+
+
+def _arg(budget: Budget, name: Any) -> Any:
+    weigh(name, budget)
+    return xacro.substitution_args_context["arg"][name]
+
+
+def _silent(budget: Budget, *said: Any, **how: Any) -> str:
+    for value in (*said, *how.values()):
+        weigh(value, budget)
+    return ""
+
+
+def _fatal(budget: Budget, *said: Any) -> Any:
+    raise xacro.XacroException(" ".join(text_of(each, budget) for each in said))
+
+
+def _tokens(budget: Budget, s: Any, sep: Any = ",; ", skip_empty: Any = True) -> list[str]:
+    if type(sep) is not str or "]" in sep or "\\" in sep:
+        raise RefusedExpression("xacro.tokenize() with a pattern as separator")
+    weigh(s, budget)
+    budget.spend(len(s) // 2 + len(sep))
+    found = re.split(f"[{sep}]", s)
+    return [item for item in found if item] if skip_empty else found
+
+
+class EvalNames:
+    """The names of `$(eval …)`: functions first, then args, then all of Python's own."""
+
+    def __init__(self, context: dict[str, Any], own: Mapping[str, Any]) -> None:
+        """Look up args in a context of xacro, and `own` functions."""
+        self._args: dict[str, Any] = context.setdefault("arg", {})
+        self._first = {"true": True, "false": False, **_TRUTH, **NAMES, **own}
+        self._first["arg"] = Function("arg", lambda _, name: self._value_of_arg(name))
+        self._last = python_symbols()
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self._first:
+            return self._first[name]
+        return self._converted(self._args[name]) if name in self._args else self._last[name]
+
+    def _value_of_arg(self, name: Any) -> Any:
+        return self._converted(substitution_args._eval_arg(name, self._args))
+
+    @staticmethod
+    def _converted(value: Any) -> Any:
+        return substitution_args.convert_value(value, "auto")

@@ -1,0 +1,239 @@
+"""Fixing a package in rounds, in memory: apply what goes together, check again, until it rests."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, insort
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from difflib import unified_diff
+from itertools import pairwise
+
+from checker.base.record import record
+from checker.base.words import plain
+from checker.finding import Edit, Fix, Safety
+from checker.package.package import Package
+from checker.report.report import ReportedFinding
+from checker.source.text import SourceText
+
+# Edits of one text: which of them go together, and what comes of them.
+
+
+@dataclass(frozen=True, order=True)
+class Stretch:
+    """Characters `start` up to, not including, `end`, and what is to stand there."""
+
+    start: int
+    end: int
+    replacement: str
+
+    def collides(self, other: Stretch) -> bool:
+        """Whether both cannot be replaced at once; two insertions at one point have no order."""
+        if self.start == other.start:
+            return True
+        first, second = sorted((self, other))
+        return second.start < first.end
+
+
+@dataclass
+class EditedText:
+    """A text and the edits gathered for it.
+
+    Attributes:
+        stretches: In the order of the text; none collides with another.
+    """
+
+    source: SourceText
+    stretches: list[Stretch] = field(default_factory=list)
+
+    def stretch(self, edit: Edit) -> Stretch | None:
+        """Return what an edit replaces; None where the text differs from what it expects."""
+        offsets = self.source.stretch_of(edit)
+        return None if offsets is None else Stretch(*offsets, edit.replacement)
+
+    def accepts(self, stretch: Stretch) -> bool:
+        """Whether a stretch is free; one that is to become the same text already is."""
+        beside = self._beside(stretch)
+        return stretch in beside or not any(map(stretch.collides, beside))
+
+    def add(self, stretch: Stretch) -> None:
+        """Take a stretch that the text accepts among the edits."""
+        if stretch not in self._beside(stretch):
+            insort(self.stretches, stretch)
+
+    def _beside(self, stretch: Stretch) -> list[Stretch]:
+        """Return the stretches in front of and behind a place; one that is further off is free."""
+        behind = bisect_left(self.stretches, stretch)
+        return self.stretches[max(behind - 1, 0) : behind + 1]
+
+    @property
+    def result(self) -> str:
+        """The text after all edits."""
+        pieces, end = [], 0
+        for each in self.stretches:
+            pieces += [self.source.text[end : each.start], each.replacement]
+            end = each.end
+        return "".join((*pieces, self.source.text[end:]))
+
+
+def take(fix: Fix, texts: Mapping[str, EditedText]) -> bool:
+    """Add all edits of a fix to the texts, or none; return whether they could be added."""
+    wanted: list[tuple[EditedText, Stretch]] = []
+    for edit in fix.edits:
+        text = texts.get(edit.place.file)
+        stretch = text.stretch(edit) if text is not None else None
+        if text is None or stretch is None or not text.accepts(stretch):
+            return False
+        wanted.append((text, stretch))
+    if _collide(wanted):
+        return False
+    for text, stretch in wanted:
+        text.add(stretch)
+    return True
+
+
+def _collide(wanted: Iterable[tuple[EditedText, Stretch]]) -> bool:
+    """Whether edits of one fix are at odds with each other."""
+    ordered = sorted({(text.source.file, stretch) for text, stretch in wanted})
+    return any(a[0] == b[0] and a[1].collides(b[1]) for a, b in pairwise(ordered))
+
+
+MAX_ROUNDS = 10
+
+Judge = Callable[[Package], tuple[ReportedFinding, ...]]
+"""Checks a package and returns its findings."""
+
+
+@record()
+class FixedFile:
+    """A file of the package before and after."""
+
+    path: str
+    before: SourceText
+    after: str
+
+
+@record()
+class Fixed:
+    """What fixing comes to.
+
+    Attributes:
+        files: Those that change.
+        findings: What was fixed, in order.
+        left: Findings whose fix was allowed and could not be made.
+        elsewhere: Findings whose fix was allowed, in files that belong to other packages.
+        withheld: Findings whose fix changes behaviour and was not asked for.
+        rounds: How often edits were made.
+    """
+
+    files: tuple[FixedFile, ...]
+    findings: tuple[ReportedFinding, ...]
+    left: tuple[ReportedFinding, ...]
+    elsewhere: tuple[ReportedFinding, ...]
+    withheld: tuple[ReportedFinding, ...]
+    rounds: int
+
+
+def fix_package(package: Package, judge: Judge, allowed: Collection[Safety]) -> Fixed:
+    """Apply fixes until nothing changes; nothing is written.
+
+    Args:
+        package: As it is on disk.
+        judge: Checks the package as edited so far.
+        allowed: Fixes that may be made.
+    """
+    edited: dict[str, SourceText] = {}
+    fixed: list[ReportedFinding] = []
+    findings: tuple[ReportedFinding, ...] = ()
+    wanted: list[ReportedFinding] = []
+    for rounds in range(MAX_ROUNDS + 1):
+        findings = judge(package.with_texts(edited))
+        wanted = [each for each in findings if each.fix and each.fix.safety in allowed]
+        applied = _round(wanted, package, edited) if rounds < MAX_ROUNDS else []
+        fixed += applied
+        if not applied:
+            break
+    return Fixed(
+        tuple(_changes(package, edited)),
+        tuple({each.fingerprint: each for each in fixed}.values()),
+        tuple(each for each in wanted if not _elsewhere(each)),
+        tuple(each for each in wanted if _elsewhere(each)),
+        tuple(each for each in findings if each.fix and each.fix.safety not in allowed),
+        rounds,
+    )
+
+
+def one_round(
+    package: Package, findings: Sequence[ReportedFinding], allowed: Collection[Safety]
+) -> tuple[FixedFile, ...]:
+    """Return what the fixes of these findings come to, as far as they go together."""
+    edited: dict[str, SourceText] = {}
+    _round([each for each in findings if each.fix and each.fix.safety in allowed], package, edited)
+    return tuple(_changes(package, edited))
+
+
+def _elsewhere(finding: ReportedFinding) -> bool:
+    edits = finding.fix.edits if finding.fix else ()
+    return any(edit.place.file.startswith("../") for edit in edits)
+
+
+def _round(
+    findings: Sequence[ReportedFinding], package: Package, edited: dict[str, SourceText]
+) -> list[ReportedFinding]:
+    """Make the edits that go together, and return the findings that they mend."""
+    paths = {edit.place.file for each in findings if each.fix for edit in each.fix.edits}
+    sources = {path: _own_text(package, path, edited) for path in sorted(paths)}
+    texts = {path: EditedText(source) for path, source in sources.items() if source is not None}
+    applied = [each for each in findings if each.fix and take(each.fix, texts)]
+    for path, text in texts.items():
+        if text.stretches:
+            edited[path] = replace(text.source, text=text.result)
+    return applied
+
+
+def _own_text(package: Package, path: str, edited: Mapping[str, SourceText]) -> SourceText | None:
+    """Return a text file of the package itself; None for one that is not its own to change."""
+    if path in edited:
+        return edited[path]
+    entry = package.index.find(path)
+    if entry is None or entry.target_state is not None or not entry.is_file:
+        return None
+    source = package.read(path)
+    return source if isinstance(source, SourceText) else None
+
+
+def _changes(package: Package, edited: Mapping[str, SourceText]) -> Iterable[FixedFile]:
+    for path, after in sorted(edited.items()):
+        before = package.read(path)
+        if isinstance(before, SourceText) and before.text != after.text:
+            yield FixedFile(path, before, after.text)
+
+
+# What fixing changes, as a patch that `git apply` and `patch -p1` understand.
+
+
+_NO_NEWLINE = "\\ No newline at end of file\n"
+
+
+def patch(files: Iterable[FixedFile], folder: str = "") -> str:
+    """Return the changes as a unified diff.
+
+    Args:
+        files: What changes; those whose names would break the patch are left out.
+        folder: What to put in front of the paths, such as the package's name.
+    """
+    named = (file for file in files if plain(file.path) == file.path)
+    return "".join(line for file in named for line in _diff(file, folder))
+
+
+def _diff(file: FixedFile, folder: str) -> Iterator[str]:
+    path = f"{folder}/{file.path}" if folder else file.path
+    before = _lines(file.before.text)
+    after = _lines(file.after)
+    for line in unified_diff(before, after, f"a/{path}", f"b/{path}"):
+        yield line if line.endswith("\n") else f"{line}\n{_NO_NEWLINE}"
+
+
+def _lines(text: str) -> list[str]:
+    # Not splitlines(): a form feed or a lone carriage return ends no line for patch.
+    lines = text.split("\n")
+    return [f"{line}\n" for line in lines[:-1]] + [line for line in lines[-1:] if line]

@@ -1,0 +1,251 @@
+"""The migration from end to end: a description goes in, a whole package comes out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from lxml import etree
+
+from checker.base.cache import NO_CACHE
+from checker.base.errors import NotAtHand
+from checker.base.record import record
+from checker.convert.conversion import Conversion
+from checker.convert.sdf_to_urdf import xacro_of
+from checker.convert.urdf_to_sdf import sdf_of
+from checker.convert.xml_writer import document_text
+from checker.engine.review import findings_of
+from checker.engine.subject import Subject
+from checker.finding import Safety
+from checker.fix.rounds import fix_package
+from checker.migrate.assets import Assets
+from checker.migrate.bridges import sensor_bridges
+from checker.migrate.drive import Drive, drive_of, turn_forward
+from checker.migrate.measured_facts import facts_of
+from checker.migrate.names import (
+    BASE,
+    NO_ORGANIZATION,
+    Names,
+    call_base_link,
+    check_names,
+    names_for,
+)
+from checker.migrate.new_package import Known, Staging, staged, texts
+from checker.migrate.options import NotMigrated, Wishes
+from checker.migrate.plugins import Judged, judge_plugins
+from checker.migrate.sensors import rewrite_sensors
+from checker.migrate.servos import Servo, servos_of
+from checker.migrate.source import Source, opened_source, original_text, papers_of
+from checker.migrate.thumbnails import thumbnails_of
+from checker.migrate.wheels import find_drive_wheels
+from checker.migrate.xml_parts import sharpen_angles
+from checker.model.robot import Robot
+from checker.model.sensing.kind import SensorType
+from checker.package.inputs import open_input
+from checker.report.report import ReportedFinding
+from checker.settings import Settings
+
+# What the rules can mend by themselves in the new model: colours, misplaced elements, nesting.
+
+
+MODEL = "model.sdf"
+_SETTINGS = Settings(select=("SDF", "SEN", "REF", "GEO", "KIN"), trial=False, cache=False)
+"""Groups of rules on the model alone; of the rest of the package nothing is there yet."""
+
+
+def mend_model(staging: Staging) -> list[str]:
+    """Apply every fix of the rules to the model that was written; return what was mended."""
+    with open_input(staging.folder) as opened:
+        package = opened.packages[0]
+        fixed = fix_package(
+            package, lambda each: findings_of(each, _SETTINGS, NO_CACHE), list(Safety)
+        )
+    for file in fixed.files:
+        staging.write(file.path, file.after.encode())
+    return list(_notes(fixed.findings))
+
+
+def _notes(findings: tuple[ReportedFinding, ...]) -> Iterator[str]:
+    for finding in findings:
+        more = f" (and {len(finding.places) - 1} more)" if len(finding.places) > 1 else ""
+        yield f"{finding.rule} is mended: {finding.message}{more}"
+
+
+_SHEET_POINTS = "everything that says TODO in specifications.md: devices, cost, rights, validation"
+
+
+@record()
+class Migrated:
+    """A package that was made.
+
+    Attributes:
+        folder: Of the package.
+        notes: What was decided, as sentences.
+        open_points: What only the author can decide.
+    """
+
+    folder: Path
+    notes: tuple[str, ...]
+    open_points: tuple[str, ...]
+
+
+@dataclass
+class _Log:
+    notes: list[str] = field(default_factory=list)
+    points: list[str] = field(default_factory=list)
+
+
+def migrate(path: Path, destination: Path, wishes: Wishes) -> Migrated:
+    """Make a package for SubT of a description for Gazebo 9.
+
+    Args:
+        path: The description: a package folder, an archive, or a URDF file.
+        destination: Folder that the package goes into: empty, or not there yet.
+        wishes: What the author asks for.
+
+    Raises:
+        NotMigrated: It cannot be done; no package was made.
+        UnreadableInput: The description cannot be opened.
+    """
+    log = _Log()
+    with opened_source(path, wishes.urdf, wishes.args) as source:
+        _check_apart(source, destination)
+        names = names_for(wishes, source)
+        holder = "" if source.package.only else f" of {source.package.name}"
+        log.notes.append(f"robot: {source.description.file}{holder}")
+        with staged(destination, names.package) as staging:
+            _fill(staging, source, names, wishes, log)
+    if not wishes.organization:
+        log.points.insert(0, f"the organization's name, here {NO_ORGANIZATION!r} (--organization)")
+    log.points.append(_SHEET_POINTS)
+    notes, points = (tuple(dict.fromkeys(each)) for each in (log.notes, log.points))
+    return Migrated(staging.final, notes, points)
+
+
+def _check_apart(source: Source, destination: Path) -> None:
+    """Refuse to put a package into the one that it is made from: catkin finds no nested ones."""
+    package = source.package
+    if not package.only and destination.resolve().is_relative_to(package.root.resolve()):
+        raise NotMigrated(
+            f"{destination} lies inside package {package.name}, and ROS finds no package within "
+            "another; give a folder outside of it"
+        )
+
+
+def _fill(staging: Staging, source: Source, names: Names, wishes: Wishes, log: _Log) -> None:
+    """Write all files of the package."""
+    assets = Assets(source)
+    conversion, judged = _converted(source, names, assets, log)
+    _write_tree(staging, MODEL, conversion.tree)
+    for file, content in assets.files():
+        staging.write(file, content)
+    log.points += assets.notes
+    log.notes += mend_model(staging)
+    tree = _model_of(staging)
+    check_names(tree)
+    with _robot_in(staging) as robot:
+        drive = _drive(robot, source, wishes, judged)
+    if drive is not None:
+        turned = turn_forward(tree, drive.wheels)
+        log.notes += [*drive.notes, *turned]
+        log.points += drive.open_points
+        if turned:
+            _write_tree(staging, MODEL, tree)
+    with _robot_in(staging) as robot:
+        _surround(staging, source, names, robot, drive, log)
+    original = original_text(source, assets.package_uri(names.package))
+    staging.write(f"urdf/{names.short}.orig.urdf", original)
+
+
+def _converted(
+    source: Source, names: Names, assets: Assets, log: _Log
+) -> tuple[Conversion, Judged]:
+    """Return the new model, its plugins and sensors replaced."""
+    description = source.description
+    robot = description.robot
+    conversion = sdf_of(robot, description, name=names.package, mesh_uri=assets.uri)
+    links = [each.get("name") or "" for each in conversion.tree.iter("link")]
+    if not links:
+        raise NotMigrated(f"{description.file} has no link that Gazebo would keep; nothing is left")
+    judged = judge_plugins(conversion, BASE if BASE in links else links[0])
+    log.points += judged.open_points
+    log.notes += [*conversion.notes, *judged.notes, *rewrite_sensors(conversion.tree)]
+    log.notes += [*call_base_link(conversion), *sharpen_angles(conversion.tree)]
+    return conversion, judged
+
+
+def _drive(robot: Robot, source: Source, wishes: Wishes, judged: Judged) -> Drive | None:
+    """Return the drive of a robot with wheels; None for one without."""
+    driven = frozenset(
+        end.name.value.rpartition("/")[2]
+        for transmission in source.description.transmissions
+        for end in transmission.joints
+    )
+    wheels = find_drive_wheels(robot, wishes, judged.drives, driven)
+    return drive_of(robot, wheels, wishes) if wheels.all else None
+
+
+def _surround(
+    staging: Staging, source: Source, names: Names, robot: Robot, drive: Drive | None, log: _Log
+) -> None:
+    """Write what a package has beside its model: launch files, papers, pictures."""
+    papers = papers_of(source)
+    servos = servos_of(source, robot)
+    log.points += [*_what_moves_it(drive, servos), *papers.open_points]
+    if not any(sensor.kind is SensorType.IMU for sensor in robot.sensors):
+        log.points.append("an IMU: the description has none, and every robot of SubT carries one")
+    pictures = thumbnails_of(robot, staging.folder)
+    for name, picture in pictures.files.items():
+        staging.write(f"thumbnails/{name}.png", picture)
+    log.points += [pictures.trouble] if pictures.trouble else []
+    folders = sorted(
+        {each.name for each in staging.folder.iterdir() if each.is_dir()}
+        | {"launch", "urdf", "worlds"}
+    )
+    sensors = sensor_bridges(robot)
+    known = Known(names, papers, facts_of(robot), drive, servos, sensors, folders)
+    for file, text in texts(known):
+        staging.write(file, text.encode())
+    uri = f"package://{names.package}/"
+    xacro = xacro_of(robot, name=names.package, mesh_uri=lambda written: uri + written)
+    _write_tree(staging, "urdf/robot_from_sdf.xacro", xacro)
+
+
+def _what_moves_it(drive: Drive | None, servos: list[Servo]) -> Iterator[str]:
+    if drive is None and servos:
+        yield (
+            f"what commands the {len(servos)} joints that JointPositionController holds with the "
+            "gains of the description's controllers (launch/spawner.rb)"
+        )
+    elif drive is None:
+        yield (
+            "the drive: no wheels were found (round parts on joints that turn without end about "
+            "their own axis, in pairs left and right); name their joints by --left-wheels and "
+            "--right-wheels, or put another drive plugin into launch/spawner.rb"
+        )
+
+
+def _model_of(staging: Staging) -> etree._Element:
+    """Return the model as it was written."""
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_blank_text=True)
+    return etree.parse(staging.folder / MODEL, parser).getroot()
+
+
+def _write_tree(staging: Staging, path: str, tree: etree._Element) -> None:
+    staging.write(path, document_text(tree).encode())
+
+
+@contextmanager
+def _robot_in(staging: Staging) -> Iterator[Robot]:
+    """Read the robot as it was written, with its meshes."""
+    with open_input(staging.folder) as opened:
+        subject = Subject(opened.packages[0], NO_CACHE)
+        try:
+            robots = subject.robots
+            if isinstance(robots, NotAtHand):
+                raise NotMigrated(f"the new model cannot be read: {robots.reason}")
+            yield robots[0]
+        finally:
+            subject.close()

@@ -1,0 +1,218 @@
+"""Where the new package goes: a whole package under its final name, or none."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import fields
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from checker.base.record import record
+from checker.base.resources import templates
+from checker.convert.xml_writer import exact
+from checker.migrate.bridges import SensorBridges
+from checker.migrate.drive import LATERAL_COMPLIANCE, Drive
+from checker.migrate.measured_facts import Facts, sensor_lines
+from checker.migrate.names import Names
+from checker.migrate.options import NotMigrated
+from checker.migrate.servos import Servo
+from checker.migrate.source import Papers
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+
+# The text files of the new package, from the templates that come with the checker.
+
+
+_TARGETS = {
+    "CMakeLists.txt": "CMakeLists.txt",
+    "model.config": "model.config",
+    "package.xml": "package.xml",
+    "specifications.md": "specifications.md",
+    "description.launch": "launch/description.launch",
+    "example.ign": "launch/example.ign",
+    "spawner.rb": "launch/spawner.rb",
+    "vehicle_topics.launch": "launch/vehicle_topics.launch",
+    "example.sdf": "worlds/example.sdf",
+}
+"""Where each template's text goes."""
+_PLAIN = (".rb.j2", ".md.j2", ".txt.j2")
+_LIMITS = ("min_velocity", "max_velocity", "min_acceleration", "max_acceleration", "power_load")
+
+
+@record(eq=False)
+class Known:
+    """What the files are written from.
+
+    Attributes:
+        names: Of the package and robot.
+        papers: Who made it.
+        facts: What was measured.
+        drive: None for a robot without wheels.
+        servos: Joints that are held at a position.
+        sensors: What is bridged.
+        folders: Of the package, to be installed.
+    """
+
+    names: Names
+    papers: Papers
+    facts: Facts
+    drive: Drive | None
+    servos: Sequence[Servo]
+    sensors: Sequence[SensorBridges]
+    folders: Sequence[str]
+
+    @property
+    def words(self) -> dict[str, Any]:
+        """Everything by the names that templates use."""
+        drive, facts = self.drive, self.facts
+        said = f"{self.names.robot.replace('_', ' ').capitalize()}, moved from Gazebo 9 to Ignition"
+        return {
+            **_by_name(facts),
+            **_by_name(self),
+            "description": f"{said}: {facts.description}" if facts.description else said,
+            "turning_radius": f"{drive.turning_radius:.2f}" if drive else "",
+            "lateral_compliance": exact(LATERAL_COMPLIANCE),
+            "sensor_lines": list(sensor_lines(facts)),
+            "lines": {},
+        }
+
+
+def texts(known: Known) -> Iterator[tuple[str, str]]:
+    """Yield the path and text of each file."""
+    words = known.words
+    spawner = _rendered("spawner.rb", words)
+    for name, target in _TARGETS.items():
+        # The sheet says on which lines of the spawner the limits stand.
+        filled = {**words, "lines": _lines_of(spawner)}
+        yield target, spawner if name == "spawner.rb" else _rendered(name, filled)
+
+
+def _by_name(holder: Facts | Known) -> dict[str, Any]:
+    return {each.name: getattr(holder, each.name) for each in fields(holder)}
+
+
+def _lines_of(spawner: str) -> Mapping[str, int]:
+    lines = spawner.splitlines()
+    return {
+        tag: number
+        for tag in _LIMITS
+        for number, line in enumerate(lines, 1)
+        if re.search(rf"<{tag}>", line)
+    }
+
+
+def _rendered(name: str, known: Mapping[str, Any]) -> str:
+    return _environment().get_template(f"{name}.j2").render(known)
+
+
+def _becomes_xml(template: str | None) -> bool:
+    return template is not None and not template.endswith(_PLAIN)
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import Environment, FunctionLoader, StrictUndefined
+
+    made = Environment(
+        loader=FunctionLoader(lambda name: templates("migrate").joinpath(name).read_text("utf-8")),
+        # What becomes XML is escaped; names in Ruby were looked at before (`check_names`).
+        autoescape=_becomes_xml,  # noqa: S701
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    made.filters["number"] = exact
+    return made
+
+
+_PREFIX = ".subt-check-migrate-"
+
+
+@record()
+class Staging:
+    """A package that is being written.
+
+    Attributes:
+        folder: Of the package, for now within a hidden folder.
+        final: Where it goes in the end.
+    """
+
+    folder: Path
+    final: Path
+
+    def write(self, path: str, content: bytes) -> None:
+        """Write a file of the package and have it reach the disk."""
+        target = self.folder / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with target.open("wb") as stream:
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+
+
+@contextmanager
+def staged(destination: Path, package: str) -> Iterator[Staging]:
+    """Have a package written beside its final place; it takes that place when all went well.
+
+    A folder that an interrupted run left behind stays hidden and does not count as content.
+
+    Args:
+        destination: Folder that the package goes into; made if need be.
+        package: Name of the package's folder.
+
+    Raises:
+        NotMigrated: The destination is not empty, or cannot be written to.
+    """
+    made = _made(destination)
+    hidden: Path | None = None
+    try:
+        hidden = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=destination))
+        staging = Staging(hidden / package, destination / package)
+        staging.folder.mkdir()
+        yield staging
+        staging.folder.rename(staging.final)
+    except OSError as error:
+        raise _not_written(destination, error) from None
+    finally:
+        if hidden is not None:
+            shutil.rmtree(hidden, ignore_errors=True)
+        for folder in made:
+            # Only what is empty goes: after a failure, what was made for nothing.
+            with suppress(OSError):
+                folder.rmdir()
+
+
+def _made(destination: Path) -> list[Path]:
+    """Make the destination; return the folders that were not there, innermost first."""
+    try:
+        if destination.is_dir():
+            held = [each.name for each in destination.iterdir()]
+            if held := sorted(name for name in held if not name.startswith(_PREFIX)):
+                raise NotMigrated(
+                    f"{destination} is not empty (it holds {held[0]}); give a folder that is "
+                    "empty or does not exist"
+                )
+            return []
+        if os.path.lexists(destination):
+            raise NotMigrated(f"{destination} is no folder; give one that is empty or not there")
+        missing = [each for each in (destination, *destination.parents) if not each.exists()]
+        destination.mkdir(parents=True)
+    except OSError as error:
+        raise _not_written(destination, error) from None
+    return missing
+
+
+def _not_written(destination: Path, error: OSError) -> NotMigrated:
+    return NotMigrated(
+        f"{error.filename or destination} cannot be written: {error.strerror or error}; "
+        "no package was made"
+    )

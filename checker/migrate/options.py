@@ -1,0 +1,40 @@
+"""What the author asks of a migration, and the exception for one that cannot be done."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+
+from checker.base.errors import CheckerError
+from checker.base.record import record
+
+
+class NotMigrated(CheckerError):
+    """A description that cannot be migrated; its text is one sentence and says what to do."""
+
+
+@record()
+class Wishes:
+    """What the author asks for; what is empty is found out.
+
+    Attributes:
+        organization: In front of the package's name.
+        robot: Name of the robot in the package's name.
+        config: Number of the sensor configuration.
+        left_wheels: Joints of the wheels on the left.
+        right_wheels: Joints of the wheels on the right.
+        max_velocity: Limit of the drive, m/s.
+        max_acceleration: Limit of the drive, m/s².
+        urdf: The file that describes the robot.
+        args: Arguments for xacro.
+    """
+
+    organization: str = ""
+    robot: str = ""
+    config: int = 1
+    left_wheels: tuple[str, ...] = ()
+    right_wheels: tuple[str, ...] = ()
+    max_velocity: float | None = None
+    max_acceleration: float | None = None
+    urdf: str = ""
+    args: Mapping[str, str] = field(default_factory=dict)

@@ -1,0 +1,253 @@
+"""Controllers of ros_control: what YAML files configure and launch files spawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+
+from checker.base.record import record
+from checker.expand.launch.graph import resolve_name
+from checker.model.components import Joint, Plugin
+from checker.model.control.nodes import Spawned, SpawnedModel, StateListener
+from checker.model.urdf.description import Transmission
+from checker.source.text import Located, Span
+
+IMMOBILE = ("fixed", "floating")
+STATE_CONTROLLER = "JointStateController"
+_PREFIX = "hardware_interface/"
+
+
+@record(eq=False)
+class Gain:
+    """A gain of a PID loop.
+
+    Attributes:
+        value: As a number; None where it is no number, NaN where it is known at launch only.
+        text: As written.
+    """
+
+    value: float | None
+    text: str
+    span: Span
+
+
+@record(eq=False)
+class Controller:
+    """A controller that a YAML text configures.
+
+    Attributes:
+        name: Path below the namespace, such as `arm_controller`.
+        namespace: Absolute namespace it is loaded under, such as `/gurdy`.
+        type: Such as `effort_controllers/JointPositionController`; None when not stated.
+        joints: Names under `joint`, `joints` or the wheels of a drive.
+        gains: By joint, then `p`, `i`, `d`; a joint whose loop is not configured is absent.
+        loaded_by: The `<rosparam>` that loads it; None when no launch file does.
+        span: Its key.
+    """
+
+    name: str
+    namespace: str
+    type: Located[str] | None
+    joints: tuple[Located[str], ...]
+    gains: Mapping[str, Mapping[str, Gain]]
+    span: Span
+    loaded_by: Span | None = None
+
+    @property
+    def full_name(self) -> str:
+        """Namespace and name: `/gurdy/arm_controller`."""
+        return resolve_name(self.name, self.namespace)
+
+    @property
+    def family(self) -> str:
+        """Package of its type: `effort_controllers`; empty when not stated."""
+        return self.type.value.partition("/")[0] if self.type else ""
+
+    @property
+    def kind(self) -> str:
+        """Class of its type: `JointPositionController`; empty when not stated."""
+        return self.type.value.partition("/")[2] if self.type else ""
+
+
+@record(eq=False)
+class ControlPlugin:
+    """The plugin `gazebo_ros_control`.
+
+    Attributes:
+        namespace: What `<robotNamespace>` says, absolute; None when it says nothing.
+        parameter: What `<robotParam>` says, else `robot_description`.
+    """
+
+    plugin: Plugin
+    namespace: Located[str] | None
+    parameter: str
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.plugin.span
+
+
+@record(eq=False)
+class SimulatorGains:
+    """Gains that `gazebo_ros_control` uses itself, by `pid_gains` in its namespace."""
+
+    joint: str
+    gains: Mapping[str, Gain]
+    span: Span
+
+
+@record(eq=False)
+class ParameterFault:
+    """A file that a launch file names, and that is not there or cannot be read.
+
+    Attributes:
+        span: What names the file, or where its text cannot be read.
+        message: What is wrong.
+        hides: Whether the file may well configure what nothing else does.
+    """
+
+    span: Span
+    message: str
+    hides: bool = False
+
+
+@record(eq=False)
+class ControlLaunch:
+    """What one launch file, with all that it includes, does for control.
+
+    Attributes:
+        file: A launch file that no other one starts.
+        spawned: Controllers that it starts.
+        listeners: Nodes that turn joint states into transforms.
+        models: Models that it spawns into Gazebo.
+        state_topics: Absolute topics on which nodes of it publish joint states.
+        parameters: Absolute names of what it sets, `<rosparam>`s by their namespace.
+        missing: Descriptions that it names and that do not exist.
+    """
+
+    file: str
+    spawned: tuple[Spawned, ...]
+    listeners: tuple[StateListener, ...]
+    models: tuple[SpawnedModel, ...]
+    state_topics: frozenset[str]
+    parameters: frozenset[str]
+    missing: tuple[ParameterFault, ...] = ()
+
+
+@record(eq=False)
+class ControlSystem:
+    """What controls the joints of a URDF package.
+
+    Attributes:
+        robots: Names of the robots.
+        joints: By name, of all robots; None when the robots are not known.
+        transmissions: Of all robots.
+        plugins: `gazebo_ros_control`, as often as it stands there.
+        publishes_states: Whether a Gazebo plugin publishes the joint states by itself.
+        has_manager: Whether a Gazebo plugin, that one or another, runs a controller manager.
+        otherwise_moved: Names that plugins other than `gazebo_ros_control` mention.
+        controllers: Configured in YAML that a launch file loads, or that lies in the package.
+        simulator_gains: Of `gazebo_ros_control` itself.
+        launches: One for each launch file that no other one starts.
+        dormant: Controllers started by nodes that a condition leaves out.
+        faults: Files of parameters that launch files load in vain.
+        file: The file that describes the robot.
+        unread_robot: Why robots, joints and transmissions are not known; else empty.
+        unread: Why parts of what the launch files start and load are not known.
+    """
+
+    robots: tuple[Located[str], ...]
+    joints: Mapping[str, Joint] | None
+    transmissions: tuple[Transmission, ...]
+    plugins: tuple[ControlPlugin, ...]
+    publishes_states: bool
+    has_manager: bool
+    otherwise_moved: frozenset[str]
+    controllers: tuple[Controller, ...]
+    simulator_gains: tuple[SimulatorGains, ...]
+    launches: tuple[ControlLaunch, ...]
+    dormant: tuple[Spawned, ...] = ()
+    faults: tuple[ParameterFault, ...] = ()
+    file: str = ""
+    unread_robot: str = ""
+    unread: tuple[str, ...] = ()
+
+    @cached_property
+    def spawned(self) -> tuple[Spawned, ...]:
+        """Controllers that launch files start; each place once."""
+        found = {
+            (each.full_name, each.span.source.file, each.span.start): each
+            for launch in self.launches
+            for each in launch.spawned
+        }
+        return tuple(found.values())
+
+    @cached_property
+    def configured(self) -> Mapping[str, Controller]:
+        """Controllers that launch files load, by full name; the last one counts."""
+        return {each.full_name: each for each in self.controllers if each.loaded_by}
+
+    @cached_property
+    def namespaces(self) -> frozenset[str]:
+        """Namespaces in which launch files start controllers."""
+        return frozenset(each.namespace for each in self.spawned)
+
+    @cached_property
+    def plugin_namespaces(self) -> Mapping[str, Span]:
+        """Namespaces in which Gazebo runs a controller manager, each with what says so.
+
+        A plugin that states none gets that of the node which spawns the model.
+        """
+        found: dict[str, Span] = {}
+        for plugin in self.plugins:
+            if plugin.namespace is not None:
+                found.setdefault(plugin.namespace.value, plugin.namespace.span)
+                continue
+            for model in self.models:
+                found.setdefault(model.namespace, model.span)
+        return found
+
+    @cached_property
+    def models(self) -> tuple[SpawnedModel, ...]:
+        """Models that launch files spawn; each place once."""
+        found = {
+            (each.node.span.source.file, each.node.span.start, each.model): each
+            for launch in self.launches
+            for each in launch.models
+        }
+        return tuple(found.values())
+
+    def moves(self, name: str) -> bool:
+        """Whether a joint is known to be one that a motor can move."""
+        joint = (self.joints or {}).get(name)
+        return joint is not None and joint.type.value not in IMMOBILE
+
+    @cached_property
+    def namesakes(self) -> Mapping[str, Controller]:
+        """Controllers that launch files load, by name, whatever their namespace."""
+        return {each.name: each for each in self.configured.values()}
+
+    def publishers(self, launch: ControlLaunch) -> Iterator[Spawned]:
+        """Yield the controllers of a launch file that publish joint states."""
+        for each in launch.spawned:
+            controller = self.configured.get(each.full_name) or self.namesakes.get(each.name)
+            if controller is not None and controller.kind == STATE_CONTROLLER:
+                yield each
+
+    @cached_property
+    def interfaces(self) -> Mapping[str, Located[str]]:
+        """The hardware interface of each joint, without `hardware_interface/` in front.
+
+        Like Gazebo, it takes the joint's first, and the actuator's where the joint has none.
+        """
+        found: dict[str, Located[str]] = {}
+        for transmission in self.transmissions:
+            ends = (*transmission.joints, *transmission.actuators)
+            first = next((name for end in ends for name in end.interfaces), None)
+            for joint in transmission.joints:
+                named = next(iter(joint.interfaces), first)
+                if named is not None:
+                    plain = Located(named.value.removeprefix(_PREFIX), named.span)
+                    found.setdefault(joint.name.value, plain)
+        return found

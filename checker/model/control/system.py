@@ -1,0 +1,160 @@
+"""What controls the joints of a URDF package, out of its launch files, YAML files and robots."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from checker.base.errors import NotAtHand
+from checker.expand.launch.graph import LaunchGraph, Node, resolve_name
+from checker.expand.launch.package_launch import LaunchEntries, LaunchEntry, LaunchFiles
+from checker.expand.launch.substitution import is_known
+from checker.model.components import Plugin
+from checker.model.control.controllers import (
+    ControlLaunch,
+    ControlPlugin,
+    ControlSystem,
+    ParameterFault,
+)
+from checker.model.control.controllers_reader import MANAGER_PLUGIN
+from checker.model.control.nodes import (
+    Spawned,
+    published_states,
+    read_listener,
+    read_model,
+    read_spawned,
+)
+from checker.model.control.parameters import Parameters
+from checker.model.plugin_library import library_stem
+from checker.model.robot import Robot
+from checker.model.urdf.description import UrdfDescription
+from checker.package.package import Package
+from checker.source.text import Located
+
+_STATE_PLUGIN = "gazebo_ros_joint_state_publisher"
+_MANAGER = "control"
+"""Part of the names of plugins that run a controller manager, gazebo_ros_control or another."""
+_PARAMETER = "robot_description"
+_READING = ("command", "textfile")
+_DESCRIPTION = re.compile(r"\$\(find\s{1,8}[\w-]{1,200}\)/[^\s'\"$;|]{1,500}\.(?:urdf|xacro|sdf)\b")
+_LONGEST = 5_000
+"""Characters of a command that are looked at."""
+
+
+def control_system(
+    package: Package,
+    entries: LaunchEntries,
+    robots: Sequence[Robot] | NotAtHand,
+    descriptions: Sequence[UrdfDescription] | NotAtHand,
+) -> ControlSystem | NotAtHand:
+    """Put together what controls a URDF package's joints.
+
+    Args:
+        package: The package.
+        entries: Its launch files.
+        robots: Its robots.
+        descriptions: What its URDF files say beside.
+    """
+    parameters, unread = Parameters(package), list(entries.graph.unread)
+    launches = []
+    for entry in entries.entries:
+        parameters.load(entry.graph)
+        launches.append(_launch(package, entry, unread))
+    parameters.look_around()
+    known = () if isinstance(robots, NotAtHand) else tuple(robots)
+    described = () if isinstance(descriptions, NotAtHand) else tuple(descriptions)
+    plugins = [plugin for robot in known for plugin in robot.plugins]
+    system = ControlSystem(
+        robots=tuple(robot.name for robot in known),
+        joints={
+            name: joint for robot in reversed(known) for name, joint in robot.joints_by_name.items()
+        }
+        if known
+        else None,
+        transmissions=tuple(each for one in described for each in one.transmissions),
+        plugins=tuple(_plugin(each) for each in _called(plugins, MANAGER_PLUGIN)),
+        publishes_states=bool(_called(plugins, _STATE_PLUGIN)),
+        has_manager=any(_MANAGER in library_stem(each.filename.value) for each in plugins),
+        otherwise_moved=frozenset(_mentioned(plugins)),
+        controllers=tuple(parameters.controllers),
+        simulator_gains=tuple(parameters.gains),
+        launches=tuple(launches),
+        dormant=tuple(_dormant(entries)),
+        faults=tuple(parameters.faults),
+        file=described[0].file if described else "",
+        unread_robot=_reason(robots) or _reason(descriptions),
+        unread=tuple(dict.fromkeys((*unread, *parameters.unread))),
+    )
+    controls = (system.transmissions, system.plugins, system.controllers, system.spawned)
+    if not any((*controls, system.models)) and not system.unread_robot:
+        return NotAtHand("nothing in the package controls a robot or spawns one", applicable=False)
+    return system
+
+
+def _reason(part: object) -> str:
+    return part.reason if isinstance(part, NotAtHand) else ""
+
+
+def _called(plugins: Iterable[Plugin], stem: str) -> list[Plugin]:
+    return [each for each in plugins if library_stem(each.filename.value) == stem]
+
+
+def _mentioned(plugins: Iterable[Plugin]) -> Iterable[str]:
+    """Yield the texts within plugins that may move joints by themselves."""
+    for plugin in plugins:
+        if library_stem(plugin.filename.value) != MANAGER_PLUGIN:
+            yield from (each.text.value for each in plugin.element.descendants())
+
+
+def _plugin(plugin: Plugin) -> ControlPlugin:
+    stated = next(plugin.at("robotNamespace"), None)
+    parameter = next(plugin.at("robotParam"), None)
+    namespace = Located(resolve_name(stated.value, "/"), stated.span) if stated else None
+    return ControlPlugin(plugin, namespace, parameter.value if parameter else _PARAMETER)
+
+
+def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlLaunch:
+    graph = entry.graph
+    listeners = (read_listener(node) for node in graph.nodes)
+    models = (read_model(node) for node in graph.nodes)
+    topics = (published_states(node) for node in graph.nodes)
+    unread += (f"whether {each.value} holds is known at launch only" for each in graph.undecided)
+    return ControlLaunch(
+        entry.file,
+        tuple(_spawned(graph.nodes, unread)),
+        tuple(listener for listener in listeners if listener and is_known(listener.topic)),
+        tuple(model for model in models if model),
+        frozenset(topic for topic in topics if topic),
+        frozenset(param.name for param in graph.params),
+        tuple(_missing(package, graph)),
+    )
+
+
+def _spawned(nodes: Iterable[Node], unread: list[str]) -> Iterable[Spawned]:
+    for node in nodes:
+        for found in read_spawned(node):
+            if isinstance(found, Spawned):
+                yield found
+            else:
+                unread.append(found)
+
+
+def _dormant(entries: LaunchEntries) -> Iterable[Spawned]:
+    for entry in entries.entries:
+        yield from _spawned(entry.graph.dormant_nodes, [])
+
+
+def _missing(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
+    """Yield the descriptions that a launch file reads and that no package at hand holds."""
+    named = [(param.value, param.span) for param in graph.params if param.kind in _READING]
+    named += [
+        (word.value, word.span)
+        for model in map(read_model, graph.nodes)
+        if model is not None and (word := model.options.get("-file")) is not None
+    ]
+    files = LaunchFiles(package)
+    for text, span in named:
+        for found in _DESCRIPTION.finditer(text[:_LONGEST]):
+            path = files.path_of(found.group())
+            if path is not None and not package.exists(path):
+                yield ParameterFault(span, f"{path} is read as a description and does not exist")

@@ -1,0 +1,1 @@
+"""Devices of which datasheets are known."""

@@ -1,0 +1,123 @@
+"""Devices of which datasheets are known, and which sensor of a robot stands for which."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+from checker.base.record import record
+from checker.model.components import Sensor
+from checker.model.devices.form import expression
+from checker.source.text import Located
+
+_TEXT_LIMIT = 1000
+_LIDAR = r"\blidars?\b|\blasers?\b"
+_CAMERA = r"\bcameras?\b|\brgb-?d\b"
+_WORDS = {
+    **dict.fromkeys(("lidar3d", "lidar2d", "lidar1d"), _LIDAR),
+    **dict.fromkeys(("camera", "rgbd", "depth", "thermal"), _CAMERA),
+    "imu": r"\bimus?\b|\binertial\b",
+}
+"""Words for devices by their kind."""
+
+
+@record(eq=False)
+class Device:
+    """A device, as `devices.json` or the user's settings describe it.
+
+    Attributes:
+        id: Such as `velodyne_vlp16`.
+        name: As its maker calls it.
+        kind: `lidar3d`, `lidar2d`, `lidar1d`, `camera`, `rgbd`, `thermal`, `imu`, …
+        match: Regular expression for its name in running text, ignoring case.
+        sdf_types: Types of `<sensor>` that may stand for it.
+        values: Figures of its datasheet; the table says what each key means.
+        body: `mass_kg` and `size_mm`, where they are known.
+        source: Where its figures come from.
+        field_sources: The same for single figures.
+    """
+
+    id: str
+    name: str
+    kind: str
+    match: str
+    sdf_types: frozenset[str]
+    values: Mapping[str, Any]
+    body: Mapping[str, Any]
+    source: str
+    field_sources: Mapping[str, str]
+
+    @property
+    def model(self) -> str:
+        """Its designation among a family of devices, `BFS-U3-16S2C`; empty for a device alone."""
+        match = re.search(r"\(([A-Z][A-Z0-9-]{5,})\)$", self.name)
+        return match.group(1) if match else ""
+
+    def source_of(self, field: str) -> str:
+        """Return where one figure comes from."""
+        return self.field_sources.get(field, self.source)
+
+    def is_from_memory(self, field: str) -> bool:
+        """Whether nobody compared a figure with a datasheet: it is for information only."""
+        return self.source_of(field).startswith("general knowledge")
+
+
+@record(eq=False)
+class SensorDevice:
+    """A sensor and the device that it stands for.
+
+    Attributes:
+        sensor: Of the robot.
+        device: What it is.
+        said: The words that say so: an item of the specification sheet, else the name of the
+            sensor, its link or its topic.
+        from_sheet: Whether the sheet says so.
+    """
+
+    sensor: Sensor
+    device: Device
+    said: Located[str]
+    from_sheet: bool
+
+    @property
+    def names_the_model(self) -> bool:
+        """Whether what names the device leaves no other of its family: some part of the sheet."""
+        text = self.said.span.source.text if self.from_sheet else self.said.value
+        return self.device.model in text
+
+
+@record(eq=False)
+class SensorDevices:
+    """The devices that a robot's sensors stand for, as far as sheet and names tell.
+
+    Attributes:
+        known: One for each sensor of which something is known.
+        diversions: What the sheet says of differences from the hardware, by paragraphs.
+    """
+
+    known: tuple[SensorDevice, ...]
+    diversions: tuple[str, ...] = ()
+
+    @cached_property
+    def _by_sensor(self) -> dict[Sensor, SensorDevice]:
+        return {each.sensor: each for each in self.known}
+
+    def of(self, sensor: Sensor) -> SensorDevice | None:
+        """Return the device that a sensor stands for; None when nothing tells."""
+        return self._by_sensor.get(sensor)
+
+    def are_diverted(self, device: Device, figure: str) -> bool:
+        """Whether the sheet says that the model differs from a device in a figure.
+
+        Args:
+            device: Its own name, or the word for its kind, is looked for.
+            figure: Regular expression for words that mean the figure, ignoring case.
+        """
+        names = expression(f"{device.match}|{_WORDS.get(device.kind, '(?!)')}")
+        meant = re.compile(figure, re.IGNORECASE)
+        return any(
+            names.search(each[:_TEXT_LIMIT]) and meant.search(each[:_TEXT_LIMIT])
+            for each in self.diversions
+        )

@@ -1,0 +1,83 @@
+"""Devices that are known by name: those of a user's settings, then those of `devices.json`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from typing import Any
+
+from checker.base.record import record
+from checker.base.resources import table
+from checker.model.devices.devices import Device
+from checker.model.devices.form import expression
+
+TEXT_LIMIT = 500
+"""Characters of a text that are searched for names of devices."""
+_JOINTS = re.compile(r"[_/:.]+")
+
+
+@record(eq=False)
+class KnownDevices:
+    """Devices of which figures are known.
+
+    Attributes:
+        devices: The first one whose name stands in a text is meant.
+    """
+
+    devices: tuple[Device, ...]
+
+    def named_in(self, text: str, types: Iterable[str] | None = None) -> Device | None:
+        """Return the device that running text names; None when it names none, or several.
+
+        Args:
+            text: Its first 500 characters count.
+            types: Types of `<sensor>`; devices that none of them may stand for do not count.
+        """
+        wanted = None if types is None else frozenset(types)
+        found: list[tuple[Device, int, int]] = []
+        for device in self.devices:
+            if wanted is not None and not wanted & device.sdf_types:
+                continue
+            match = expression(device.match).search(text[:TEXT_LIMIT])
+            if match is None:
+                continue
+            start, end = match.span()
+            # What overlaps is another reading of the same words, and the first one counts.
+            if not any(start < other_end and first < end for _, first, other_end in found):
+                found.append((device, start, end))
+        return found[0][0] if len(found) == 1 else None
+
+    def named(self, name: str, types: Iterable[str] | None = None) -> Device | None:
+        """Return the device in a name such as `front_vlp16_link`; see `named_in`."""
+        return self.named_in(spaced(name[:TEXT_LIMIT]), types)
+
+
+def spaced(name: str) -> str:
+    """Return a name as its words: `front vlp16 link` for `front_vlp16_link`."""
+    return _JOINTS.sub(" ", name)
+
+
+def known_devices(own: Sequence[Mapping[str, Any]] = ()) -> KnownDevices:
+    """Return the devices of a user, each in the form of `devices.json`, before those of ours."""
+    return KnownDevices((*map(read_device, own), *_ours()))
+
+
+@cache
+def _ours() -> tuple[Device, ...]:
+    return tuple(map(read_device, table("devices")["devices"]))
+
+
+def read_device(entry: Mapping[str, Any]) -> Device:
+    """Read a description in which `problem_of_device` finds nothing wrong."""
+    return Device(
+        entry["id"],
+        entry["name"],
+        entry["kind"],
+        entry["match"],
+        frozenset(entry["sdf_types"]),
+        entry["values"],
+        entry.get("body", {}),
+        entry.get("source", "the settings"),
+        entry.get("source_detail", {}),
+    )

@@ -1,0 +1,235 @@
+"""Finds out which sensor of a robot stands for which device.
+
+The specification sheet counts most; where it is silent or leaves a choice, names and comments of
+the model do. Two answers are as good as none: whoever compares figures must not compare them with
+those of another device.
+"""
+
+from __future__ import annotations
+
+import enum
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence, Set
+
+from checker.base.record import record
+from checker.model.components import Sensor
+from checker.model.devices.devices import Device, SensorDevice, SensorDevices
+from checker.model.devices.known import KnownDevices
+from checker.model.robot import Robot
+from checker.model.specification.sensor_kinds import TYPES, SensorKind
+from checker.model.specification.sensors import ListedSensor
+from checker.model.specification.sheet import Specification
+from checker.source.text import Located
+
+# Lidars by the shape of their scan: a volume, a plane, a point.
+
+
+POINT_RAYS = 9
+"""Rays at most of a lidar that measures one distance; some spread 3 × 3 over their beam."""
+
+
+class LidarClass(enum.Enum):
+    """How a lidar scans; the value is the kind of such devices."""
+
+    VOLUME = "lidar3d"
+    PLANE = "lidar2d"
+    POINT = "lidar1d"
+
+
+_KINDS = {
+    SensorKind.LIDAR: LidarClass.VOLUME,
+    SensorKind.PLANAR_LIDAR: LidarClass.PLANE,
+    SensorKind.POINT_LIDAR: LidarClass.POINT,
+}
+
+
+def class_of_device(device: Device) -> LidarClass | None:
+    """Return how a device scans; None when it is no lidar."""
+    return next((each for each in LidarClass if each.value == device.kind), None)
+
+
+def class_of_kind(kind: SensorKind) -> LidarClass | None:
+    """Return how the kind of lidar scans that words mean; None for other sensors."""
+    return _KINDS.get(kind)
+
+
+def class_of_sensor(sensor: Sensor) -> LidarClass | None:
+    """Return how a sensor is set to scan; None for others than lidars."""
+    lidar = sensor.lidar
+    if lidar is None or not sensor.kind.is_lidar:
+        return None
+    if lidar.rays <= POINT_RAYS:
+        return LidarClass.POINT
+    return LidarClass.PLANE if lidar.rows <= 1 else LidarClass.VOLUME
+
+
+SENSORS_LIMIT = 500
+"""Sensors of a robot that are looked at; real ones have less than 50."""
+PASSAGES_LIMIT = 100
+_WORDS = {
+    **dict.fromkeys(("front", "forward"), "front"),
+    **dict.fromkeys(("rear", "back", "backward"), "rear"),
+    **dict.fromkeys(("top", "up", "upward", "upper"), "top"),
+    **dict.fromkeys(("bottom", "down", "downward", "lower"), "bottom"),
+    "left": "left",
+    "right": "right",
+}
+"""Words for where a sensor is or looks, and what they have in common."""
+
+
+@record(eq=False)
+class _Item:
+    """What one item of the sheet says of one kind of sensors."""
+
+    listed: ListedSensor
+    device: Device | None
+    types: frozenset[str]
+    lidar_class: LidarClass | None
+    places: frozenset[str]
+
+
+@record(eq=False)
+class _Named:
+    """What the model itself says of a sensor."""
+
+    sensor: Sensor
+    device: Device | None
+    said: Located[str]
+    lidar_class: LidarClass | None
+    places: frozenset[str]
+
+
+def find_sensor_devices(
+    robot: Robot, known: KnownDevices, sheet: Specification | None, configurations: Set[int]
+) -> SensorDevices:
+    """Return the devices that a robot's sensors stand for.
+
+    Args:
+        robot: Its sensors beyond the first 500 are left out.
+        known: Devices to choose from.
+        sheet: None when it is not at hand: then the model's own words are all there is.
+        configurations: Numbers of sensor configurations of which the sheet may speak.
+    """
+    sensors = [_read_sensor(sensor, known) for sensor in robot.sensors[:SENSORS_LIMIT]]
+    if sheet is None:
+        return SensorDevices(tuple(_decided(sensors, [])))
+    items = list(_items(sheet, known, configurations))
+    section = sheet.section("diversions")
+    paragraphs = section.passages[:PASSAGES_LIMIT] if section is not None else ()
+    return SensorDevices(tuple(_decided(sensors, items)), tuple(each.words for each in paragraphs))
+
+
+def _items(sheet: Specification, known: KnownDevices, configurations: Set[int]) -> Iterator[_Item]:
+    for listed in sheet.sensors[:SENSORS_LIMIT]:
+        types = TYPES.get(listed.kind)
+        if types is None or (listed.configurations and not listed.configurations & configurations):
+            continue
+        device = known.named_in(listed.text, types)
+        if device is not None:
+            types &= device.sdf_types
+            lidar_class = class_of_device(device) or class_of_kind(listed.kind)
+        else:
+            lidar_class = class_of_kind(listed.kind)
+        yield _Item(listed, device, types, lidar_class, _places([listed.text]))
+
+
+def _read_sensor(sensor: Sensor, known: KnownDevices) -> _Named:
+    comment = sensor.element.comment_in_front
+    texts = [sensor.name, Located(sensor.link, sensor.span), sensor.topic]
+    texts += [comment] if comment is not None else []
+    device, said = None, sensor.name
+    for text in texts:
+        device = known.named(text.value, (sensor.type.value,))
+        if device is not None:
+            said = text
+            break
+    places = _places([sensor.name.value]) or _places([sensor.link, sensor.topic.value])
+    return _Named(sensor, device, said, class_of_sensor(sensor), places)
+
+
+def _places(texts: Iterable[str]) -> frozenset[str]:
+    words = re.findall(r"[a-z]+", " ".join(text[:300] for text in texts).lower())
+    return frozenset(_WORDS[word] for word in words if word in _WORDS)
+
+
+def _decided(sensors: Sequence[_Named], items: Sequence[_Item]) -> Iterator[SensorDevice]:
+    """Yield what is known of the sensors: from the sheet, else from their own words."""
+    chosen = _chosen(sensors, items)
+    agreed = _agreed(chosen)
+    for named in sensors:
+        item = chosen.get(named)
+        if item is None:
+            listed = any(_may_be(item, named) for item in items)
+            if named.device is not None and not listed:
+                yield SensorDevice(named.sensor, named.device, named.said, from_sheet=False)
+        elif item.device is not None and (item in agreed or item.device is named.device):
+            said = Located(item.listed.text, item.listed.span)
+            yield SensorDevice(named.sensor, item.device, said, from_sheet=True)
+
+
+def _chosen(sensors: Sequence[_Named], items: Sequence[_Item]) -> dict[_Named, _Item]:
+    """Return the one item of the sheet that means a sensor, where there is one."""
+    chosen: dict[_Named, _Item] = {}
+    undecided: list[tuple[_Named, list[_Item]]] = []
+    present = {named.lidar_class for named in sensors}
+    for named in sensors:
+        left = _narrowed(named, [item for item in items if _may_be(item, named)], present)
+        if len(left) == 1:
+            chosen[named] = left[0]
+        elif left:
+            undecided.append((named, left))
+    # An item that some sensors clearly belong to is not meant by the others.
+    taken = set(chosen.values())
+    for named, left in undecided:
+        free = [item for item in left if item not in taken]
+        if len(free) == 1:
+            chosen[named] = free[0]
+    return chosen
+
+
+def _may_be(item: _Item, named: _Named) -> bool:
+    return named.sensor.type.value in item.types
+
+
+def _narrowed(named: _Named, items: list[_Item], present: set[LidarClass | None]) -> list[_Item]:
+    """Leave those items out that a sensor's words or its rays speak against."""
+    if named.device is not None:
+        return [item for item in items if item.device is named.device]
+    if named.lidar_class is not None:
+        items = [
+            item
+            for item in items
+            if item.lidar_class in (None, named.lidar_class) or item.lidar_class not in present
+        ]
+    alike = [item for item in items if item.places & named.places]
+    return alike or [item for item in items if not item.places or not named.places]
+
+
+def _agreed(chosen: dict[_Named, _Item]) -> set[_Item]:
+    """Return the items that speak of as many sensors as were found to belong to them.
+
+    Where an item does not say how many, they must be set alike.
+    """
+    members: dict[_Item, list[_Named]] = defaultdict(list)
+    for named, item in chosen.items():
+        members[item].append(named)
+    return {item for item, group in members.items() if _fits(item, group)}
+
+
+def _fits(item: _Item, group: Sequence[_Named]) -> bool:
+    count, device = item.listed.count, item.device
+    if count is None:
+        return len({_settings(named.sensor) for named in group}) == 1
+    values = device.values if device is not None else {}
+    each = values.get("cameras", values.get("cameras_per_device", 1))
+    return len(group) in (count, count * each)
+
+
+def _settings(sensor: Sensor) -> tuple[float, ...]:
+    """Return what tells devices of one type from each other."""
+    if sensor.lidar is not None:
+        return (sensor.lidar.horizontal.samples.value, sensor.lidar.rows)
+    if sensor.camera is not None:
+        return (sensor.camera.width.value, sensor.camera.height.value)
+    return ()

@@ -1,0 +1,114 @@
+"""Which parts of a robot that may move against each other start inside each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import partial
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from checker.base.record import record
+from checker.model.geometry.boxes import close_pairs
+from checker.model.geometry.convex import face_directions, overlap_depth
+from checker.model.geometry.placed_shapes import Placed, placed
+from checker.model.mesh import Mesh
+from checker.model.tree import RigidBodies, rigid_bodies
+
+if TYPE_CHECKING:
+    from checker.model.robot import Robot
+
+_FILLS = 0.9
+"""Share of its hull that a mesh must fill to be taken for convex."""
+DEEP_PAIRS = 60
+"""After so many findings no more are looked for: each takes some ms."""
+
+
+@record(eq=False)
+class Inside:
+    """Two collisions of different parts.
+
+    Attributes:
+        one: The larger.
+        other: The smaller.
+        depth: The shortest way that parts them, metres.
+    """
+
+    one: Placed
+    other: Placed
+    depth: float
+
+
+def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
+    """Yield pairs of links that start more than `depth` metres inside each other, once each.
+
+    Only parts that no joint ties: neither directly nor over parts without collision, such as the
+    knuckle of a steered wheel. Two wheels may overlap: rows of them stand for a track. Meshes
+    count where they are nearly convex.
+
+    Raises:
+        TooManyPairs: More collisions lie side by side than are compared.
+    """
+    shapes = [
+        each
+        for link in robot.tree.links.values()
+        for each in placed(robot, link, link.collisions)
+        if is_convex(robot, each)
+    ]
+    bodies = rigid_bodies(robot)
+    tied = _tied(robot, bodies)
+    wheels = {link.scoped_name for link in robot.wheels}
+    found: set[tuple[str, str]] = set()
+    for first, second in close_pairs([each.box for each in shapes], -depth):
+        one, other = shapes[first], shapes[second]
+        a, b = one.link.scoped_name, other.link.scoped_name
+        pair = (min(a, b), max(a, b))
+        body, beside = bodies.of_link[a], bodies.of_link[b]
+        if pair in found or body == beside or beside in tied.get(body, ()):
+            continue
+        if a in wheels and b in wheels:
+            continue
+        deep = _depth(robot, one, other, depth)
+        if deep > depth:
+            found.add(pair)
+            larger, smaller = sorted((one, other), key=_bulk, reverse=True)
+            yield Inside(larger, smaller, deep)
+            if len(found) >= DEEP_PAIRS:
+                return
+
+
+def _bulk(shape: Placed) -> float:
+    return shape.box.diagonal
+
+
+def _depth(robot: Robot, one: Placed, other: Placed, enough: float) -> float:
+    start = list(face_directions(one.pose.rotation, other.pose.rotation))
+    between = [b - a for a, b in zip(one.box.centre, other.box.centre, strict=True)]
+    length = math.hypot(*between)
+    if 0.0 < length < math.inf:
+        start.append((between[0] / length, between[1] / length, between[2] / length))
+    return overlap_depth(partial(one.support, robot), partial(other.support, robot), start, enough)
+
+
+def is_convex(robot: Robot, shape: Placed) -> bool:
+    """Say whether a shape is convex, a mesh nearly so."""
+    mesh = robot.mesh_of(shape.shape)
+    if mesh is None:
+        return True
+    return isinstance(mesh, Mesh) and (mesh.volume or 0.0) >= _FILLS * mesh.hull_volume > 0.0
+
+
+def _tied(robot: Robot, bodies: RigidBodies) -> dict[str, set[str]]:
+    """Return the bodies next to each body; those next to one without collision count as tied."""
+    tied = {body: set(others) for body, others in bodies.neighbours.items()}
+    for body, others in bodies.neighbours.items():
+        names = bodies.links[body]
+        if len(others) <= _FEW and not any(robot.tree.links[name].collisions for name in names):
+            for one, other in combinations(others, 2):
+                tied[one].add(other)
+                tied[other].add(one)
+    return tied
+
+
+_FEW = 8
+"""Neighbours of a part without collision up to which they count as tied to each other."""

@@ -1,0 +1,58 @@
+"""Collisions and visuals where they are: in the robot's frame, with the box around each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from checker.base.record import record
+from checker.model.components import Collision, Link, Visual
+from checker.model.geometry.boxes import Box
+from checker.model.geometry.transform import Transform, Vector
+
+if TYPE_CHECKING:
+    from checker.model.robot import Robot
+
+
+@record(eq=False)
+class Placed:
+    """A shape of a link in the robot's frame.
+
+    Attributes:
+        pose: Of the shape.
+        box: Around the shape; of a mesh, around its hull.
+    """
+
+    link: Link
+    shape: Collision | Visual
+    pose: Transform
+    box: Box
+
+    def support(self, robot: Robot, direction: Vector) -> float:
+        """Return how far it reaches in a direction of length 1, metres."""
+        reach = robot.support_of(self.shape.geometry, self.pose, direction)
+        # It has a box, so it ends in all directions.
+        return reach if reach is not None else 0.0
+
+
+def placed(robot: Robot, link: Link, shapes: Iterable[Collision | Visual]) -> Iterator[Placed]:
+    """Yield the shapes of a link whose extent and place are known.
+
+    Left out: unknown meshes, planes and heightmaps, lengths that are not finite.
+    """
+    for shape in shapes:
+        pose = robot.pose_of_part(link, shape.pose)
+        box = robot.box_of_shape(link, shape)
+        if pose is not None and box is not None:
+            yield Placed(link, shape, pose, box)
+
+
+def union(boxes: Iterable[Box]) -> Box | None:
+    """Return the box around boxes; None without any."""
+    given = list(boxes)
+    if not given:
+        return None
+    lows = zip(*(box.low for box in given), strict=True)
+    highs = zip(*(box.high for box in given), strict=True)
+    (x, y, z), (u, v, w) = map(min, lows), map(max, highs)
+    return Box((x, y, z), (u, v, w))

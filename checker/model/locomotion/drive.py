@@ -1,0 +1,100 @@
+"""Which plugin drives a robot, and by which wheels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from checker.base.resources import table
+from checker.model.components import Joint, Link, Plugin
+
+DRIVE_CLASSES = {
+    "DiffDrive": "differential or skid-steer drive",
+    "AckermannSteering": "Ackermann steering",
+    "TrackedVehicle": "tracks",
+    "TrackController": "tracks",
+    "MulticopterVelocityControl": "multicopter",
+    "MecanumDrive": "mecanum drive",
+    "AnymalControlPlugin": "legs",
+}
+"""Plugin classes that move a robot, and what a report calls that."""
+
+_READS_ONLY = frozenset({"JointStatePublisher"})
+"""Plugin classes that name joints and do not move them."""
+
+_LEGS = "AnymalControlPlugin"
+_JOINT_CONTROLLERS = (
+    "ApplyJointForce",
+    "ConfigurableJointPositionController",
+    "JointPositionController",
+)
+_FEWEST_LEG_JOINTS = 6
+"""Two legs of three joints; arms and sensor masts have fewer."""
+
+_WHEEL_JOINT_TAGS = ("left_joint", "right_joint")
+
+
+def drive_name(plugins: Iterable[Plugin]) -> str:
+    """Return what moves the robot, `none found` without a drive plugin."""
+    found = {DRIVE_CLASSES[p.class_name] for p in plugins if p.class_name in DRIVE_CLASSES}
+    return " and ".join(sorted(found)) or "none found"
+
+
+def driven_joints(plugins: Iterable[Plugin], joints: Iterable[Joint]) -> dict[str, Plugin]:
+    """Return the scoped names of the joints that plugins move, with the first plugin that does.
+
+    A class that is not in `plugin_references.json` moves whatever joint it names.
+    """
+    known = table("plugin_references")["plugins"]
+    names = {joint.scoped_name for joint in joints}
+    driven: dict[str, Plugin] = {}
+    for plugin in plugins:
+        scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
+        paths = known.get(plugin.class_name)
+        if plugin.class_name in _READS_ONLY:
+            continue
+        for word in _words(plugin) if paths is None else _joints_at(plugin, paths):
+            if scope + word in names:
+                driven.setdefault(scope + word, plugin)
+    return driven
+
+
+def _words(plugin: Plugin) -> Iterator[str]:
+    for element in plugin.element.descendants():
+        yield element.text.value
+        yield from element.attributes.values()
+
+
+def _joints_at(plugin: Plugin, paths: Mapping[str, str]) -> Iterator[str]:
+    for path, kind in paths.items():
+        if kind == "joint":
+            yield from (named.value for named in plugin.at(path))
+
+
+def is_legged(plugins: Iterable[Plugin]) -> bool:
+    """Say whether a robot walks: by a plugin for legs, or by joint controllers and nothing else."""
+    classes = [plugin.class_name for plugin in plugins]
+    if any(name in DRIVE_CLASSES for name in classes):
+        return _LEGS in classes
+    return sum(name in _JOINT_CONTROLLERS for name in classes) >= _FEWEST_LEG_JOINTS
+
+
+def find_wheels(
+    links: Iterable[Link], joints: Iterable[Joint], plugins: Iterable[Plugin]
+) -> Iterator[Link]:
+    """Yield links that a drive plugin turns, and links that are called wheels."""
+    turned = {
+        joint.value
+        for plugin in plugins
+        if plugin.class_name in DRIVE_CLASSES
+        for joint in plugin.values(*_WHEEL_JOINT_TAGS)
+    }
+    children = {j.scope + j.child.value for j in joints if j.scoped_name in turned}
+    for link in links:
+        name = link.name.value.lower()
+        called_so = "wheel" in name and not any(word in name for word in _NO_WHEELS)
+        if link.scoped_name in children or called_so:
+            yield link
+
+
+_NO_WHEELS = ("well", "mount", "hub", "cover", "guard", "steer", "arm", "suspension")
+"""Words that make a `wheel_…` something beside a wheel."""

@@ -1,0 +1,238 @@
+"""How a robot moves: the wheels, tracks and rotors of its drive plugins, in SI units."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import field
+
+from checker.base.record import record
+from checker.model.components import Joint, Link, Plugin
+from checker.model.geometry.transform import Vector
+from checker.source.text import Located, Span
+
+
+class DriveKind(enum.StrEnum):
+    """The way a robot moves, as reports say it."""
+
+    DIFFERENTIAL = "differential drive"
+    SKID_STEER = "skid-steer drive"
+    ACKERMANN = "Ackermann steering"
+    MECANUM = "Mecanum drive"
+    TRACKED = "tracks"
+    MULTICOPTER = "multicopter"
+    LEGGED = "legs"
+    NONE = "none found"
+
+
+class Side(enum.StrEnum):
+    """Which side a plugin says that a wheel or track is on."""
+
+    LEFT = "left"
+    RIGHT = "right"
+
+
+@record(eq=False)
+class MotionLimits:
+    """Limits of one kind of motion of a plugin; None where it states none.
+
+    Velocities in m/s or rad/s, accelerations in m/s² or rad/s². A multicopter's limits are the
+    same both ways: its minima are the negated maxima.
+
+    Attributes:
+        holder: The plugin, or the element in it, that holds or should hold them.
+    """
+
+    holder: Span
+    min_velocity: Located[float] | None = None
+    max_velocity: Located[float] | None = None
+    min_acceleration: Located[float] | None = None
+    max_acceleration: Located[float] | None = None
+
+    @property
+    def complete(self) -> bool:
+        """Whether all four are stated."""
+        four = (
+            self.min_velocity,
+            self.max_velocity,
+            self.min_acceleration,
+            self.max_acceleration,
+        )
+        return None not in four
+
+
+@record(eq=False)
+class Wheel:
+    """A wheel that a plugin turns.
+
+    Attributes:
+        name: The joint as the plugin names it.
+        joint: The joint that turns it.
+        link: The joint's child.
+        body: `link` and the links fixed to it: their collisions are the wheel's.
+        side: What the plugin says.
+        centre: Origin of the joint in the robot's frame, metres; None if unknown.
+        axis: Direction of the joint's axis in the robot's frame, of length 1; None if unknown.
+        radius: Reach of its collisions across the axis, metres; None where no collision or no
+            axis is known.
+        width: Extent of its collisions along the axis, metres; likewise.
+        steering: The joint that steers it; None for a wheel that does not steer.
+    """
+
+    name: Located[str]
+    joint: Joint
+    link: Link
+    body: tuple[Link, ...]
+    side: Side
+    centre: Vector | None
+    axis: Vector | None
+    radius: float | None
+    width: float | None
+    steering: Joint | None = None
+
+
+@record(eq=False)
+class WheelDrive:
+    """One DiffDrive, AckermannSteering or MecanumDrive plugin.
+
+    Attributes:
+        wheels: Those that the plugin drives, in its order; joints that do not exist are left out,
+            one named for both sides stands there twice.
+        wheel_separation: Metres; the plugin's default (`stated` false) where it says none.
+        wheel_radius: Metres; likewise.
+        wheel_base: Metres, of Ackermann steering.
+        kingpin_width: Metres, of Ackermann steering.
+        steering_limit: Radians, of Ackermann steering.
+        steering: Left and right steering joints of Ackermann steering, as the plugin names them.
+    """
+
+    plugin: Plugin
+    wheels: tuple[Wheel, ...]
+    wheel_separation: Located[float]
+    wheel_radius: Located[float]
+    linear: MotionLimits
+    angular: MotionLimits
+    wheel_base: Located[float] | None = None
+    kingpin_width: Located[float] | None = None
+    steering_limit: Located[float] | None = None
+    steering: tuple[tuple[Joint, Side], ...] = ()
+
+    def on(self, side: Side) -> tuple[Wheel, ...]:
+        """Return the wheels that the plugin says are on one side."""
+        return tuple(wheel for wheel in self.wheels if wheel.side is side)
+
+
+@record(eq=False)
+class Track:
+    """A link whose surface a TrackController moves.
+
+    Attributes:
+        plugin: The TrackController.
+        side: Of the TrackedVehicle that commands it; None if none does.
+    """
+
+    plugin: Plugin
+    link: Link
+    side: Side | None
+    limits: MotionLimits
+
+
+@record(eq=False)
+class TrackedDrive:
+    """One TrackedVehicle plugin.
+
+    Attributes:
+        tracks: Those that it commands and that have a TrackController.
+        separation: Metres between the tracks; the plugin's default where it says none.
+        steering_efficiency: Share of the commanded turn that the tracks are expected to lose.
+    """
+
+    plugin: Plugin
+    tracks: tuple[Track, ...]
+    separation: Located[float]
+    steering_efficiency: Located[float]
+    linear: MotionLimits
+    angular: MotionLimits
+
+
+@record(eq=False)
+class Rotor:
+    """A rotor of a multicopter: one MulticopterMotorModel.
+
+    Attributes:
+        name: The joint as the plugin names it.
+        joint: None if it does not exist.
+        link: None if it does not exist.
+        number: `motorNumber`; None if not stated.
+        direction: 1 for counter-clockwise (`ccw`), −1 for clockwise; 0 if not stated or unknown.
+        motor_constant: Thrust = motor_constant · ω², N·s²; the plugin's default (`stated` false)
+            where it says none.
+        moment_constant: Torque about the axis = moment_constant · thrust, metres; likewise.
+        max_velocity: Greatest rotor speed, rad/s; likewise.
+        centre: Of the rotor in the robot's frame, metres.
+        axis: Of its joint in the robot's frame, of length 1.
+    """
+
+    plugin: Plugin
+    name: Located[str]
+    joint: Joint | None
+    link: Link | None
+    number: Located[float] | None
+    direction: int
+    motor_constant: Located[float]
+    moment_constant: Located[float]
+    max_velocity: Located[float]
+    centre: Vector | None
+    axis: Vector | None
+
+
+@record(eq=False)
+class RotorEntry:
+    """One `<rotor>` of the controller's `<rotorConfiguration>`.
+
+    Attributes:
+        joint_name: Empty text if not stated.
+        direction: 1 or −1; None if not stated.
+        force_constant: The controller's word for `motorConstant`.
+        moment_constant: As of the rotor.
+        span: The element.
+    """
+
+    joint_name: Located[str]
+    direction: Located[float] | None
+    force_constant: Located[float] | None
+    moment_constant: Located[float] | None
+    span: Span
+
+
+@record(eq=False)
+class CopterControl:
+    """One MulticopterVelocityControl plugin.
+
+    Attributes:
+        linear: x, y, z limits of velocity and acceleration.
+        angular: x, y, z limits of the turn rate.
+    """
+
+    plugin: Plugin
+    entries: tuple[RotorEntry, ...]
+    linear: tuple[MotionLimits, ...]
+    angular: tuple[MotionLimits, ...]
+
+
+@record(eq=False)
+class Locomotion:
+    """All that moves a robot."""
+
+    kind: DriveKind
+    wheel_drives: tuple[WheelDrive, ...] = ()
+    tracked_drives: tuple[TrackedDrive, ...] = ()
+    tracks: tuple[Track, ...] = ()
+    rotors: tuple[Rotor, ...] = ()
+    copters: tuple[CopterControl, ...] = ()
+    leg_joints: tuple[Joint, ...] = field(default=())
+
+    @property
+    def wheels(self) -> tuple[Wheel, ...]:
+        """The wheels of all drives, each once."""
+        by_joint = {wheel.joint: wheel for drive in self.wheel_drives for wheel in drive.wheels}
+        return tuple(by_joint.values())

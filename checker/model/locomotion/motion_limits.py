@@ -1,0 +1,91 @@
+"""The motions of a robot that its drive plugins bound, one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+from checker.base.record import record
+from checker.model.components import UNLIMITED, Plugin
+from checker.model.locomotion.locomotion import (
+    Locomotion,
+    MotionLimits,
+    TrackedDrive,
+    WheelDrive,
+)
+from checker.source.text import Located
+
+Kind = Literal["linear", "angular"]
+Ends = tuple[Located[float] | None, Located[float] | None]
+
+
+@record(eq=False)
+class BoundedMotion:
+    """One motion of a robot and its limits.
+
+    Attributes:
+        plugin: The drive plugin.
+        kind: Along the axis, or about it.
+        axis: Of the robot: `x`, `y` or `z`.
+        limits: As the plugin states them.
+        both_kinds: Whether one figure bounds the linear and the angular motion alike: what it says
+            about the angular one may not be meant.
+        flies: Whether the plugin is that of a multicopter.
+    """
+
+    plugin: Plugin
+    kind: Kind
+    axis: str
+    limits: MotionLimits
+    both_kinds: bool = False
+    flies: bool = False
+
+    @property
+    def name(self) -> str:
+        """How a message calls it: `x linear`."""
+        return f"{self.axis} {self.kind}"
+
+    @property
+    def velocity(self) -> Ends:
+        """Smallest and greatest velocity, m/s or rad/s."""
+        return self.limits.min_velocity, self.limits.max_velocity
+
+    @property
+    def acceleration(self) -> Ends:
+        """Smallest and greatest acceleration, m/s² or rad/s²."""
+        return self.limits.min_acceleration, self.limits.max_acceleration
+
+    @property
+    def quantities(self) -> tuple[tuple[str, str, Ends], ...]:
+        """Velocity and acceleration, each with its name and unit."""
+        unit = "m/s" if self.kind == "linear" else "rad/s"
+        return (
+            ("velocity", unit, self.velocity),
+            ("acceleration", f"{unit}²", self.acceleration),
+        )
+
+
+def bounded_motions(locomotion: Locomotion) -> Iterator[BoundedMotion]:
+    """Yield what the drive plugins bound: x and the turn about z, of a multicopter all axes."""
+    drives: tuple[WheelDrive | TrackedDrive, ...] = locomotion.wheel_drives
+    for drive in (*drives, *locomotion.tracked_drives):
+        both = _same(drive.linear.max_velocity, drive.angular.max_velocity)
+        yield BoundedMotion(drive.plugin, "linear", "x", drive.linear)
+        yield BoundedMotion(drive.plugin, "angular", "z", drive.angular, both)
+    for copter in locomotion.copters:
+        for axis, limits in zip("xyz", copter.linear, strict=True):
+            yield BoundedMotion(copter.plugin, "linear", axis, limits, flies=True)
+        for axis, limits in zip("xyz", copter.angular, strict=True):
+            yield BoundedMotion(copter.plugin, "angular", axis, limits, flies=True)
+
+
+def is_unlimited(number: Located[float]) -> bool:
+    """Say whether a limit is so large that it means that there is none."""
+    return not abs(number.value) < UNLIMITED
+
+
+def _same(one: Located[float] | None, other: Located[float] | None) -> bool:
+    """Say whether two figures are one text."""
+    if one is None or other is None or one.span.source is not other.span.source:
+        return False
+    return (one.span.start, one.span.end) == (other.span.start, other.span.end)

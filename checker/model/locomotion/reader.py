@@ -1,0 +1,138 @@
+"""Reads what moves a robot out of its drive plugins."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from checker.model.components import Joint, Plugin
+from checker.model.locomotion.drive import is_legged
+from checker.model.locomotion.locomotion import (
+    DriveKind,
+    Locomotion,
+    Side,
+    Wheel,
+    WheelDrive,
+)
+from checker.model.locomotion.plugin_limits import read_limits
+from checker.model.locomotion.rotors import read_copter, read_rotor
+from checker.model.locomotion.tracks import TrackReader
+from checker.model.locomotion.wheels import WheelReader
+from checker.source.text import Located
+from checker.source.xml import Element
+
+if TYPE_CHECKING:
+    from checker.model.robot import Robot
+
+_ACKERMANN, _MECANUM = "AckermannSteering", "MecanumDrive"
+_WHEEL_CLASSES = ("DiffDrive", _ACKERMANN, _MECANUM)
+_SIDES = {
+    "left_joint": Side.LEFT,
+    "front_left_joint": Side.LEFT,
+    "back_left_joint": Side.LEFT,
+    "right_joint": Side.RIGHT,
+    "front_right_joint": Side.RIGHT,
+    "back_right_joint": Side.RIGHT,
+}
+_STEERING_SIDES = {"left_steering_joint": Side.LEFT, "right_steering_joint": Side.RIGHT}
+
+# Defaults of the gz-sim systems DiffDrive and AckermannSteering.
+_WHEEL_SEPARATION = 1.0
+_WHEEL_RADIUS = 0.2
+_WHEEL_BASE = 1.0
+_KINGPIN_WIDTH = 0.8
+_STEERING_LIMIT = 0.5
+
+
+def read_locomotion(robot: Robot) -> Locomotion:
+    """Return what moves a robot."""
+    drives = tuple(_wheel_drives(robot))
+    belts = TrackReader(robot)
+    tracked, tracks = tuple(belts.drives()), tuple(belts.tracks.values())
+    rotors = tuple(read_rotor(robot, p) for p in _of_class(robot, "MulticopterMotorModel"))
+    copters = tuple(read_copter(p) for p in _of_class(robot, "MulticopterVelocityControl"))
+    legs = tuple(_leg_joints(robot)) if is_legged(robot.plugins) else ()
+    kind = DriveKind.NONE
+    if copters or rotors:
+        kind = DriveKind.MULTICOPTER
+    elif tracks or tracked:
+        kind = DriveKind.TRACKED
+    elif drives:
+        kind = _wheeled_kind(drives)
+    elif legs:
+        kind = DriveKind.LEGGED
+    return Locomotion(kind, drives, tracked, tracks, rotors, copters, legs)
+
+
+def _wheeled_kind(drives: tuple[WheelDrive, ...]) -> DriveKind:
+    classes = {drive.plugin.class_name for drive in drives}
+    if _ACKERMANN in classes:
+        return DriveKind.ACKERMANN
+    if _MECANUM in classes:
+        return DriveKind.MECANUM
+    several = len(drives) > 1 or any(len(drives[0].on(side)) > 1 for side in Side)
+    return DriveKind.SKID_STEER if several else DriveKind.DIFFERENTIAL
+
+
+def _of_class(robot: Robot, *names: str) -> Iterator[Plugin]:
+    return (plugin for plugin in robot.plugins if plugin.class_name in names)
+
+
+def _leg_joints(robot: Robot) -> Iterator[Joint]:
+    return (joint for joint in robot.joints if joint.scoped_name in robot.driven_joints)
+
+
+def _wheel_drives(robot: Robot) -> Iterator[WheelDrive]:
+    reader = WheelReader(robot)
+    for plugin in _of_class(robot, *_WHEEL_CLASSES):
+        steering = dict(_steering(robot, plugin))
+        yield WheelDrive(
+            plugin,
+            tuple(_wheels(reader, plugin, steering)),
+            _number_or(plugin, "wheel_separation", _WHEEL_SEPARATION),
+            _number_or(plugin, "wheel_radius", _WHEEL_RADIUS),
+            read_limits(plugin.element, "linear_"),
+            read_limits(plugin.element, "angular_"),
+            steering=tuple(steering.items()),
+            **_ackermann(plugin),
+        )
+
+
+def _wheels(reader: WheelReader, plugin: Plugin, steering: dict[Joint, Side]) -> Iterator[Wheel]:
+    """Yield the wheels that a plugin names; one named twice for one side is one wheel."""
+    knuckles = reader.knuckles(steering)
+    seen: set[tuple[str, Side]] = set()
+    for child, side in _sided(plugin.element, _SIDES):
+        name = child.text
+        wheel = None if (name.value, side) in seen else reader.read(plugin, name, side, knuckles)
+        seen.add((name.value, side))
+        if wheel is not None:
+            yield wheel
+
+
+def _ackermann(plugin: Plugin) -> dict[str, Located[float]]:
+    if plugin.class_name != _ACKERMANN:
+        return {}
+    return {
+        "wheel_base": _number_or(plugin, "wheel_base", _WHEEL_BASE),
+        "kingpin_width": _number_or(plugin, "kingpin_width", _KINGPIN_WIDTH),
+        "steering_limit": _number_or(plugin, "steering_limit", _STEERING_LIMIT),
+    }
+
+
+def _steering(robot: Robot, plugin: Plugin) -> Iterator[tuple[Joint, Side]]:
+    scope = f"{plugin.nested_in}::" if plugin.nested_in else ""
+    for child, side in _sided(plugin.element, _STEERING_SIDES):
+        joint = robot.joints_by_name.get(scope + child.text.value)
+        if joint is not None:
+            yield joint, side
+
+
+def _sided(element: Element, sides: dict[str, Side]) -> Iterator[tuple[Element, Side]]:
+    for child in element.children:
+        if child.tag in sides:
+            yield child, sides[child.tag]
+
+
+def _number_or(plugin: Plugin, path: str, default: float) -> Located[float]:
+    return plugin.number(path) or Located(default, plugin.span, stated=False)

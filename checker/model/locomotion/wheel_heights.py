@@ -1,0 +1,128 @@
+"""Whether wheels and tracks stand on one plane, by their lowest points."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from checker.base.record import record
+from checker.model.geometry.transform import Vector
+from checker.model.locomotion.rolling_parts import RollingPart, rolling_parts
+from checker.model.locomotion.wheels import stands_askew
+
+if TYPE_CHECKING:
+    from checker.model.robot import Robot
+
+_MIDDLE = 0.1
+"""Share of the robot's width within which a wheel is in its middle: a caster."""
+_FARTHEST = 1e6
+"""Metres; numbers beyond are no places."""
+
+
+@record(eq=False)
+class Foot:
+    """The lowest point of a wheel or track.
+
+    Attributes:
+        along: Where it is in the direction that the robot drives in, metres.
+        side: 1 and −1 for the two sides, 0 for the middle.
+        height: Its z in the robot's frame, metres.
+        off: Metres above (below, if negative) the level of the other wheels.
+    """
+
+    part: RollingPart
+    along: float
+    side: int
+    height: float
+    off: float = 0.0
+
+
+def uneven_wheels(robot: Robot, tolerance: float) -> list[Foot]:
+    """Return wheels and tracks that are more than `tolerance` metres off the level of the others.
+
+    Wheels that a wheel on the other side matches are meant so: larger rear wheels, front wheels
+    that are raised to climb. Wheels on a suspension or on another segment of the robot find the
+    ground by themselves, and wheels that stand askew reach nowhere in particular.
+    """
+    feet = [
+        foot
+        for foot in _feet(robot, rolling_parts(robot))
+        if not foot.part.suspended and not _askew(robot, foot.part)
+    ]
+    if len(feet) < 2:
+        return []
+    matches = _Matches(feet, tolerance)
+    off = [
+        replace(foot, off=foot.height - level)
+        for foot, level in zip(feet, _level_of_others(feet), strict=True)
+        if abs(foot.height - level) > tolerance and not matches.has(foot)
+    ]
+    # Where each wheel is off the level of the others, those in the air are said.
+    return off if len(off) < len(feet) else [foot for foot in off if foot.off > 0]
+
+
+def _feet(robot: Robot, wheels: Sequence[RollingPart]) -> Iterator[Foot]:
+    across = _axle(robot)
+    forward = (across[1], -across[0], 0.0)
+    sideways = [_dot(part.box.centre, across) for part in wheels]
+    left, right = max(sideways, default=0.0), min(sideways, default=0.0)
+    for part, at in zip(wheels, sideways, strict=True):
+        along, beside = _dot(part.box.centre, forward), at - (left + right) / 2
+        in_middle = abs(beside) <= _MIDDLE * (left - right)
+        side = 0 if in_middle else 1 if beside > 0 else -1
+        if abs(along) < _FARTHEST:
+            yield Foot(part, along, side, part.box.low[2])
+
+
+class _Matches:
+    """Finds for a wheel the one across the robot that is as far in front, and as high."""
+
+    def __init__(self, feet: Sequence[Foot], tolerance: float) -> None:
+        self.tolerance = tolerance
+        sizes = [foot.part.box.high[2] - foot.part.box.low[2] for foot in feet]
+        self.near = max(min(sizes) / 2, tolerance)
+        self.heights: dict[tuple[int, int], list[float]] = {}
+        for foot in sorted(feet, key=lambda foot: foot.height):
+            self.heights.setdefault((foot.side, self._row(foot)), []).append(foot.height)
+
+    def has(self, foot: Foot) -> bool:
+        """Say whether there is one; a wheel in the middle matches itself."""
+        rows = (self._row(foot) + step for step in (-1, 0, 1))
+        return any(self._as_high(foot, self.heights.get((-foot.side, row), [])) for row in rows)
+
+    def _as_high(self, foot: Foot, heights: Sequence[float]) -> bool:
+        next_one = bisect_left(heights, foot.height - self.tolerance)
+        return next_one < len(heights) and heights[next_one] <= foot.height + self.tolerance
+
+    def _row(self, foot: Foot) -> int:
+        return round(foot.along / self.near)
+
+
+def _level_of_others(feet: Sequence[Foot]) -> list[float]:
+    """Return, for each wheel, the median height of all others."""
+    heights = sorted(foot.height for foot in feet)
+    count = len(heights) - 1
+
+    def without(own: int, rank: int) -> float:
+        return heights[rank + (rank >= own)]
+
+    ranks = [bisect_left(heights, foot.height) for foot in feet]
+    return [(without(own, (count - 1) // 2) + without(own, count // 2)) / 2 for own in ranks]
+
+
+def _axle(robot: Robot) -> Vector:
+    """Return the direction of the wheels' axes; y where that is not known."""
+    for wheel in robot.locomotion.wheels:
+        if wheel.axis is not None and wheel.steering is None and abs(wheel.axis[2]) < 0.5:
+            return (wheel.axis[0], wheel.axis[1], 0.0)
+    return (0.0, 1.0, 0.0)
+
+
+def _askew(robot: Robot, part: RollingPart) -> bool:
+    return part.wheel is not None and stands_askew(robot, part.wheel)
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))

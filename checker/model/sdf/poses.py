@@ -1,0 +1,30 @@
+"""What the six numbers of a `<pose>` mean, for all who read them: the model, fixes, migration."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Protocol
+
+from checker.model.geometry.transform import Transform
+
+
+class _HasAttributes(Protocol):
+    def get(self, name: str, /) -> str | None: ...
+
+
+def in_degrees(pose: _HasAttributes) -> bool:
+    """Whether the angles of a `<pose>` are in degrees, as SDF 1.9 and later allow."""
+    return pose.get("degrees") in ("true", "1")
+
+
+def transform_of(pose: _HasAttributes, numbers: Iterable[float]) -> Transform:
+    """Return the transform that a `<pose>` says.
+
+    Args:
+        pose: The element.
+        numbers: x, y, z (metres), roll, pitch, yaw (radians, or degrees where it says so).
+    """
+    x, y, z, *angles = numbers
+    roll, pitch, yaw = map(math.radians, angles) if in_degrees(pose) else angles
+    return Transform.from_xyz_rpy((x, y, z), (roll, pitch, yaw))

@@ -1,0 +1,160 @@
+"""The SDFormat schema: which element may stand where, with which attributes.
+
+The tables are described in `checker/data/README.md`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from functools import cache, cached_property
+from typing import Any
+
+from checker.base.record import record
+from checker.base.resources import table
+from checker.source.xml import Element
+
+NO_DEFAULT = "__default__"
+"""What the tables hold where the file has to say something."""
+VERSIONS = ("1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12")
+
+
+@record()
+class ElementType:
+    """What the specification says of one element at one place.
+
+    Attributes:
+        name: The tag.
+        description: The table's entry.
+        version: SDF version.
+        enclosing: Entries around this one, outermost first.
+        occurs: `0` optional, `1` once, `*` any number, `+` at least once, `-1` out of use.
+    """
+
+    name: str
+    description: dict[str, Any]
+    version: str
+    enclosing: tuple[dict[str, Any], ...] = ()
+    occurs: str = "1"
+
+    @property
+    def free(self) -> bool:
+        """Whether anything may stand inside (plugins)."""
+        return bool(self.description.get("free"))
+
+    @cached_property
+    def attributes(self) -> Mapping[str, list[str]]:
+        """Attribute name → type, default, required (`1`) or not."""
+        return dict(self.description.get("attrs", {}))
+
+    @cached_property
+    def value_type(self) -> str:
+        """Type of the text inside (`double`, `pose`, …); empty when there is to be none."""
+        return str(self.description.get("type", ""))
+
+    @property
+    def default(self) -> str | None:
+        """What counts when the element is not there; None when the table gives nothing."""
+        default = self.description.get("default")
+        return None if default in (None, NO_DEFAULT) else str(default)
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Smallest and largest number that may stand inside."""
+        least, most = self.description.get("min"), self.description.get("max")
+        # Of a plane's size the table bounds both numbers by one and the same.
+        low = float(least.split()[0]) if least is not None else -math.inf
+        return low, float(most.split()[0]) if most is not None else math.inf
+
+    @cached_property
+    def children(self) -> dict[str, ElementType]:
+        """Elements that may stand directly inside, by tag."""
+        return {child.name: child for child in self._children()}
+
+    @cached_property
+    def required_children(self) -> tuple[ElementType, ...]:
+        """Those of `children` that have to be there."""
+        return tuple(child for child in self.children.values() if child.occurs in ("1", "+"))
+
+    def _children(self) -> Iterator[ElementType]:
+        types = _types(self.version)
+        around = (*self.enclosing, self.description)
+        for kid in self.description.get("kids", ()):
+            description, enclosing = kid, around
+            if "ref" in kid:
+                description = types[kid["ref"]]
+            elif "self" in kid:
+                # The enclosing element again, with what stood around it the first time.
+                description = types[kid["self"]]
+                enclosing = around[: next(i for i, d in enumerate(around) if d is description)]
+            occurs = kid.get("req", "0")
+            yield ElementType(description["name"], description, self.version, enclosing, occurs)
+
+
+def known_version(version: str) -> str:
+    """Return the version to judge by: that of 1.6 for a version that is not known."""
+    return version if version in VERSIONS else "1.6"
+
+
+def _types(version: str) -> dict[str, Any]:
+    types: dict[str, Any] = table(f"sdf_spec_{known_version(version)}")["types"]
+    return types
+
+
+@cache
+def sdf_root(version: str) -> ElementType:
+    """Return the type of `<sdf>` in a version; that of 1.6 for a version that is not known."""
+    known = known_version(version)
+    root = table(f"sdf_spec_{known}")["root"]
+    return ElementType("sdf", _types(known)[root], known)
+
+
+@cache
+def all_tags(version: str) -> frozenset[str]:
+    """Return every tag that occurs anywhere in a version."""
+    tags: set[str] = set()
+    stack: list[Any] = [*_types(version).values()]
+    while stack:
+        entry = stack.pop()
+        if "name" in entry:
+            tags.add(entry["name"])
+        stack.extend(entry.get("kids", ()))
+    return frozenset(tags)
+
+
+@cache
+def parents_of(version: str) -> Mapping[str, tuple[str, ...]]:
+    """Return, for each tag, the tags that it may stand directly below, sorted."""
+    types = _types(version)
+    parents: dict[str, set[str]] = {}
+    stack: list[Any] = [*types.values()]
+    while stack:
+        entry = stack.pop()
+        for kid in entry.get("kids", ()):
+            kind = kid.get("ref") or kid.get("self")
+            parents.setdefault(types[kind]["name"] if kind else kid["name"], set()).add(
+                entry["name"]
+            )
+            if not kind:
+                stack.append(kid)
+    return {tag: tuple(sorted(names)) for tag, names in parents.items()}
+
+
+def walk(root: Element, version: str) -> Iterator[tuple[Element, ElementType | None]]:
+    """Yield each element with its type, in document order; None for one that has no place there.
+
+    What stands below an unknown or a free element is passed over, and so are elements with a
+    namespace prefix, which SDFormat leaves to others.
+    """
+    outermost = sdf_root(version) if root.tag == "sdf" else None
+    stack: list[tuple[Element, ElementType | None]] = [(root, outermost)]
+    while stack:
+        element, kind = stack.pop()
+        yield element, kind
+        if kind is None or kind.free:
+            continue
+        stack.extend(
+            (child, kind.children.get(child.tag))
+            for child in reversed(element.children)
+            if ":" not in child.tag
+        )

@@ -1,0 +1,155 @@
+"""Masses in the sheet, and which of them is the robot's."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from checker.base.record import record
+from checker.model.specification.quantities import (
+    NUMBER,
+    Quantity,
+    QuantityKind,
+    Sentence,
+    configurations_in,
+    is_approximate,
+    number_of,
+    resolution_of,
+    sentences,
+)
+from checker.source.markdown import Passage
+from checker.source.text import Span
+
+# What a sheet says that the robot costs: parts and their sum.
+
+
+MAX_LINES = 500
+LINE_LIMIT = 1000
+_CURRENCY = r"(?:US\s?\$|USD|AUD|EUR|GBP|CHF|CAD|\$|€|£)"
+_AMOUNT = r"\d{1,9}(?:[,']\d{3}){0,4}(?:\.\d{1,2})?"
+_PRICE = re.compile(
+    rf"{_CURRENCY}\s?({_AMOUNT})(?![\d%])"
+    rf"|(?<![\w.,$])({_AMOUNT})\s?(?:{_CURRENCY}|dollars?\b|euros?\b)",
+    re.IGNORECASE,
+)
+_MULTIPLIED = re.compile(r"\s?(?:k|thousand|million)\b|\s?(?:-|–|to)\s?\W?\d", re.IGNORECASE)
+_EACH = re.compile(r"\b(?:each|apiece|per|month|year|optional)\b", re.IGNORECASE)
+_SUM = re.compile(
+    r"\btotal\b|\b(?:sum|altogether|together)\b|\bcosts?\s+(?:of|is|about|around)\b", re.IGNORECASE
+)
+# `$200 - D435`, `* Base vehicle: $12,000`, `| body | USD 2,000 |`: a price and what it is for.
+_ITEM = re.compile(
+    r"\s*+(?:[-*+]\s++)?(?:[^|:]{0,200}:\s*+)?(?:~|about|approx\.?)?\s*+$", re.IGNORECASE
+)
+_CELL = re.compile(r"\s*+\|.{0,300}\|\s*+(?:~|about)?\s*+$", re.IGNORECASE)
+
+
+@record(eq=False)
+class Price:
+    """A price.
+
+    Attributes:
+        amount: In the currency of the sheet.
+        span: Number and currency.
+        is_sum: Whether its line says that it is the whole.
+        is_part: Whether its line is an item: a price and what it is for.
+        is_clear: Whether it is one number for one thing, no range and no price a piece.
+    """
+
+    amount: float
+    span: Span
+    is_sum: bool
+    is_part: bool
+    is_clear: bool
+
+
+def prices(stretch: Span) -> tuple[Price, ...]:
+    """Return the first price of each line of a stretch; what follows in a line explains it."""
+    return tuple(_prices(stretch))
+
+
+def _prices(stretch: Span) -> Iterator[Price]:
+    offset = stretch.start
+    for number, line in enumerate(stretch.text.splitlines(keepends=True)):
+        found = _PRICE.search(line[:LINE_LIMIT])
+        if found and number < MAX_LINES:
+            before, behind = line[: found.start()], line[found.end() : LINE_LIMIT]
+            is_sum = _SUM.search(before) is not None
+            in_list = _ITEM.match(before) or _CELL.match(before)
+            yield Price(
+                float(re.sub(r"[,']", "", found.group(1) or found.group(2))),
+                Span(stretch.source, offset + found.start(), offset + found.end()),
+                is_sum,
+                bool(in_list) and not is_sum,
+                not (_MULTIPLIED.match(behind) or _EACH.search(line[:LINE_LIMIT])),
+            )
+        offset += len(line)
+
+
+MAX_STATEMENTS = 50
+# Kilograms per unit; the pound by definition (international agreement of 1959).
+_UNITS = {"k": 1.0, "g": 1e-3, "l": 0.45359237, "p": 0.45359237}
+_MASS = re.compile(
+    rf"(?<![\w.])({NUMBER})\s{{0,5}}(kgs?|kilo(?:gram)?s?|grams?|lbs?|pounds?)\b", re.IGNORECASE
+)
+_SUBJECT = re.compile(r"\b(?:weigh(?:s|ts)?|weight|mass)\b", re.IGNORECASE)
+_CLAUSE = re.compile(r"[,;:]|\band\b", re.IGNORECASE)
+_NOT_THE_ROBOT = re.compile(
+    r"\b(?:payload|batter\w*|sensors?|backpack|under|below|less|up|over|more|carr\w*|lift\w*|max\w*"
+    r"|min\w*|module|per|each|without|base|additional|arm|wheels?|drone|center|balance)\b",
+    re.IGNORECASE,
+)
+
+
+def masses(passages: Iterable[Passage]) -> Iterator[Quantity]:
+    """Yield every mass; it is the robot's when its words say `weighs`, `weight`, `mass` of it."""
+    for passage in passages:
+        for sentence in sentences(passage):
+            last = 0
+            named = configurations_in(sentence.text)
+            for found in _MASS.finditer(sentence.text):
+                yield _mass(sentence, found, sentence.text[last : found.start()], named)
+                last = found.end()
+
+
+def _mass(sentence: Sentence, found: re.Match[str], before: str, named: frozenset[int]) -> Quantity:
+    number, unit = found.groups()
+    factor = _UNITS[unit[0].lower()]
+    about_robot = _SUBJECT.search(before) and not _NOT_THE_ROBOT.search(_clause(before))
+    return Quantity(
+        QuantityKind.TOTAL_MASS if about_robot else QuantityKind.MASS,
+        number_of(number) * factor,
+        resolution_of(number) * factor,
+        unit,
+        is_approximate(before),
+        named,
+        sentence.part(*found.span()),
+    )
+
+
+def _clause(before: str) -> str:
+    """Return the words that belong to the last `weighs`: from the comma or `and` before it on."""
+    verb = [found.start() for found in _SUBJECT.finditer(before)][-1]
+    breaks = [found.end() for found in _CLAUSE.finditer(before, 0, verb)]
+    return before[breaks[-1] if breaks else 0 :]
+
+
+def total_mass(stated: Sequence[Quantity]) -> Quantity | None:
+    """Return the robot's mass, or None when the sheet gives none or several.
+
+    Of an exact and an approximate statement the exact one counts, and a rounded one (3.6 kg) gives
+    way to one with more digits (3557 g). Statements about named configurations do not count.
+    """
+    totals = [
+        mass for mass in stated if mass.kind is QuantityKind.TOTAL_MASS and not mass.configurations
+    ]
+    best = [mass for mass in totals if not mass.approximate] or totals
+    if len(best) > MAX_STATEMENTS:
+        return None
+    kept = [mass for mass in best if not any(_rounds(other, mass) for other in best)]
+    return kept[0] if kept and all(mass.value == kept[0].value for mass in kept) else None
+
+
+def _rounds(finer: Quantity, coarser: Quantity) -> bool:
+    closest = 0.5 * coarser.resolution * (1 + 1e-9)
+    return finer.resolution < coarser.resolution and abs(finer.value - coarser.value) <= closest

@@ -1,0 +1,153 @@
+"""The URDF descriptions of a package: chosen, expanded where they are xacro, and read."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from types import MappingProxyType
+
+from checker.base.cache import Cache
+from checker.base.disk_file import NotReadable
+from checker.expand.launch.expansion import expand_launch
+from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
+from checker.expand.xacro.description_files import (
+    Candidate,
+    candidates,
+    may_hold_description,
+)
+from checker.expand.xacro.description_loads import Load, loads
+from checker.expand.xacro.expansion import Expansions, Outcome, Unread, Wanted
+from checker.expand.xacro.fault import XacroFault, XacroFaultKind
+from checker.model.urdf.description import read_description
+from checker.model.urdf.files import UrdfFiles
+from checker.package.kind import PackageKind
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+from checker.source.xml_positions import XmlFault
+
+_URDF_KINDS = (PackageKind.URDF_DESCRIPTION, PackageKind.SINGLE_FILE)
+_LAUNCH_SUFFIXES = (".launch", ".launch.xml")
+_LAUNCH_LIMIT = 100
+_LOADS = re.compile(r"\.(?:urdf|xacro)\b|robot_description")
+_XACRO = re.compile(r"\bxacro:|\bxmlns:xacro\b")
+
+
+class Describing:
+    """The reading of a package's descriptions: begun at once, had when asked for."""
+
+    def __init__(
+        self,
+        package: Package,
+        cache: Cache,
+        *,
+        only: str = "",
+        args: Mapping[str, str] = MappingProxyType({}),
+    ) -> None:
+        """Choose the files and begin to expand those that need it.
+
+        Args:
+            package: Whose files they are.
+            cache: Where expansions are kept.
+            only: The one file to read, whatever launch files load; empty to choose.
+            args: Arguments for xacro, before those that launch files give.
+        """
+        self._package = package
+        self._for_rviz = package.kind not in _URDF_KINDS
+        self._candidates: Sequence[Candidate] = ()
+        if only:
+            self._candidates = [Candidate(only, loaded=True)]
+        elif may_hold_description(package):
+            self._candidates = candidates(package, self._loads())
+        self._wanted = [
+            Wanted(each.path, {**SAMPLE_ARGUMENTS, **each.args, **args})
+            for each in self._candidates
+            if _needs_xacro(package, each)
+        ]
+        self._expansions = Expansions(package, self._wanted, cache) if self._wanted else None
+
+    @property
+    def applicable(self) -> bool:
+        """Whether there is a file that ought to hold a robot."""
+        return bool(self._candidates)
+
+    @cached_property
+    def files(self) -> UrdfFiles:
+        """What became of the files; the first call waits for their expansion."""
+        outcomes = self._expansions.outcomes() if self._expansions is not None else []
+        expanded = dict(zip((each.path for each in self._wanted), outcomes, strict=True))
+        descriptions, faults = [], []
+        unread: list[tuple[Candidate, str]] = []
+        for each in self._candidates:
+            outcome = expanded.get(each.path) or _plain(self._package, each.path)
+            if isinstance(outcome, XmlDocument):
+                if _holds_robot(outcome, each):
+                    read = read_description(outcome, each.path, for_rviz=self._for_rviz)
+                    descriptions.append(read)
+            elif isinstance(outcome, Unread):
+                unread.append((each, outcome.reason))
+            elif outcome.kind is XacroFaultKind.ARGUMENT and not each.loaded:
+                # What starts it may well give the argument.
+                unread.append((each, f"{each.path} is not expanded: {outcome.message}"))
+            else:
+                faults.append(replace(outcome, loaded=each.loaded))
+        return UrdfFiles(
+            tuple(descriptions),
+            tuple(faults),
+            tuple(reason for each, reason in unread if each.loaded or not self._for_rviz),
+            tuple(reason for each, reason in unread if self._for_rviz and not each.loaded),
+        )
+
+    def stop(self) -> None:
+        """End what nobody has waited for."""
+        if self._expansions is not None:
+            self._expansions.stop()
+
+    def _loads(self) -> list[Load]:
+        launch_files = self._package.index.with_suffix(*_LAUNCH_SUFFIXES)[:_LAUNCH_LIMIT]
+        paths = [file.path for file in launch_files if self._loads_something(file.path)]
+        files, documents = LaunchFiles(self._package), map(self._package.xml, paths)
+        return [
+            load
+            for document in documents
+            if isinstance(document, XmlDocument)
+            for load in loads(expand_launch(document, SAMPLE_ARGUMENTS, files))
+        ]
+
+    def _loads_something(self, path: str) -> bool:
+        source = self._package.read(path)
+        return isinstance(source, SourceText) and _LOADS.search(source.text) is not None
+
+
+def _needs_xacro(package: Package, candidate: Candidate) -> bool:
+    """Say whether expanding a file can change it; a file that is empty has nothing to expand."""
+    source = package.read(candidate.path)
+    if not isinstance(source, SourceText) or not source.text.strip():
+        return False
+    if _XACRO.search(source.text):
+        return True
+    read_by_xacro = candidate.by_xacro or candidate.path.lower().endswith(".xacro")
+    return read_by_xacro and "$" in source.text
+
+
+def _plain(package: Package, path: str) -> Outcome:
+    """Return a file that is loaded as it stands."""
+    document = package.xml(path)
+    if isinstance(document, NotReadable):
+        return Unread(f"{path} {document.reason}")
+    if isinstance(document, XmlFault):
+        empty = not document.span.source.text.strip()
+        kind = XacroFaultKind.EMPTY if empty else XacroFaultKind.MALFORMED
+        message = "is empty" if empty else document.message
+        return XacroFault(kind, path, document.span, message, document.hint)
+    return document
+
+
+def _holds_robot(document: XmlDocument, candidate: Candidate) -> bool:
+    """Say whether a document is a robot; a file of macros alone expands to nothing."""
+    if document.root.tag != "robot":
+        return False
+    tags = {child.tag for child in document.root.children}
+    return candidate.loaded or bool(tags & {"link", "joint"})

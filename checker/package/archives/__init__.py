@@ -1,0 +1,1 @@
+"""Strangers' archives: checked before anything is unpacked."""

@@ -1,0 +1,40 @@
+"""Reads the index of an archive that a stranger sends: a process in the sandbox.
+
+On its socket comes the name of an archive, one JSON object a message, with a descriptor of the
+file; it answers in a line whether the archive can be unpacked, and opens nothing itself.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+from pathlib import Path
+
+from checker.base.errors import UnreadableInput
+from checker.package.archives.archive import check_archive
+
+MESSAGE_LIMIT = 4_096
+"""Bytes."""
+
+
+def serve(wire: socket.socket) -> None:
+    """Answer until the socket closes: who asks does so once."""
+    while True:
+        message, descriptors, _, _ = socket.recv_fds(wire, MESSAGE_LIMIT, 1)
+        if not message:
+            return
+        (descriptor,) = descriptors
+        try:
+            said = _looked_at(descriptor, json.loads(message)["name"])
+        finally:
+            os.close(descriptor)
+        wire.sendall(json.dumps(said).encode() + b"\n")
+
+
+def _looked_at(descriptor: int, name: str) -> dict[str, str]:
+    try:
+        check_archive(Path(name), name, descriptor=descriptor)
+    except UnreadableInput as error:
+        return {"reason": error.reason, "advice": error.advice}
+    return {}

@@ -1,0 +1,133 @@
+"""Which other packages a package uses: in its spawner, its launch files and its models."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from checker.base.record import record
+from checker.finding import Place
+from checker.package.package import Package
+from checker.package.references import Reference, ReferenceKind
+from checker.source.cmake import CMakeFile, read_cmake
+from checker.source.text import SourceText
+from checker.source.xml import Element, XmlDocument
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+
+# Which plugin libraries a package ships or builds, and which packages lend it theirs.
+
+
+_OUTPUT_NAME = "OUTPUT_NAME"
+
+
+@record()
+class Lenders:
+    """The packages whose libraries a package can load.
+
+    Attributes:
+        at_hand: The package itself first, then what it depends on, directly or not.
+        missing: Names of packages that it depends on and that are not at hand.
+    """
+
+    at_hand: tuple[Package, ...]
+    missing: tuple[str, ...]
+
+    def libraries(self) -> frozenset[str]:
+        """Return the names of all libraries, without `lib` and `.so`."""
+        return frozenset(name for each in self.at_hand for name in libraries_of(each))
+
+
+def lenders_of(package: Package) -> Lenders:
+    """Follow dependencies and loaded Ruby files through the workspace."""
+    at_hand = {package.name: package}
+    missing: dict[str, None] = {}
+    waiting = [package]
+    while waiting:
+        for other in _needs(waiting.pop()):
+            found = package.workspace.package(other.package_name)
+            if found is None:
+                missing[other.package_name] = None
+            elif found.name not in at_hand:
+                at_hand[found.name] = found
+                waiting.append(found)
+    return Lenders(tuple(at_hand.values()), tuple(missing))
+
+
+def _needs(package: Package) -> Iterator[Reference]:
+    yield from (each for each in package.references if each.kind is not ReferenceKind.ROSLAUNCH)
+    if package.base is not None:
+        yield package.base
+
+
+def libraries_of(package: Package) -> Iterator[str]:
+    """Yield the libraries that a package ships or that its CMake files build."""
+    for file in package.index.with_suffix(".so"):
+        yield file.path.rsplit("/", 1)[-1].removeprefix("lib")[: -len(".so")]
+    for file in package.index.with_suffix("cmakelists.txt"):
+        source = package.read(file.path)
+        if isinstance(source, SourceText):
+            yield from _built(read_cmake(source))
+
+
+def _built(build: CMakeFile) -> Iterator[str]:
+    """Yield the names of targets, and those that properties give to their files."""
+    for library in build.libraries:
+        yield library.name.value
+    for call in build.calls_of("set_target_properties"):
+        words = [word.value for word in call.arguments]
+        if _OUTPUT_NAME in words[:-1]:
+            yield words[words.index(_OUTPUT_NAME) + 1]
+
+
+_FIND = re.compile(r"\$\(find\s{1,8}([A-Za-z][\w-]{0,199})\s{0,8}\)")
+_MODEL = re.compile(r"(?:model|package)://([a-z][a-z0-9_]{0,199}_sensor_config_\d{1,4})/")
+"""Submissions alone: other models, and those on Fuel in upper case, come from elsewhere."""
+
+
+@record(slots=True)
+class Use:
+    """One place at which a package is used; `how` is the text that uses it."""
+
+    package_name: str
+    place: Place
+    how: str
+
+
+def uses_of(package: Package) -> Iterator[Use]:
+    """Yield the packages that the spawner, launch files and the model name; comments do not count.
+
+    Launch files that are not well-formed are left out.
+    """
+    for reference in package.references:
+        if reference.kind is not ReferenceKind.DEPENDENCY:
+            how = f"{reference.kind} {reference.package_name} {reference.file}".strip()
+            yield Use(reference.package_name, reference.place, how)
+    for file in package.index.with_suffix(".launch", ".sdf"):
+        document = package.xml(file.path)
+        if isinstance(document, XmlDocument):
+            is_launch = file.path.lower().endswith(".launch")
+            for element in document.elements:
+                yield from _in_launch_file(element) if is_launch else _in_model(element)
+
+
+def _in_launch_file(element: Element) -> Iterator[Use]:
+    for name, value in element.attributes.items():
+        for match in _FIND.finditer(value):
+            yield Use(match[1], _place(element, name), match.group())
+        if name == "pkg" and element.tag in ("node", "test") and "$" not in value:
+            yield Use(value, _place(element, name), f"pkg={value}")
+    for match in _FIND.finditer(element.value):
+        yield Use(match[1], element.text.span.place(), match.group())
+
+
+def _place(element: Element, attribute: str) -> Place:
+    return (element.attribute(attribute) or element).span.place()
+
+
+def _in_model(element: Element) -> Iterator[Use]:
+    if element.tag == "uri" and (match := _MODEL.match(element.value)):
+        yield Use(match[1], element.text.span.place(), match.group())

@@ -1,0 +1,224 @@
+"""Opening what the user gives: a package, a folder of packages, an archive, or one model file."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from checker.base.errors import UnreadableInput
+from checker.base.record import record
+from checker.package.archives.archive import ARCHIVE_SUFFIXES, unpack_archive
+from checker.package.archives.index import ArchiveLimits
+from checker.package.kind import (
+    enclosing_package,
+    holds_loose_models,
+    looks_like_package,
+)
+from checker.package.package import Package
+from checker.package.workspace import Workspace
+
+SINGLE_FILE_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro", ".xml")
+SUBMISSIONS = "submitted_models"
+# Archives of a repository wrap everything in a folder, sometimes in two.
+MAX_WRAPPERS = 3
+_WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
+
+
+@record()
+class Skipped:
+    """A subfolder that was not looked at, and why."""
+
+    name: str
+    reason: str
+
+
+@record()
+class Opened:
+    """What the user gave, ready to be checked.
+
+    Attributes:
+        workspace: Where siblings are looked up.
+        packages: The packages asked for, by name.
+        skipped: Subfolders beside them that are no packages, or links.
+    """
+
+    workspace: Workspace
+    packages: tuple[Package, ...]
+    skipped: tuple[Skipped, ...] = ()
+
+
+@contextmanager
+def open_input(
+    path: Path,
+    *,
+    search: Sequence[Path] = (),
+    name: str = "",
+    limits: ArchiveLimits | None = None,
+) -> Iterator[Opened]:
+    """Open a package folder, a folder of packages, an archive or a single model file.
+
+    An archive is unpacked into a private folder, which is removed at the end.
+
+    Args:
+        path: What the user gave.
+        search: Further folders to look for sibling packages in.
+        name: The file's name as the user knows it, when it is stored under another.
+        limits: What an archive may hold.
+
+    Raises:
+        UnreadableInput: There is no package in it, or it cannot be read.
+    """
+    real = _resolved(path)
+    further = tuple(_resolved(place) for place in search)
+    shown = name or path.name
+    if real.is_dir():
+        yield _open_folder(path, real, further)
+    elif shown.lower().endswith(ARCHIVE_SUFFIXES):
+        with tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True) as own:
+            target = Path(own).resolve() / _archive_stem(shown)
+            target.mkdir()
+            _unpack(path, real, target, shown, limits)
+            yield _open_folder(path, _unwrapped(target), further)
+    elif real.is_file() and shown.lower().endswith(SINGLE_FILE_SUFFIXES):
+        yield _open_single(path, real, further)
+    else:
+        raise UnreadableInput(path, "is no package, archive or model file", _WHAT_TO_GIVE)
+
+
+def _resolved(path: Path) -> Path:
+    try:
+        real = path.resolve(strict=True)
+        real.stat()
+    except FileNotFoundError:
+        raise UnreadableInput(path, "does not exist", "check the spelling") from None
+    except (OSError, RuntimeError, ValueError) as error:
+        reason = f"cannot be opened: {getattr(error, 'strerror', None) or error}"
+        raise UnreadableInput(path, reason, "check its permissions and links") from None
+    return real
+
+
+def _unpack(path: Path, real: Path, target: Path, shown: str, limits: ArchiveLimits | None) -> None:
+    if not real.is_file():
+        raise UnreadableInput(path, "is no regular file", _WHAT_TO_GIVE)
+    try:
+        unpack_archive(real, target, shown, limits)
+    except UnreadableInput as error:
+        error.path = path
+        raise
+
+
+def _archive_stem(shown: str) -> str:
+    """Return the name of a package whose files lie at the top of an archive."""
+    lower = shown.lower()
+    suffix = next(suffix for suffix in ARCHIVE_SUFFIXES if lower.endswith(suffix))
+    stem = Path(shown[: -len(suffix)]).name
+    usable = stem.isprintable() and stem.strip(". ") and len(stem.encode()) <= 255
+    return stem if usable and "\\" not in stem else "package"
+
+
+def _unwrapped(folder: Path) -> Path:
+    """Go down through folders that hold nothing but one folder, which is no package."""
+    for _ in range(MAX_WRAPPERS):
+        inner = _subfolders(folder)
+        if looks_like_package(folder) or len(inner) != 1 or looks_like_package(inner[0]):
+            break
+        if holds_loose_models(folder) or holds_loose_models(inner[0]):
+            break
+        folder = inner[0]
+    return folder
+
+
+def _open_folder(path: Path, folder: Path, further: tuple[Path, ...]) -> Opened:
+    try:
+        if not any(folder.iterdir()):
+            raise UnreadableInput(path, "is an empty folder", _WHAT_TO_GIVE)
+    except OSError as error:
+        reason = f"cannot be listed: {error.strerror}"
+        raise UnreadableInput(path, reason, "check its permissions") from None
+    if looks_like_package(folder):
+        return _opened(folder.parent, [folder], further)
+    if found := _packages_below(folder, further):
+        return found
+    if holds_loose_models(folder):
+        return _opened(folder.parent, [folder], further)
+    around = enclosing_package(folder)
+    advice = f"give the package folder {around}" if around else _WHAT_TO_GIVE
+    missing = "holds no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
+    raise UnreadableInput(path, missing, advice)
+
+
+def _opened(home: Path, folders: list[Path], further: tuple[Path, ...]) -> Opened:
+    workspace = Workspace((home, *further))
+    return Opened(workspace, tuple(workspace.at(folder) for folder in folders))
+
+
+def _packages_below(folder: Path, further: tuple[Path, ...]) -> Opened | None:
+    """Open the packages in a folder, else those one level deeper; `submitted_models/` first."""
+    submissions = folder / SUBMISSIONS
+    inner = _subfolders(folder)
+    if submissions in inner and any(map(looks_like_package, _subfolders(submissions))):
+        homes = [submissions]
+    elif any(map(looks_like_package, inner)):
+        homes = [folder]
+    else:
+        homes = [home for home in inner if any(map(looks_like_package, _subfolders(home)))]
+    if not homes:
+        return None
+    workspace = Workspace((*homes, *further))
+    packages: dict[str, Package] = {}
+    skipped: list[Skipped] = []
+    for home in homes:
+        _collect(home, workspace, packages, skipped)
+    return Opened(workspace, tuple(packages[name] for name in sorted(packages)), tuple(skipped))
+
+
+def _collect(
+    home: Path, workspace: Workspace, packages: dict[str, Package], skipped: list[Skipped]
+) -> None:
+    for place in sorted(home.iterdir()):
+        if place.name.startswith(".") or place.name == "__MACOSX" or not _is_folder(place):
+            continue
+        if place.is_symlink():
+            skipped.append(Skipped(place.name, "is a link; give the folder it leads to"))
+        elif not os.access(place, os.R_OK | os.X_OK):
+            skipped.append(Skipped(place.name, "cannot be read: permission denied"))
+        elif not (looks_like_package(place) or holds_loose_models(place)):
+            skipped.append(Skipped(place.name, "holds no package"))
+        elif place.name in packages:
+            skipped.append(Skipped(place.name, "has the name of another package"))
+        else:
+            packages[place.name] = workspace.at(place)
+
+
+def _open_single(path: Path, file: Path, further: tuple[Path, ...]) -> Opened:
+    if not os.access(file, os.R_OK):
+        raise UnreadableInput(path, "cannot be read: permission denied", "check its permissions")
+    around = enclosing_package(file.parent)
+    homes = (around.parent, *further) if around else further
+    workspace = Workspace(homes)
+    return Opened(workspace, (Package(file.parent, workspace, only=file.name),))
+
+
+def _is_folder(place: Path) -> bool:
+    try:
+        return place.is_dir()
+    except (OSError, RuntimeError):
+        return False
+
+
+def _subfolders(folder: Path) -> list[Path]:
+    """Return the plain subfolders that may hold packages, sorted."""
+    try:
+        return sorted(
+            place
+            for place in folder.iterdir()
+            if not place.name.startswith(".")
+            and place.name != "__MACOSX"
+            and not place.is_symlink()
+            and _is_folder(place)
+        )
+    except OSError:
+        return []

@@ -1,0 +1,213 @@
+"""The paperwork of a package: package.xml, model.config, CMakeLists.txt, each where it is there."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from checker.base.disk_file import NotReadable
+from checker.base.record import record
+from checker.package.package import Package
+from checker.source.cmake import CMakeFile, read_cmake
+from checker.source.text import Located, SourceText, Span
+from checker.source.xml import Element, XmlDocument
+from checker.source.xml_positions import XmlFault
+
+# package.xml and model.config: what a package says of itself, every value with its place.
+
+
+DEPENDENCY_TAGS = (
+    *("depend", "build_depend", "build_export_depend", "buildtool_depend"),
+    *("buildtool_export_depend", "exec_depend", "run_depend", "test_depend", "doc_depend"),
+)
+
+
+@record(eq=False)
+class Person:
+    """A maintainer or author; what is not stated is empty and placed at the person's tag."""
+
+    name: Located[str]
+    email: Located[str]
+    span: Span
+
+
+@record(eq=False)
+class Dependency:
+    """A dependency; `kind` is the name of its tag: `exec_depend`."""
+
+    kind: str
+    package: Located[str]
+
+    @property
+    def at_run_time(self) -> bool:
+        """Whether the package is there when the robot runs."""
+        return self.kind in {"depend", "exec_depend", "run_depend"}
+
+
+@record(eq=False)
+class PackageManifest:
+    """A package.xml. A text whose tag is missing is empty, not stated, and placed at the root.
+
+    Attributes:
+        format: `format` of the root: 1 when it is absent; None when it is no number.
+        name: Name of the package.
+        version: Version.
+        description: Text of the description, tags within it left out.
+        maintainers: Maintainers.
+        authors: Authors.
+        licenses: Licenses.
+        dependencies: All dependencies, in order.
+        build_type: `export/build_type`; empty, thus catkin, when absent.
+        span: The root's start tag.
+    """
+
+    format: Located[int | None]
+    name: Located[str]
+    version: Located[str]
+    description: Located[str]
+    maintainers: tuple[Person, ...]
+    authors: tuple[Person, ...]
+    licenses: tuple[Located[str], ...]
+    dependencies: tuple[Dependency, ...]
+    build_type: Located[str]
+    span: Span
+
+    def depends_on(self, package: str) -> bool:
+        """Whether any dependency names the package."""
+        return any(each.package.value == package for each in self.dependencies)
+
+
+@record(eq=False)
+class SdfEntry:
+    """An `<sdf>` of model.config: the file, and the SDF version it is said to have.
+
+    `version` is not stated when the attribute is missing.
+    """
+
+    file: Located[str]
+    version: Located[str]
+
+
+@record(eq=False)
+class ModelConfig:
+    """A model.config. A text whose tag is missing is empty, not stated, and placed at the root.
+
+    Attributes:
+        name: Name of the model.
+        version: Version of the model.
+        sdf: The model files, in order.
+        authors: Authors.
+        description: Description.
+        span: The root's start tag.
+    """
+
+    name: Located[str]
+    version: Located[str]
+    sdf: tuple[SdfEntry, ...]
+    authors: tuple[Person, ...]
+    description: Located[str]
+    span: Span
+
+
+def read_package_xml(document: XmlDocument) -> PackageManifest:
+    """Read a package.xml."""
+    root = document.root
+    return PackageManifest(
+        format=_format(root),
+        name=_text(root, "name"),
+        version=_text(root, "version"),
+        description=_description(root),
+        maintainers=tuple(_person(each) for each in root.all("maintainer")),
+        authors=tuple(_person(each) for each in root.all("author")),
+        licenses=tuple(each.text for each in root.all("license")),
+        dependencies=tuple(
+            Dependency(each.tag, each.text) for each in root.children if each.tag in DEPENDENCY_TAGS
+        ),
+        build_type=_text(root.child("export") or root, "build_type"),
+        span=root.span,
+    )
+
+
+def read_model_config(document: XmlDocument) -> ModelConfig:
+    """Read a model.config."""
+    root = document.root
+    return ModelConfig(
+        name=_text(root, "name"),
+        version=_text(root, "version"),
+        sdf=tuple(SdfEntry(each.text, _attribute(each, "version")) for each in root.all("sdf")),
+        authors=tuple(
+            Person(_text(each, "name"), _text(each, "email"), each.span)
+            for each in root.all("author")
+        ),
+        description=_text(root, "description"),
+        span=root.span,
+    )
+
+
+def _text(parent: Element, tag: str) -> Located[str]:
+    """Return the text of a child; of a missing child, an empty one at the parent."""
+    child = parent.child(tag)
+    return Located("", parent.span, stated=False) if child is None else child.text
+
+
+def _attribute(element: Element, name: str) -> Located[str]:
+    return element.attribute(name) or Located("", element.span, stated=False)
+
+
+def _person(element: Element) -> Person:
+    return Person(element.text, _attribute(element, "email"), element.span)
+
+
+def _format(root: Element) -> Located[int | None]:
+    written = root.attribute("format")
+    if written is None:
+        return Located(1, root.span, stated=False)
+    number = written.value.strip()
+    return Located(int(number) if number in {"1", "2", "3"} else None, written.span)
+
+
+def _description(root: Element) -> Located[str]:
+    """Return the description with the text of its tags: it may hold XHTML."""
+    child = root.child("description")
+    if child is None:
+        return Located("", root.span, stated=False)
+    words = " ".join("".join(str(part) for part in child.node.itertext()).split())
+    if not words:
+        return Located("", child.span, stated=False)
+    start, end = child.position.start_end, child.position.end_start
+    raw = child.source.text[start:end]
+    start += len(raw) - len(raw.lstrip())
+    return Located(words, Span(child.source, start, start + len(raw.strip()), child))
+
+
+@record(eq=False)
+class Paperwork:
+    """What a package's own paperwork says; nothing here is inherited."""
+
+    package: Package
+
+    def unread(self, path: str) -> str:
+        """Return why a paper that is there cannot be read; empty when it can, or is missing."""
+        if self.package.index.find(path) is None:
+            return ""
+        document = self.package.xml(path)
+        if isinstance(document, NotReadable):
+            return f"{path} {document.reason}"
+        return f"{path} is not well-formed" if isinstance(document, XmlFault) else ""
+
+    @cached_property
+    def manifest(self) -> PackageManifest | None:
+        """package.xml; None when it is missing or not well-formed."""
+        document = self.package.xml("package.xml")
+        return read_package_xml(document) if isinstance(document, XmlDocument) else None
+
+    @cached_property
+    def config(self) -> ModelConfig | None:
+        """model.config; None when it is missing or not well-formed."""
+        document = self.package.xml("model.config")
+        return read_model_config(document) if isinstance(document, XmlDocument) else None
+
+    @cached_property
+    def build(self) -> CMakeFile | None:
+        """CMakeLists.txt; None when it is missing or no text."""
+        source = self.package.read("CMakeLists.txt")
+        return read_cmake(source) if isinstance(source, SourceText) else None

@@ -1,0 +1,158 @@
+"""The shapes of a link as a whole, for comparing its inertia with them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+from checker.model.components import Collision, Link, Visual
+from checker.model.geometry.boxes import Box
+from checker.model.geometry.placed_shapes import union
+from checker.model.geometry.shapes import Geometry
+from checker.model.geometry.transform import Transform, Vector
+from checker.model.mesh import Mesh, Meshes, MeshFault, MeshTrouble, mesh_of
+from checker.model.robot import Robot
+
+# How much room a shape takes, and how far it reaches from a point: closed formulas.
+
+
+def volume_of(geometry: Geometry, meshes: Meshes) -> float | None:
+    """Return the volume of a shape, m³; None for shapes without end and meshes that are not known.
+
+    A mesh that is not closed counts by its convex hull.
+    """
+    size = {name: tuple(each.value for each in sizes) for name, sizes in geometry.sizes.items()}
+    volume: float | None = None
+    match geometry.shape:
+        case "box":
+            volume = math.prod(size["size"])
+        case "sphere":
+            volume = 4 / 3 * math.pi * size["radius"][0] ** 2 * size["radius"][0]
+        case "cylinder":
+            volume = math.pi * size["radius"][0] * size["radius"][0] * size["length"][0]
+        case "capsule":
+            radius, length = size["radius"][0], size["length"][0]
+            volume = math.pi * radius * radius * (length + 4 / 3 * radius)
+        case "cone":
+            volume = math.pi * size["radius"][0] * size["radius"][0] * size["length"][0] / 3
+        case "ellipsoid":
+            volume = 4 / 3 * math.pi * math.prod(size["radii"])
+        case "mesh":
+            mesh = mesh_of(geometry, meshes)
+            if isinstance(mesh, Mesh):
+                own = abs(mesh.volume) if mesh.watertight and mesh.volume else mesh.hull_volume
+                volume = own * abs(math.prod(size["scale"]))
+    return volume if volume is None or math.isfinite(volume) else None
+
+
+def farthest(geometry: Geometry, pose: Transform, point: Vector, meshes: Meshes) -> float | None:
+    """Return the distance of a point from the farthest point of a shape, metres.
+
+    None as for `volume_of`.
+
+    Args:
+        geometry: The shape.
+        pose: Of the shape, in the frame of `point`.
+        point: From where to measure.
+        meshes: Of the robot.
+    """
+    size = {name: tuple(each.value for each in sizes) for name, sizes in geometry.sizes.items()}
+    x, y, z = pose.inverse.apply(point)
+    beside = math.hypot(x, y)
+    reach: float | None = None
+    match geometry.shape:
+        case "box":
+            a, b, c = size["size"]
+            reach = math.hypot(abs(x) + a / 2, abs(y) + b / 2, abs(z) + c / 2)
+        case "sphere":
+            reach = math.hypot(x, y, z) + size["radius"][0]
+        case "cylinder":
+            radius, half = size["radius"][0], size["length"][0] / 2
+            reach = math.hypot(beside + radius, abs(z) + half)
+        case "capsule":
+            radius, half = size["radius"][0], size["length"][0] / 2
+            reach = math.hypot(beside, abs(z) + half) + radius
+        case "cone":
+            radius, half = size["radius"][0], size["length"][0] / 2
+            reach = max(math.hypot(beside, z - half), math.hypot(beside + radius, z + half))
+        case "ellipsoid":
+            # No closed formula; the box around it reaches a little farther.
+            a, b, c = size["radii"]
+            reach = math.hypot(abs(x) + a, abs(y) + b, abs(z) + c)
+        case "mesh":
+            mesh = mesh_of(geometry, meshes)
+            if isinstance(mesh, Mesh):
+                a, b, c = size["scale"]
+                corners = ((a * u, b * v, c * w) for u, v, w in mesh.corners)
+                reach = max(math.dist((x, y, z), corner) for corner in corners)
+    return reach if reach is None or math.isfinite(reach) else None
+
+
+_Shape = Collision | Visual
+_NOTHING = ("", "empty")
+
+
+def solid(shapes: Iterable[_Shape]) -> list[_Shape]:
+    """Return the shapes that take room."""
+    return [shape for shape in shapes if shape.geometry.shape not in _NOTHING]
+
+
+def not_looked_at(robot: Robot, link: Link) -> str:
+    """Return why a mesh of a link is not known, as the end of a sentence.
+
+    Empty when all are, and for files that are missing or broken: other rules say so.
+    """
+    for shape in solid((*link.collisions, *link.visuals)):
+        mesh = robot.mesh_of(shape)
+        if isinstance(mesh, MeshFault) and mesh.trouble is MeshTrouble.NOT_LOOKED_AT:
+            uri = shape.geometry.uri
+            return f"the mesh {uri.value if uri else ''} {mesh.reason}"
+    return ""
+
+
+def _placed(robot: Robot, link: Link) -> Iterator[tuple[_Shape, Transform]]:
+    """Yield the shapes of a link that are known, with their poses in the robot's frame."""
+    for shape in solid((*link.collisions, *link.visuals)):
+        pose = robot.pose_of_part(link, shape.pose)
+        if pose is not None and not isinstance(robot.mesh_of(shape), MeshFault):
+            yield shape, pose
+
+
+def known_box(robot: Robot, link: Link) -> Box | None:
+    """Return the box around the shapes of a link that are known, in the robot's frame."""
+    boxes = [robot.box_of_shape(link, shape) for shape, _ in _placed(robot, link)]
+    known = [box for box in boxes if box is not None]
+    return union(known) if len(known) == len(boxes) else None
+
+
+def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
+    """Return the distance of a point from the farthest point of a link's known shapes, metres.
+
+    None without such shapes, and where one has no end.
+
+    Args:
+        robot: Whose link it is.
+        link: Its collisions and visuals count.
+        point: In the robot's frame, metres.
+    """
+    reaches = []
+    for shape, pose in _placed(robot, link):
+        reach = farthest(shape.geometry, pose, point, robot.meshes)
+        if reach is None:
+            return None
+        reaches.append(reach)
+    return max(reaches, default=None)
+
+
+def volume_bounds(robot: Robot, shapes: Iterable[_Shape]) -> tuple[float, float] | None:
+    """Return the least and the greatest volume that shapes fill together, m³.
+
+    They may lie in one another: the largest alone, and all side by side. None without shapes, and
+    where one is not known.
+    """
+    volumes = [volume_of(shape.geometry, robot.meshes) for shape in solid(shapes)]
+    known = [volume for volume in volumes if volume is not None]
+    if not known or len(known) < len(volumes):
+        return None
+    total = math.fsum(known) if max(known) < 1e300 else math.inf
+    return max(known), total

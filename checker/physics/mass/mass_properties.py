@@ -1,0 +1,79 @@
+"""Mass, centre of mass, inertia and balance of a robot and of its links."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from checker.base.record import record
+from checker.model.components import Joint, Link
+from checker.model.geometry.transform import Vector
+from checker.model.robot import Robot
+from checker.source.text import Span
+
+
+@record(eq=False)
+class LinkInertia:
+    """The inertia of one link.
+
+    Attributes:
+        mass: Kilograms.
+        centre: Centre of mass in the robot's frame, metres; None where its pose is unknown.
+        principal: Principal moments about the centre of mass, ascending, kg·m²; NaN if a number
+            is not finite.
+        pseudo_eigenvalue: The smallest eigenvalue of the 4×4 pseudo-inertia about the centre of
+            mass, divided by the largest in size, in units in which the mass and the largest moment
+            are 1: below 0 no distribution of mass has this inertia. NaN if a number is not finite.
+        gyration_radius: sqrt(largest principal moment / mass), metres; 0 without mass.
+    """
+
+    link: Link
+    mass: float
+    centre: Vector | None
+    principal: Vector
+    pseudo_eigenvalue: float
+    gyration_radius: float
+
+    @property
+    def moments_span(self) -> Span:
+        """Where the moments are stated: `<inertia>`, or the element that should hold it."""
+        inertial = self.link.element.child("inertial")
+        inertia = inertial.child("inertia") if inertial is not None else None
+        return (inertia or inertial or self.link.element).span
+
+
+@record(eq=False)
+class MassProperties:
+    """A robot in the pose that it starts in.
+
+    Attributes:
+        robot: Who was weighed.
+        mass: Kilograms.
+        centre: Centre of mass in the robot's frame, metres; None where nothing is known of it.
+        inertia: Rows of the 3×3 inertia about the centre of mass, robot's axes, kg·m²; likewise.
+        links: By scoped name.
+        support: Corners (x, y) of the convex polygon that it stands on, metres, counter-clockwise.
+        support_height: z of the ground in the robot's frame, metres: its lowest collision point.
+        standing: Scoped names of the links that touch the ground.
+        tip_angle: How far the ground can tilt before it tips, radians, negative when it tips at
+            once; None without support.
+        gravity_torques: N·m or N that each movable joint's first axis holds, by joint; only of
+            joints below which nothing stands on the ground.
+        support_unknown: Why what stands on the ground is not known, as the end of a sentence;
+            empty if it is. Then there is neither support nor gravity torque.
+    """
+
+    robot: Robot
+    mass: float
+    centre: Vector | None
+    inertia: tuple[Vector, Vector, Vector] | None
+    links: Mapping[str, LinkInertia]
+    support: tuple[tuple[float, float], ...]
+    support_height: float | None
+    standing: frozenset[str]
+    tip_angle: float | None
+    gravity_torques: Mapping[Joint, float]
+    support_unknown: str = ""
+
+    def share(self, name: str) -> float:
+        """Return a link's share of the robot's mass, 0…1."""
+        return self.links[name].mass / self.mass if self.mass > 0 else 0.0

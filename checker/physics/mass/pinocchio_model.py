@@ -1,0 +1,194 @@
+"""A robot as a model of Pinocchio, joint by joint."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from checker.base.record import record
+from checker.model.components import Link
+from checker.model.geometry.transform import Transform, Vector
+from checker.model.robot import Robot
+from checker.model.tree import WORLD, Tie
+from checker.physics.mass.hanging import Hanging, hang
+from checker.physics.mass.inertia import inertial_pose, se3, spatial_inertia
+from checker.physics.mass.joint_motion import Freedom, Motion, motions_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    import pinocchio as pin
+    from numpy.typing import NDArray
+
+    Matrix = NDArray[np.float64]
+
+
+@record()
+class Degree:
+    """One degree of freedom.
+
+    Attributes:
+        part: Scoped name of the joint; of a free robot, of the link that hangs on nothing.
+        number: Of the joint's axis, from 0; of a ball x, y, z of its turn rate; of a free link
+            x, y, z of its velocity, then of its turn rate.
+        free: Whether it is one of a free link.
+    """
+
+    part: str
+    number: int
+    free: bool = False
+
+
+@record(eq=False)
+class PinModel:
+    """A robot in Pinocchio's words; its configuration `neutral` is the pose that it starts in.
+
+    Each joint's frame stands at the joint, along the axes of its child link.
+
+    Attributes:
+        model: Its frames of type BODY are the links.
+        degrees: What each velocity of the model is, in order.
+        notes: What is left out or held fixed, as whole sentences.
+    """
+
+    model: pin.Model
+    degrees: tuple[Degree, ...]
+    notes: tuple[str, ...]
+
+    def joint_space_inertia(self) -> Matrix:
+        """Return the inertia of the joints in the starting pose; its rows are `degrees`.
+
+        A free link's velocity counts along the robot's axes, its turn rate about its own, as in
+        MuJoCo's `mj_fullM`; Pinocchio itself takes both along the link's own. kg, kg·m, kg·m².
+        """
+        import numpy as np
+        import pinocchio as pin
+
+        data = self.model.createData()
+        upper = np.triu(pin.crba(self.model, data, pin.neutral(self.model)))
+        inertia = upper + np.triu(upper, 1).T
+        for number, degree in enumerate(self.degrees):
+            if degree.free and degree.number == 0:
+                joint = self.model.getJointId(_free(degree.part))
+                turn = self.model.jointPlacements[joint].rotation
+                linear = slice(number, number + 3)
+                inertia[linear] = turn @ inertia[linear]
+                inertia[:, linear] = inertia[:, linear] @ turn.T
+        return np.asarray(inertia)
+
+
+def pin_model(robot: Robot) -> PinModel:
+    """Build the model of a robot: links that hang on nothing are free.
+
+    It has room for some hundred joints: Pinocchio's `Data` holds square matrices.
+    """
+    builder = _Builder(robot, hang(robot))
+    # `crba` takes it for granted that the joints of a branch stand together.
+    for name in builder.hanging.depth_first:
+        builder.add(name)
+    return PinModel(builder.model, tuple(builder.degrees), tuple(builder.notes))
+
+
+def _free(link: str) -> str:
+    return f"{link} (free)"
+
+
+class _Builder:
+    """Adds the links of a robot to a model, parents first.
+
+    Attributes:
+        carriers: Of each link, the joint of the model that carries it.
+        frames: Of each joint of the model, its frame in the robot's frame.
+        poses: Of each link in the robot's frame.
+    """
+
+    def __init__(self, robot: Robot, hanging: Hanging) -> None:
+        import pinocchio as pin
+
+        self.robot = robot
+        self.hanging = hanging
+        self.model: Any = pin.Model()
+        self.degrees: list[Degree] = []
+        self.notes = [
+            f"Joint {tie.joint.scoped_name} is left out: {tie.child} hangs on another link."
+            for tie in hanging.left_out
+        ]
+        self.notes += [
+            f"Joint {broken.joint.scoped_name} is left out: {broken.missing.value} is no link."
+            for broken in robot.tree.broken
+        ]
+        self.carriers = {WORLD: 0}
+        self.frames = {0: Transform()}
+        self.poses = {WORLD: Transform()}
+
+    def add(self, name: str) -> None:
+        """Add a link and the joint by which it hangs."""
+        import pinocchio as pin
+
+        link = self.robot.tree.links[name]
+        tie = self.hanging.by.get(name)
+        self.poses[name] = self._pose(name, tie)
+        carrier = self._free(name) if tie is None else self._hung(name, tie)
+        self.carriers[name] = carrier
+        frame = self.frames[carrier]
+        inertia, placement = self._inertia(link, frame), frame.inverse @ self.poses[name]
+        self.model.appendBodyToJoint(carrier, inertia, pin.SE3.Identity())
+        self.model.addFrame(pin.Frame(name, carrier, 0, se3(placement), pin.FrameType.BODY), False)
+
+    def _inertia(self, link: Link, frame: Transform) -> pin.Inertia:
+        pose = inertial_pose(self.robot, link) or self.poses[link.scoped_name]
+        return spatial_inertia(link, frame.inverse @ pose)
+
+    def _pose(self, name: str, tie: Tie | None) -> Transform:
+        """Return where a link is; where that is not known, it is where the one above is."""
+        pose = self.robot.pose_of(name)
+        if pose is not None and all(map(math.isfinite, pose.translation)):
+            return pose
+        self.notes.append(f"The pose of link {name} is not known.")
+        return self.poses[tie.parent] if tie is not None else Transform()
+
+    def _free(self, name: str) -> int:
+        import pinocchio as pin
+
+        self.degrees += [Degree(name, number, free=True) for number in range(6)]
+        return self._joint(0, pin.JointModelFreeFlyer(), self.poses[name], _free(name))
+
+    def _hung(self, name: str, tie: Tie) -> int:
+        """Add the joints of a tie, one for each axis, and return the one that carries the link."""
+        carrier = self.carriers[tie.parent]
+        motions = motions_of(self.robot, tie.joint)
+        if not motions and tie.joint.type.value != "fixed":
+            self.notes.append(f"Joint {tie.joint.scoped_name} is held fixed.")
+        at = self.robot.pose_of_joint(tie.joint) or self.poses[name]
+        frame = Transform(self.poses[name].rotation, at.translation)
+        for motion in motions:
+            kind = _joint_model(motion, frame)
+            numbers = range(3) if motion.freedom is Freedom.BALL else (motion.number,)
+            self.degrees += [Degree(tie.joint.scoped_name, number) for number in numbers]
+            label = f"{tie.joint.scoped_name} {motion.number}"
+            carrier = self._joint(carrier, kind, frame, label)
+        return carrier
+
+    def _joint(self, parent: int, kind: object, frame: Transform, name: str) -> int:
+        placement = se3(self.frames[parent].inverse @ frame)
+        # Names come twice in broken models; Pinocchio wants each once.
+        while self.model.existJointName(name):
+            name += "'"
+        joint = int(self.model.addJoint(parent, kind, placement, name))
+        self.frames[joint] = frame
+        return joint
+
+
+def _joint_model(motion: Motion, frame: Transform) -> object:
+    import numpy as np
+    import pinocchio as pin
+
+    if motion.freedom is Freedom.BALL:
+        return pin.JointModelSpherical()
+    axis = np.array(_turned_back(frame, motion.axis))
+    if motion.freedom is Freedom.SLIDE:
+        return pin.JointModelPrismaticUnaligned(axis)
+    return pin.JointModelRevoluteUnaligned(axis)
+
+
+def _turned_back(frame: Transform, direction: Vector) -> Vector:
+    return Transform(frame.inverse.rotation).rotate(direction)

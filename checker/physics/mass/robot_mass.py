@@ -1,0 +1,196 @@
+"""Puts a robot on the scales."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from checker.base.cache import NO_CACHE, Cache, code_hash, key_of
+from checker.base.record import record
+from checker.base.resources import version_of
+from checker.model.components import Link
+from checker.model.geometry.transform import Transform, Vector
+from checker.model.robot import Robot
+from checker.physics.mass.balance import stand_of, tip_angle
+from checker.physics.mass.gravity import gravity_torques
+from checker.physics.mass.hanging import hang
+from checker.physics.mass.inertia import (
+    inertial_pose,
+    placed_inertia,
+    principal_moments,
+    pseudo_eigenvalue,
+    rows_of,
+)
+from checker.physics.mass.mass_properties import LinkInertia, MassProperties
+
+if TYPE_CHECKING:
+    import pinocchio as pin
+
+
+# What Pinocchio works out of masses and moments; known weights need no Pinocchio.
+#
+# Loading it takes longer than all else that a check of a known robot does.
+
+
+Rows = tuple[Vector, Vector, Vector]
+_KIND = "weights"
+_LIBRARIES = ("numpy", "pin")
+
+
+@record()
+class Body:
+    """What is put on the scales.
+
+    Attributes:
+        mass: Kilograms.
+        moments: Rows of the inertia about the centre of mass, kg·m².
+        pose: The centre of mass and its axes in the robot's frame; None if unknown.
+    """
+
+    mass: float
+    moments: Rows
+    pose: Transform | None
+
+    def as_json(self) -> list[Any]:
+        """Return all its numbers."""
+        pose = None if self.pose is None else [self.pose.rotation, self.pose.translation]
+        return [self.mass, self.moments, pose]
+
+
+@record()
+class Weight:
+    """What the scales say of one body; see `LinkInertia`."""
+
+    principal: Vector
+    pseudo_eigenvalue: float
+
+
+@record()
+class Weights:
+    """What they say of some bodies.
+
+    Attributes:
+        each: In the order of the bodies.
+        centre: Of the mass of all that weigh something and whose place is known, in the robot's
+            frame, metres; None where nothing is known of it.
+        inertia: Rows of the 3×3 inertia about this centre, robot's axes, kg·m²; likewise.
+    """
+
+    each: tuple[Weight, ...]
+    centre: Vector | None
+    inertia: Rows | None
+
+
+def weights_of(bodies: Sequence[Body], cache: Cache) -> Weights:
+    """Weigh bodies, each for itself and all as one rigid body."""
+    asked = json.dumps([body.as_json() for body in bodies])
+    key = key_of(asked, code_hash("physics/mass"), *map(version_of, _LIBRARIES))
+    known = _from_json(cache.get(_KIND, key), len(bodies))
+    if known is not None:
+        return known
+    weights = _weighed(bodies)
+    cache.put(_KIND, key, asdict(weights))
+    return weights
+
+
+def _from_json(said: Any, number: int) -> Weights | None:
+    try:
+        each = tuple(
+            Weight(_three(one["principal"]), one["pseudo_eigenvalue"]) for one in said["each"]
+        )
+        centre, rows = said["centre"], said["inertia"]
+        inertia = None if rows is None else (_three(rows[0]), _three(rows[1]), _three(rows[2]))
+        known = Weights(each, None if centre is None else _three(centre), inertia)
+    except (KeyError, TypeError, ValueError, IndexError):
+        return None
+    return known if len(each) == number else None
+
+
+def _three(numbers: Sequence[float]) -> Vector:
+    x, y, z = map(float, numbers)
+    return (x, y, z)
+
+
+def _weighed(bodies: Sequence[Body]) -> Weights:
+    import numpy as np
+    import pinocchio as pin
+
+    each = []
+    total = pin.Inertia.Zero()
+    doubtful = False
+    for body in bodies:
+        moments = np.array(body.moments)
+        weight = Weight(principal_moments(moments), pseudo_eigenvalue(body.mass, moments))
+        each.append(weight)
+        if body.pose is not None and 0.0 < body.mass < math.inf:
+            total += placed_inertia(body.mass, moments, body.pose)
+            doubtful |= math.isnan(weight.principal[0])
+    return Weights(tuple(each), _centre(total), None if doubtful else _rows(total))
+
+
+def _centre(total: pin.Inertia) -> Vector | None:
+    centre = _three(total.lever)
+    known = total.mass > 0.0 and all(map(math.isfinite, centre))
+    return centre if known else None
+
+
+def _rows(total: pin.Inertia) -> Rows | None:
+    first, second, third = map(_three, total.inertia)
+    known = total.mass > 0.0 and all(map(math.isfinite, (*first, *second, *third)))
+    return (first, second, third) if known else None
+
+
+def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
+    """Return mass, inertia and balance of a robot in the pose that it starts in.
+
+    Time and memory are linear in the links.
+
+    Args:
+        robot: What is weighed.
+        cache: Where weights are kept.
+    """
+    bodies = [
+        Body(link.mass, rows_of(link), inertial_pose(robot, link))
+        for link in robot.tree.links.values()
+    ]
+    weights = weights_of(bodies, cache)
+    links = {
+        name: _link_inertia(link, body, weight)
+        for (name, link), body, weight in zip(
+            robot.tree.links.items(), bodies, weights.each, strict=True
+        )
+    }
+    stand = stand_of(robot)
+    torques = {}
+    if not stand.unknown:
+        torques = gravity_torques(robot, hang(robot), links, stand.links)
+    return MassProperties(
+        robot=robot,
+        mass=robot.mass,
+        centre=weights.centre,
+        inertia=weights.inertia,
+        links=links,
+        support=stand.polygon,
+        support_height=stand.height,
+        standing=stand.links,
+        tip_angle=tip_angle(stand, weights.centre),
+        gravity_torques=torques,
+        support_unknown=stand.unknown,
+    )
+
+
+def _link_inertia(link: Link, body: Body, weight: Weight) -> LinkInertia:
+    """Return the inertia of a link; figures out of numbers that are not finite are NaN."""
+    largest = weight.principal[2]
+    sound = body.mass > 0.0 and largest >= 0.0 and math.isfinite(body.mass)
+    return LinkInertia(
+        link,
+        body.mass,
+        None if body.pose is None else body.pose.translation,
+        weight.principal,
+        weight.pseudo_eigenvalue,
+        math.sqrt(largest / body.mass) if sound else 0.0,
+    )

@@ -1,0 +1,142 @@
+"""What a mesh file holds, by its suffix; runs in a child process only (see `worker`)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from checker.physics.mesh.dae import read_dae
+from checker.physics.mesh.measure import measure
+from checker.physics.mesh.obj import read_obj
+from checker.physics.mesh.surface import NoSurface, Surface
+
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+
+# Triangles of an STL file, binary or as text; its numbers are taken as metres, as Gazebo does.
+
+
+_HEADER, _TRIANGLE = 84, 50
+"""Bytes: 80 of any text and the count; a normal, three corners (4-byte numbers), 2 more bytes."""
+
+_VERTEX = re.compile(rb"^[ \t]*vertex[ \t]+(\S+)[ \t]+(\S+)[ \t]+(\S+)", re.I | re.M)
+_SOLID = re.compile(rb"^[ \t]*solid[ \t]+(\S[^\r\n]{0,200})", re.I | re.M)
+_END = re.compile(rb"^[ \t]*endsolid\b", re.I | re.M)
+
+
+def read_stl(data: bytes) -> Surface:
+    """Return the triangles.
+
+    Many binary files start with `solid` as text files do, so the length decides first.
+
+    Raises:
+        NoSurface: The file is cut off, or neither kind of STL.
+    """
+    count = int.from_bytes(data[80:_HEADER], "little")
+    if len(data) >= _HEADER and len(data) == _HEADER + count * _TRIANGLE:
+        return Surface(_binary(data, count))
+    if data.lstrip()[:5].lower() == b"solid" and b"\0" not in data:
+        return _text(data)
+    if len(data) < _HEADER:
+        raise NoSurface(f"is no STL file: it has {len(data)} bytes, its header alone takes 84")
+    held = (len(data) - _HEADER) // _TRIANGLE
+    if held < count:
+        raise NoSurface(
+            f"is cut off: it declares {count:,} triangles, its {len(data):,} bytes hold {held:,}"
+        )
+    left = len(data) - _HEADER - count * _TRIANGLE
+    return Surface(_binary(data, count), defects=(f"{left:,} bytes follow its last triangle",))
+
+
+def _binary(data: bytes, count: int) -> NDArray[float64]:
+    import numpy as np
+
+    numbers = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    triangles = np.frombuffer(data, numbers, count, _HEADER)
+    return np.asarray(triangles["corners"], np.float64)
+
+
+def _text(data: bytes) -> Surface:
+    import numpy as np
+
+    numbers = _VERTEX.findall(data)
+    if len(numbers) % 3:
+        raise NoSurface(f"is cut off: it has {len(numbers):,} corners, not 3 for each triangle")
+    try:
+        corners = np.array(numbers, np.float64).reshape(-1, 3, 3)
+    except ValueError as error:
+        raise NoSurface(f"holds a corner that is no number: {error}") from None
+    names = [name.decode("utf-8", "replace").strip() for name in _SOLID.findall(data)]
+    defects = () if _END.search(data) else ("it does not end in `endsolid`",)
+    return Surface(corners, defects=defects, parts=tuple(dict.fromkeys(names)))
+
+
+_Reader = Callable[[bytes], Surface]
+_READERS: dict[str, _Reader] = {"dae": read_dae, "stl": read_stl, "obj": read_obj}
+
+_LIBRARIES = {"dae": "collada", "obj": "trimesh"}
+"""What reads a format, by the suffix of its files."""
+
+_POINTER = b"version https://git-lfs"
+
+
+def load_libraries(names: Iterable[str]) -> None:
+    """Import once what reads files of these names, before a process forks to read them."""
+    suffixes = {name.rpartition(".")[2].lower() for name in names}
+    for suffix, library in _LIBRARIES.items():
+        if suffix in suffixes:
+            import_module(library)
+
+
+def read_mesh(data: bytes, path: str) -> Mesh | MeshFault:
+    """Return what a file holds.
+
+    Args:
+        data: Its content.
+        path: Its name; the suffix decides on the format, as in Gazebo.
+    """
+    suffix = path.rpartition(".")[2].lower()
+    try:
+        return measure(read_surface(data, path), path, suffix)
+    except NoSurface as none:
+        return MeshFault(none.trouble, none.reason)
+
+
+def read_surface(data: bytes, path: str) -> Surface:
+    """Return the triangles of a file.
+
+    Raises:
+        NoSurface: It cannot be read.
+    """
+    suffix = path.rpartition(".")[2].lower()
+    reader = _READERS.get(suffix)
+    if reader is None:
+        reason = f"is of a format that is not read: .{suffix}"
+        raise NoSurface(reason, MeshTrouble.UNSUPPORTED)
+    if not data.strip():
+        raise NoSurface("is empty")
+    if data.startswith(_POINTER):
+        raise NoSurface("is a pointer of Git LFS, not the mesh")
+    return _surface(reader, data)
+
+
+def _surface(reader: _Reader, data: bytes) -> Surface:
+    """Read a file whose every line may be wrong.
+
+    Raises:
+        NoSurface: It cannot be read.
+    """
+    try:
+        return reader(data)
+    except (NoSurface, MemoryError):
+        raise
+    except RecursionError:
+        raise NoSurface("is nested too deeply", MeshTrouble.NOT_LOOKED_AT) from None
+    except Exception as error:  # libraries raise anything on corrupt files
+        said = str(error).strip().partition("\n")[0][:200]
+        raise NoSurface(f"is corrupt: {said or type(error).__name__}") from error

@@ -1,0 +1,204 @@
+"""All that is measured in a trial."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from checker.physics.trial.course import (
+    CLIMB,
+    CLIMB_METRES,
+    DRIVE,
+    HOLD,
+    HOVER,
+    SETTLE,
+    STOP_DRIVE,
+    STOP_TURN,
+    TURN,
+)
+from checker.physics.trial.measures.drive import measure_drive, measure_turn
+from checker.physics.trial.measures.ground import loads
+from checker.physics.trial.measures.motion import Motion
+from checker.physics.trial.trial import Leg, Measurement
+
+# Hovering and climbing.
+
+
+_END = 1.0
+"""Seconds at the end of a leg."""
+
+
+def measure_flight(motion: Motion) -> Iterator[Measurement]:
+    """Measure what the rotors give, and how the copter hovers and climbs."""
+    rotors = motion.plan.rotors
+    if rotors and motion.weight > 0.0:
+        lift = sum(rotor.most * max(rotor.up[2], 0.0) for rotor in rotors)
+        yield Measurement("thrust_to_weight", lift / motion.weight)
+    yield from _hover(motion)
+    climb, hover = motion.leg(CLIMB), motion.leg(HOVER)
+    if climb is not None and hover is not None:
+        heights = motion.position[:, 2]
+        top, before = heights[motion.last(climb, 0.1)], heights[motion.last(hover, 0.1)]
+        yield Measurement("climbed", float((top.mean() - before.mean()) / CLIMB_METRES))
+
+
+def _hover(motion: Motion) -> Iterator[Measurement]:
+    leg = motion.leg(HOVER)
+    if leg is None:
+        return
+    effort = motion.run.hover_effort
+    if effort is not None:
+        yield Measurement("hover_effort", effort)
+    heights = motion.position[motion.during(leg)][:, 2]
+    end = motion.last(leg, _END)
+    yield Measurement("hover_sink", float(heights[0] - heights[-20:].mean()))
+    yield Measurement("hover_tilt", float(motion.tilt[end].max()))
+
+
+# The torque that the course asks of the joints.
+#
+# It is averaged over 0.1 s: a stiff servo asks for a spike at each bend of its command, which a
+# motor would round off. Full speed is left out, where only the plugin's limits temper the command.
+
+
+_SECONDS = 0.1
+_LEGS = (DRIVE, STOP_DRIVE, TURN, STOP_TURN, HOLD, HOVER, CLIMB)
+
+
+def measure_torque(motion: Motion) -> Iterator[Measurement]:
+    """Measure the largest torque (or force) of each joint that has a servo."""
+    import numpy as np
+
+    run = motion.run
+    legs = [leg for leg in map(motion.leg, _LEGS) if leg is not None]
+    if not legs or not run.rig.names:
+        return
+    count = max(round(_SECONDS / run.timestep), 1)
+    first, behind = (round(t / run.timestep) for t in (legs[0].start, legs[-1].end))
+    sums = np.cumsum(np.array(run.forces)[first:behind], axis=0)
+    means = np.abs(sums[count:] - sums[:-count]) / count
+    for number, joint in enumerate(run.rig.names):
+        yield Measurement("torque", float(means[:, number].max(initial=0.0)), joint)
+        if joint in motion.plan.efforts:
+            yield Measurement("torque_limit", motion.plan.efforts[joint], joint)
+
+
+# Energy: what is not driven must not gain any.
+
+
+_HEIGHT = 0.1
+"""Metres: the unit is the energy that lifts the robot by this."""
+_AFTER_STOP = 0.5
+"""Seconds at the end of a stop, when the wheels stand."""
+
+
+def measure_energy(motion: Motion) -> Iterator[Measurement]:
+    """Measure the largest gain while a robot is not driven."""
+    import numpy as np
+
+    energy = np.array(motion.run.samples.energy)
+    stretches = []
+    for name in (SETTLE, STOP_DRIVE, STOP_TURN):
+        leg = motion.leg(name)
+        if leg is not None:
+            stretches.append(_undriven(motion, leg))
+    gains = [
+        float((energy[each] - np.minimum.accumulate(energy[each])).max()) for each in stretches
+    ]
+    if gains and motion.weight > 0.0:
+        yield Measurement("energy_gain", max(gains) / (motion.weight * _HEIGHT))
+
+
+def _undriven(motion: Motion, leg: Leg) -> slice:
+    return motion.during(leg) if leg.name == SETTLE else motion.last(leg, _AFTER_STOP)
+
+
+# What the drive wheels carry at rest.
+
+
+_AT_REST = 1.0
+"""Seconds over which loads are averaged: one instant lies."""
+
+
+def measure_loads(motion: Motion) -> Iterator[Measurement]:
+    """Measure each drive wheel's load against an equal share of the weight."""
+    leg = motion.leg(SETTLE)
+    wheels = motion.plan.wheels
+    if leg is None or not motion.weight > 0.0:
+        return
+    carried = loads(motion.touches(leg, _AT_REST))
+    for wheel in wheels:
+        load = sum(carried.get(link, 0.0) for link in wheel.links)
+        yield Measurement("load_share", load * len(wheels) / motion.weight, wheel.joint)
+
+
+# Standing: how a robot that does not drive keeps the pose it starts in.
+
+
+_HELD = 0.5
+"""Seconds at the end of the leg."""
+
+
+def measure_hold(motion: Motion) -> Iterator[Measurement]:
+    """Measure how far joints, height and attitude leave the pose."""
+    import numpy as np
+
+    leg = motion.leg(HOLD)
+    if leg is None:
+        return
+    during, end = motion.during(leg), motion.last(leg, _HELD)
+    sags = np.abs(np.array(motion.run.samples.joints)[end] - motion.run.rig.initial).max(axis=0)
+    if sags.size:
+        # Of joints that give way alike the first is named, mostly whatever the last digits say.
+        worst = int(sags.round(4).argmax())
+        yield Measurement("hold_sag", float(sags.max()), motion.run.rig.names[worst])
+    heights = motion.position[during][:, 2]
+    yield Measurement("hold_sink", float(heights[0] - heights.min()))
+    yield Measurement("hold_tilt", float(motion.tilt[end].max()))
+
+
+# Settling: two seconds without command, from 10 mm above the ground.
+
+
+_SETTLED = 0.5
+"""Seconds over which what rests is looked at."""
+
+
+def measure_settle(motion: Motion) -> Iterator[Measurement]:
+    """Measure how a robot comes to rest."""
+    import numpy as np
+
+    leg = motion.leg(SETTLE)
+    if leg is None:
+        return
+    during, rest = motion.during(leg), motion.last(leg, _SETTLED)
+    place = motion.position[during]
+    heights = place[:, 2] - place[0, 2]
+    yield Measurement("settle_drop", float(-heights.min()))
+    yield Measurement("settle_rise", float(heights.max()))
+    yield Measurement("settle_shift", float(np.hypot(*(place[-1] - place[0])[:2])))
+    yield Measurement("settle_tilt", float(motion.tilt[rest].mean()))
+    speeds = np.linalg.norm(motion.velocity[rest], axis=1)
+    yield Measurement("settle_speed", float(speeds.mean()))
+    deepest = motion.touches(leg, _SETTLED).depth.max(initial=0.0)
+    yield Measurement("rest_penetration", float(deepest))
+
+
+_MEASURES = (
+    measure_settle,
+    measure_drive,
+    measure_turn,
+    measure_loads,
+    measure_torque,
+    measure_flight,
+    measure_hold,
+    measure_energy,
+)
+
+
+def measured(motion: Motion) -> Iterator[Measurement]:
+    """Yield the figures of a run; those that are no finite numbers are none."""
+    for measure in _MEASURES:
+        for each in measure(motion):
+            if math.isfinite(each.value):
+                yield each

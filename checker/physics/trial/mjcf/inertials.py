@@ -1,0 +1,179 @@
+"""Masses and inertias as MuJoCo takes them, and the least change where it would not."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from checker.base.record import record
+from checker.model.components import Link, Pose
+from checker.model.geometry.transform import Transform, Vector
+from checker.model.robot import Robot
+from checker.physics.trial.mjcf.names import (
+    LARGEST,
+    numbers,
+    quaternion,
+    usable,
+    well_placed,
+)
+from checker.physics.trial.mjcf.repairs import Ledger
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Matrix = NDArray[np.float64]
+
+LEAST_MASS = 1e-3
+"""Kilograms taken for a moving link that has none."""
+LEAST_MOMENT = 1e-7
+"""kg·m² taken for a principal moment of zero: the inertia of a 1 g marble 8 mm across."""
+_NOTHING = 1e-14
+"""kg or kg·m² that MuJoCo takes for zero in a body that moves (mjMINVAL is 1e-15)."""
+_ROUNDING = 1e-9
+"""Share of the moments by which rounding may break the triangle inequality of a flat body."""
+_FLAT = 1e-11
+"""Share of the moments that a flat body is given as thickness, so that rounding cannot harm."""
+
+
+@record(eq=False)
+class BodyInertia:
+    """What a body weighs.
+
+    Attributes:
+        mass: Kilograms.
+        centre: Centre of mass in the link's frame, metres.
+        moments: 3×3 about the centre of mass along the link's axes, kg·m².
+    """
+
+    mass: float
+    centre: Vector
+    moments: Matrix
+
+    @property
+    def sound(self) -> bool:
+        """Whether MuJoCo lets a body with this move: its mass and moments are not zero."""
+        import numpy as np
+
+        least, _, largest = np.linalg.eigvalsh(self.moments).tolist()
+        return self.mass > _NOTHING and least > max(_NOTHING, _FLAT * largest)
+
+    @property
+    def mjcf(self) -> str:
+        """The element `<inertial>`; nothing for a body of no mass and inertia."""
+        if self.mass == 0.0 and not self.moments.any():
+            return ""
+        head = f'<inertial mass="{numbers([self.mass])}"'
+        if self.sound:
+            m = self.moments
+            six = (m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[0, 2], m[1, 2])
+            return f'{head} pos="{numbers(self.centre)}" fullinertia="{numbers(six)}"/>'
+        return f"{head} {self._principal()}/>"
+
+    def _principal(self) -> str:
+        """Return the attributes of a body of a zero moment: MuJoCo takes it along its own axes."""
+        import numpy as np
+
+        values, axes = np.linalg.eigh(self.moments)
+        if np.linalg.det(axes) < 0:
+            axes[:, 0] = -axes[:, 0]
+        (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = axes.tolist()
+        turn = quaternion(((xx, xy, xz), (yx, yy, yz), (zx, zy, zz)))
+        # As sums of second moments, which rounding cannot bring to break the triangle inequality.
+        a, b, c = np.maximum(values.sum() / 2 - values, 0.0).tolist()
+        three = numbers((b + c, a + c, a + b))
+        return f'pos="{numbers(self.centre)}" quat="{numbers(turn)}" diaginertia="{three}"'
+
+
+def inertia_of(robot: Robot, link: Link, ledger: Ledger) -> BodyInertia:
+    """Return what a link weighs; the nearest that a body can have where it states another."""
+    import numpy as np
+
+    name = link.scoped_name
+    mass = _mass_of(link, ledger)
+    if link.inertial is None:
+        return BodyInertia(mass, (0.0, 0.0, 0.0), np.eye(3) * (1.0 if link.default_mass else 0.0))
+    pose = _pose_of(robot, link, link.inertial.pose)
+    if pose is None:
+        ledger.repair(name, "has a centre of mass that is not known, the link's origin taken")
+        pose = Transform()
+    stated = [moment.value for moment in link.inertial.moments]
+    if not all(usable(moment) for moment in stated):
+        ledger.repair(
+            name, f"has a moment of inertia that is no usable number, {LEAST_MOMENT:g} kg·m² taken",
+            serious=True,
+        )  # fmt: skip
+        return BodyInertia(mass, pose.translation, np.eye(3) * LEAST_MOMENT)
+    xx, xy, xz, yy, yz, zz = stated
+    own = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    turn = np.array(pose.rotation)
+    moments = turn @ _physical(own, name, ledger) @ turn.T
+    return BodyInertia(mass, pose.translation, (moments + moments.T) / 2)
+
+
+def _mass_of(link: Link, ledger: Ledger) -> float:
+    mass = link.mass
+    if mass >= 0.0 and usable(mass):
+        return mass
+    what = "a negative mass" if mass < 0.0 else "a mass that is no usable number"
+    taken = LARGEST if LARGEST < mass < math.inf else LEAST_MASS
+    ledger.repair(link.scoped_name, f"has {what}, {taken:g} kg taken", serious=True)
+    return taken
+
+
+def _pose_of(robot: Robot, link: Link, stated: Pose) -> Transform | None:
+    """Return where the centre of mass and its axes are in the link's frame."""
+    pose = stated.transform
+    if stated.relative_to:
+        frame, at = robot.pose_of(link.scoped_name), robot.pose_of_part(link, stated)
+        if frame is None or at is None:
+            return None
+        pose = frame.inverse @ at
+    return pose if well_placed(pose) else None
+
+
+def _physical(moments: Matrix, name: str, ledger: Ledger) -> Matrix:
+    """Return the nearest inertia that a body can have.
+
+    The second moments of mass along the principal axes, trace/2 − I, must not be negative: that
+    says positive moments and the triangle inequality at once.
+    """
+    import numpy as np
+
+    values, axes = np.linalg.eigh(moments)
+    second = values.sum() / 2 - values
+    scale = float(np.abs(values).max())
+    least = float(second.min())
+    if least >= _FLAT * scale:
+        return moments
+    floor = _FLAT * scale
+    if least < -_ROUNDING * scale:
+        floor = max(floor, LEAST_MOMENT / 2)
+        said = ", ".join(f"{value:.4g}" for value in values)
+        ledger.repair(
+            name, f"has principal moments that no body can have ({said} kg·m²), the nearest "
+            "that one can have taken", serious=True,
+        )  # fmt: skip
+    elif values[0] <= max(_NOTHING, _ROUNDING * scale):
+        # A rod or a point: whether its zero matters, and is repaired, depends on its neighbours.
+        return moments
+    second = np.maximum(second, floor)
+    physical = second.sum() - second
+    return np.asarray((axes * physical) @ axes.T)
+
+
+def thickened(body: BodyInertia, name: str, ledger: Ledger) -> BodyInertia:
+    """Return the inertia of a moving body, its zero mass and moments replaced."""
+    import numpy as np
+
+    mass = body.mass
+    if mass <= _NOTHING:
+        mass = LEAST_MASS
+        ledger.repair(name, f"has no mass, {mass:g} kg taken", serious=True)
+    values, axes = np.linalg.eigh(body.moments)
+    if values[0] > max(_NOTHING, _FLAT * values[2]):
+        return BodyInertia(mass, body.centre, body.moments)
+    least = max(LEAST_MOMENT, _ROUNDING * float(values[2]))
+    ledger.repair(name, f"has a zero principal moment, {least:g} kg·m² taken", serious=True)
+    moments = (axes * np.maximum(values, least)) @ axes.T
+    return BodyInertia(mass, body.centre, _physical(moments, name, Ledger()))

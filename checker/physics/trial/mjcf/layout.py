@@ -1,0 +1,171 @@
+"""What a scene is made of: which links hang together, where, what they weigh and touch with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from checker.base.record import record
+from checker.model.components import Link
+from checker.model.geometry.transform import Transform
+from checker.model.locomotion.friction import FrictionReader
+from checker.model.robot import Robot
+from checker.model.tree import WORLD, Tie
+from checker.physics.mass.hanging import Hanging, hang
+from checker.physics.trial.mjcf.geoms import Geom, GeomReader, sliding_friction, touches
+from checker.physics.trial.mjcf.inertials import BodyInertia, inertia_of, thickened
+from checker.physics.trial.mjcf.joints import degrees_of
+from checker.physics.trial.mjcf.names import well_placed
+from checker.physics.trial.mjcf.repairs import Ledger
+
+# The links of a robot as trees that MuJoCo can nest: each link hangs on one other at most.
+
+
+@record(eq=False)
+class Forest:
+    """The links of a robot, from those that hang on nothing downwards."""
+
+    hanging: Hanging
+
+    @property
+    def order(self) -> tuple[str, ...]:
+        """Scoped names of the links, each behind the one that it hangs on."""
+        return self.hanging.order
+
+    @cached_property
+    def below(self) -> dict[str, list[str]]:
+        """Which links hang on each link, and on the world."""
+        below: dict[str, list[str]] = {}
+        for name in self.order:
+            tie = self.tie(name)
+            if tie is not None:
+                below.setdefault(tie.parent, []).append(name)
+        return below
+
+    @cached_property
+    def tops(self) -> list[str]:
+        """Links that hang on nothing, or on the world."""
+        return [name for name in self.order if self.base(name) is None]
+
+    def tie(self, name: str) -> Tie | None:
+        """Return the tie by which a link hangs; None for one that is free."""
+        return self.hanging.by.get(name)
+
+    def base(self, name: str) -> str | None:
+        """Return the link that a link hangs on; None where that is the world or nothing."""
+        tie = self.tie(name)
+        return tie.parent if tie is not None and tie.parent != WORLD else None
+
+    def under(self, start: str) -> Iterator[str]:
+        """Yield a link and all that hangs on it, over others too."""
+        waiting = [start]
+        while waiting:
+            name = waiting.pop()
+            yield name
+            waiting.extend(self.below.get(name, []))
+
+
+class Layout:
+    """The parts of a robot as a scene takes them; all by the scoped name of the link.
+
+    Attributes:
+        ledger: What had to be changed or left out.
+        forest: Which link hangs on which.
+        poses: In the robot's frame.
+        degrees: How each link moves against the one it hangs on.
+        welded: The link that each link moves with; `world` for what does not move.
+        hulls: The corners of meshes and cones by the name of their asset, metres.
+        geoms: Shapes that touch, each with its friction.
+        inertias: Masses and moments, as far as needed repaired.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.ledger = Ledger()
+        self.forest = Forest(hang(robot))
+        self._say_what_is_cut()
+        self.poses = self._poses()
+        self.degrees = {
+            child: degrees_of(robot, tie.joint, self.ledger)
+            for child, tie in self.forest.hanging.by.items()
+        }
+        self.welded = self._welded()
+        reader, friction = GeomReader(robot, self.poses, self.ledger), FrictionReader(robot)
+        self.geoms = {
+            link.scoped_name: list(self._geoms_of(link, reader, friction)) for link in self._links()
+        }
+        self.hulls = {name: points for points, name in reader.assets.items()}
+        self.inertias = self._inertias()
+
+    @property
+    def lowest(self) -> float:
+        """Z of the lowest collision point in the robot's frame, metres; 0 without any."""
+        heights = [geom.lowest for geoms in self.geoms.values() for geom, _ in geoms]
+        return min(heights, default=0.0)
+
+    @property
+    def tied(self) -> tuple[tuple[str, str], ...]:
+        """Pairs of links that others move with and that a joint lets move against each other."""
+        pairs: dict[tuple[str, str], None] = {}
+        for tie in self.robot.tree.ties:
+            first = WORLD if tie.parent == WORLD else self.welded[tie.parent]
+            second = self.welded[tie.child]
+            if first != second:
+                pairs[first, second] = None
+        return tuple(pairs)
+
+    def _links(self) -> Iterator[Link]:
+        """Yield the links, parents before children."""
+        for name in self.forest.order:
+            yield self.robot.tree.links[name]
+
+    def _geoms_of(
+        self, link: Link, reader: GeomReader, friction: FrictionReader
+    ) -> Iterator[tuple[Geom, float]]:
+        for collision in link.collisions:
+            if not touches(collision):
+                self.ledger.note("A collision says that it touches nothing", link.scoped_name)
+            elif (geom := reader.of(link, collision)) is not None:
+                yield geom, sliding_friction(friction, link, collision, self.ledger)
+
+    def _inertias(self) -> dict[str, BodyInertia]:
+        """Weigh each link; of what moves together, one at least must have mass and moments."""
+        inertias = {
+            link.scoped_name: inertia_of(self.robot, link, self.ledger) for link in self._links()
+        }
+        sound = {self.welded[name] for name, inertia in inertias.items() if inertia.sound}
+        for name in self.forest.order:
+            if self.welded[name] == name and name not in sound:
+                inertias[name] = thickened(inertias[name], name, self.ledger)
+        return inertias
+
+    def _poses(self) -> dict[str, Transform]:
+        poses: dict[str, Transform] = {}
+        for name in self.forest.order:
+            pose = self.robot.pose_of(name)
+            if pose is None or not well_placed(pose):
+                base = self.forest.base(name)
+                pose = poses[base] if base is not None else Transform()
+                where = "that of the link it hangs on" if base is not None else "the origin"
+                self.ledger.repair(name, f"has a pose that is not known, {where} taken")
+            poses[name] = pose
+        return poses
+
+    def _welded(self) -> dict[str, str]:
+        welded: dict[str, str] = {WORLD: WORLD}
+        for name in self.forest.order:
+            tie = self.forest.tie(name)
+            welded[name] = name if tie is None or self.degrees[name] else welded[tie.parent]
+        return welded
+
+    def _say_what_is_cut(self) -> None:
+        for tie in self.forest.hanging.left_out:
+            what = f"ties {tie.parent} and {tie.child}, which hangs on another link already"
+            self.ledger.repair(tie.joint.scoped_name, f"{what}, and is left out")
+        for broken in self.robot.tree.broken:
+            what = f"ties {broken.missing.value!r}, which is no link, and is left out"
+            self.ledger.repair(broken.joint.scoped_name, what)
+        for link in self._links():
+            if link.kinematic.value:
+                sentence = "Links are kinematic; the trial lets forces move them"
+                self.ledger.note(sentence, link.scoped_name)

@@ -1,0 +1,181 @@
+"""A robot as a scene of MuJoCo: MJCF text, and the names by which its parts are found in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, field
+from itertools import chain
+from typing import Any
+
+from checker.base.record import record
+from checker.model.geometry.transform import Transform
+from checker.model.robot import Robot
+from checker.physics.trial.mjcf.bodies import BodyWriter
+from checker.physics.trial.mjcf.layout import Layout
+from checker.physics.trial.mjcf.names import Names, numbers, quaternion
+from checker.physics.trial.mjcf.repairs import Ledger
+from checker.physics.trial.mjcf.scope import root_of, swept_joints, unusable_because
+from checker.physics.trial.trial import Repair
+
+Pair = tuple[str, str]
+
+GROUND = "ground"
+"""Name of the ground's geom."""
+DROP = 0.01
+"""Metres between the lowest collision point and the ground at the start."""
+
+
+@record()
+class Scene:
+    """The robot as MJCF text, with the names by which its parts are found in it.
+
+    Each body's frame is its link's; at the start all joints are at 0, as the file poses the links.
+
+    Attributes:
+        mjcf: Needs no files. The ground is the geom `ground`, at z = 0.
+        bodies: Scoped name of a link to its body.
+        joints: Scoped name of a joint to MuJoCo's joint of its first axis (the second has `_2`
+            behind); joints that are held fixed have none.
+        free_joints: Scoped name of a link that hangs on nothing to its free joint.
+        geoms: Geom to the scoped name of its link.
+        actuators: Scoped name of a joint to its actuator, a velocity servo of gain 1.
+        belts: Scoped name of a link to its geoms that can have a surface velocity. Its direction is
+            the *geom's*: turn one given in the link's frame by the inverse of `geom_quat`.
+        welded: Scoped name of a link to that of the link that it moves with; `world` for one that
+            is fixed to the world.
+        tied: Pairs of such links (or `world`) that a joint lets move against each other.
+        swept: Scoped names of joints to move through their ranges.
+        repairs: What had to be changed.
+        notes: What was left out, as sentences.
+        root: Scoped name of the link whose pose is the robot's.
+        root_in_robot: Position (metres) and quaternion (w, x, y, z) of that link in the robot's
+            frame at the start.
+        spawn_height: z of the robot's frame at the start, metres.
+        unusable: Why no trial is possible, as the end of a sentence; empty if one is.
+    """
+
+    mjcf: str = ""
+    bodies: Mapping[str, str] = field(default_factory=dict)
+    joints: Mapping[str, str] = field(default_factory=dict)
+    free_joints: Mapping[str, str] = field(default_factory=dict)
+    geoms: Mapping[str, str] = field(default_factory=dict)
+    actuators: Mapping[str, str] = field(default_factory=dict)
+    belts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    welded: Mapping[str, str] = field(default_factory=dict)
+    tied: tuple[Pair, ...] = ()
+    swept: tuple[str, ...] = ()
+    repairs: tuple[Repair, ...] = ()
+    notes: tuple[str, ...] = ()
+    root: str = ""
+    root_in_robot: tuple[float, ...] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+    spawn_height: float = 0.0
+    unusable: str = ""
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        return asdict(self)
+
+    @classmethod
+    def from_json(cls, said: Mapping[str, Any]) -> Scene:
+        """Return the scene that `as_json` expressed.
+
+        Raises:
+            KeyError, TypeError: It is no scene.
+        """
+        return cls(
+            **{
+                **said,
+                "belts": {link: tuple(geoms) for link, geoms in said["belts"].items()},
+                "tied": tuple((first, second) for first, second in said["tied"]),
+                "swept": tuple(said["swept"]),
+                "repairs": tuple(Repair(**each) for each in said["repairs"]),
+                "notes": tuple(said["notes"]),
+                "root_in_robot": tuple(said["root_in_robot"]),
+            }
+        )
+
+
+def build_scene(
+    robot: Robot,
+    *,
+    servos: Sequence[str] = (),
+    belts: Sequence[str] = (),
+    timestep: float = 0.002,
+) -> Scene:
+    """Write the scene of a robot.
+
+    Args:
+        robot: Its joints stand at 0.
+        servos: Scoped names of joints that get a velocity servo; its gain is set at run time.
+        belts: Scoped names of links whose surface moves.
+        timestep: Seconds.
+    """
+    layout = Layout(robot)
+    ledger = layout.ledger
+    unusable = unusable_because(robot, layout)
+    if unusable:
+        return Scene(repairs=tuple(ledger.repairs), notes=ledger.notes, unusable=unusable)
+    height = DROP - layout.lowest
+    writer = BodyWriter(layout, frozenset(belts))
+    bodies, names, root = writer.text(height), writer.names, root_of(robot, layout)
+    return Scene(
+        mjcf=_document(timestep, _assets(layout), bodies, _servos(names, servos, ledger)),
+        bodies=names.bodies,
+        joints=names.joints,
+        free_joints=names.free,
+        geoms=names.geoms,
+        actuators=names.actuators,
+        belts=names.belts,
+        welded=layout.welded,
+        tied=layout.tied,
+        swept=swept_joints(robot, names.joints),
+        repairs=tuple(ledger.repairs),
+        notes=ledger.notes,
+        root=root,
+        root_in_robot=_seven(layout.poses[root]),
+        spawn_height=height,
+    )
+
+
+def _servos(names: Names, servos: Sequence[str], ledger: Ledger) -> str:
+    """Write the actuators and name them."""
+    lines = []
+    for joint in dict.fromkeys(servos):
+        if joint in names.joints and joint not in names.balls:
+            actuator = names.actuators.setdefault(joint, f"a{len(names.actuators)}")
+            lines.append(f'<velocity name="{actuator}" joint="{names.joints[joint]}" kv="1"/>')
+        else:
+            ledger.note("Joints to drive neither turn nor slide", joint)
+    return "\n".join(lines)
+
+
+def _assets(layout: Layout) -> str:
+    # Shells, for MuJoCo refuses thin solids; what shapes weigh is never taken from them.
+    return "\n".join(
+        f'<mesh name="{name}" inertia="shell" vertex="{numbers(chain.from_iterable(points))}"/>'
+        for name, points in layout.hulls.items()
+    )
+
+
+def _document(timestep: float, assets: str, bodies: str, servos: str) -> str:
+    # The ground takes part in every contact, and geoms of the robot in those with the ground alone.
+    return f"""<mujoco>
+<compiler angle="radian" inertiafromgeom="false" autolimits="false" fusestatic="false"/>
+<option timestep="{timestep!r}" integrator="discrete" cone="elliptic" impratio="10"/>
+<size memory="64M"/>
+<asset>
+{assets}
+</asset>
+<worldbody>
+<geom name="{GROUND}" type="plane" size="0 0 1" priority="0" contype="1" conaffinity="0"/>
+{bodies}
+</worldbody>
+<actuator>
+{servos}
+</actuator>
+</mujoco>
+"""
+
+
+def _seven(pose: Transform) -> tuple[float, ...]:
+    return (*pose.translation, *quaternion(pose.rotation))

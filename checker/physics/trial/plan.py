@@ -1,0 +1,135 @@
+"""What shall happen in a trial, as data: the child that simulates needs nothing of the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, field
+from typing import Any
+
+from checker.base.record import record
+from checker.model.geometry.transform import Vector
+from checker.physics.trial.profile import Knots
+from checker.physics.trial.trial import Leg
+
+
+@record()
+class DrivenWheel:
+    """A wheel that a servo turns.
+
+    Attributes:
+        joint: Scoped name.
+        links: Scoped names of the link below the joint and of those fixed to it.
+        radius: Metres, of its collisions; the plugin's where it has none.
+    """
+
+    joint: str
+    links: tuple[str, ...]
+    radius: float
+
+
+@record()
+class Belt:
+    """A link whose surface moves.
+
+    Attributes:
+        link: Scoped name.
+        forward: Direction in which a positive speed drives, in the robot's frame, of length 1.
+        speed: Over time, m/s.
+    """
+
+    link: str
+    forward: Vector
+    speed: Knots
+
+
+@record()
+class PlannedRotor:
+    """A rotor.
+
+    Attributes:
+        link: Scoped name.
+        centre: In the robot's frame, metres.
+        up: Direction of its thrust in the robot's frame, of length 1.
+        spin: 1 counter-clockwise, −1 clockwise, 0 unknown.
+        most: Greatest thrust, N.
+        gain: Thrust that comes / thrust that the controller asks for.
+        moment: Torque / thrust, metres.
+    """
+
+    link: str
+    centre: Vector
+    up: Vector
+    spin: int
+    most: float
+    gain: float
+    moment: float
+
+
+@record()
+class Plan:
+    """The commands of a trial.
+
+    Attributes:
+        kind: A value of `DriveKind`.
+        legs: The course.
+        linear: Commanded forward speed over time, m/s.
+        angular: Commanded turn rate over time, rad/s.
+        speeds: Of joints by scoped name over time, rad/s.
+        places: Of joints that a stiff servo holds or steers, over time, rad or m.
+        wheels: Those among `speeds` that stand on the ground.
+        belts: What a tracked robot stands on.
+        rotors: What carries a copter.
+        efforts: Effort limits of joints that are driven, N·m or N.
+        speed_limit: m/s; None without.
+        acceleration_limit: m/s²; None without.
+        turns_in_place: Whether the turn is one in place, not a circle.
+        notes: What could not be driven and why, as sentences.
+        not_driven: As of `Trial`.
+    """
+
+    kind: str
+    legs: tuple[Leg, ...]
+    linear: Knots = ()
+    angular: Knots = ()
+    speeds: Mapping[str, Knots] = field(default_factory=dict)
+    places: Mapping[str, Knots] = field(default_factory=dict)
+    wheels: tuple[DrivenWheel, ...] = ()
+    belts: tuple[Belt, ...] = ()
+    rotors: tuple[PlannedRotor, ...] = ()
+    efforts: Mapping[str, float] = field(default_factory=dict)
+    speed_limit: float | None = None
+    acceleration_limit: float | None = None
+    turns_in_place: bool = True
+    notes: tuple[str, ...] = ()
+    not_driven: str = ""
+
+    @property
+    def seconds(self) -> float:
+        """How long the course is."""
+        return self.legs[-1].end if self.legs else 0.0
+
+    def leg(self, name: str) -> Leg | None:
+        """Return a leg of the course; None if it is not driven."""
+        return next((leg for leg in self.legs if leg.name == name), None)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        return asdict(self)
+
+    @classmethod
+    def from_json(cls, said: Mapping[str, Any]) -> Plan:
+        """Return the plan that `as_json` expressed.
+
+        Raises:
+            KeyError, TypeError: It is no plan.
+        """
+        return cls(
+            **{
+                **said,
+                "legs": tuple(Leg(**each) for each in said["legs"]),
+                "wheels": tuple(DrivenWheel(**each) for each in said["wheels"]),
+                "belts": tuple(Belt(**each) for each in said["belts"]),
+                "rotors": tuple(PlannedRotor(**each) for each in said["rotors"]),
+                "notes": tuple(said["notes"]),
+            }
+        )

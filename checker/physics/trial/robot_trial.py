@@ -1,0 +1,77 @@
+"""A robot and its trial together: figures lead to the parts they are about."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from checker.base.record import record
+from checker.model.components import Joint, Link, Part
+from checker.model.robot import Robot
+from checker.physics.trial.trial import Leg, Trial
+
+
+@record(eq=False)
+class RobotTrial:
+    """A robot that was driven, and what was measured."""
+
+    robot: Robot
+    trial: Trial
+
+    def link(self, name: str) -> Link | Robot:
+        """Return the link of a scoped name; the robot if there is none."""
+        return self.robot.links_by_name.get(name, self.robot)
+
+    def joint(self, name: str) -> Joint | Robot:
+        """Return the joint of a scoped name; the robot if there is none."""
+        return self.robot.joints_by_name.get(name, self.robot)
+
+    def part(self, name: str) -> Part:
+        """Return the link of a scoped name, else the joint, else the robot."""
+        found = self.robot.links_by_name.get(name) or self.robot.joints_by_name.get(name)
+        return found or self.robot
+
+    @cached_property
+    def drive(self) -> Part:
+        """Where findings about its motion point: the plugin that moves it, else the robot."""
+        locomotion = self.robot.locomotion
+        plugins = [
+            *(drive.plugin for drive in locomotion.wheel_drives),
+            *(drive.plugin for drive in locomotion.tracked_drives),
+            *(track.plugin for track in locomotion.tracks),
+            *(copter.plugin for copter in locomotion.copters),
+            *(rotor.plugin for rotor in locomotion.rotors),
+        ]
+        return plugins[0] if plugins else self.robot
+
+    def leg(self, name: str) -> Leg | None:
+        """Return a stretch of the course by its name; None when it was not driven."""
+        return next((leg for leg in self.trial.legs if leg.name == name), None)
+
+    @property
+    def drives_backwards(self) -> bool:
+        """Whether it drives against the command, by more than a creep."""
+        return _against(self.trial.value("speed_ratio"))
+
+    @property
+    def turns_backwards(self) -> bool:
+        """Whether it turns against the command, by more than a creep."""
+        return _against(self.trial.value("yaw_ratio"))
+
+
+def _against(ratio: float | None) -> bool:
+    return ratio is not None and ratio < -_CREEP
+
+
+_CREEP = 0.05
+"""Share of the command below which no direction can be told."""
+
+
+@record(eq=False)
+class RepeatedTrial(RobotTrial):
+    """A robot that was driven twice.
+
+    Attributes:
+        again: The trial at half the time step.
+    """
+
+    again: Trial

@@ -1,0 +1,1 @@
+"""The robot driven in MuJoCo, in a child process."""

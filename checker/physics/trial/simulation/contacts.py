@@ -1,0 +1,154 @@
+"""Parts of a robot inside each other: a query of its own, since in motion they do not collide.
+
+Links that are fixed to each other count as one, and those that a joint ties may overlap: wheels sit
+on hubs. How deep shapes are inside each other is the way by which one would have to be moved out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from checker.physics.trial.mjcf.scene import GROUND, Scene
+from checker.physics.trial.trial import Measurement
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Pair = tuple[str, str]
+
+_LEAST = 1e-3
+"""Metres; less is a matter of how shapes are rounded."""
+_MOST_PAIRS = 30
+_STEPS = 24
+"""Of a joint through its range: 15° of a full turn."""
+_EFFORT = 100_000
+"""Shapes times poses that are looked at: about a second."""
+_FULL_TURN = 2 * math.pi
+_LONGEST = 10.0
+"""Metres that a sliding joint is moved at most."""
+
+
+def overlaps(scene: Scene) -> tuple[Measurement, ...]:
+    """Return the overlaps of a robot at the start, and those that a joint's range adds.
+
+    Args:
+        scene: One that MuJoCo accepts.
+    """
+    query = ContactQuery(scene)
+    at_start = query.depths()
+    swept = query.swept(already=at_start)
+    left_out = (Measurement("unswept_joints", float(query.unswept)),) if query.unswept else ()
+    overlapping = (*_measured("start_overlap", at_start), *_measured("sweep_overlap", swept))
+    return (*overlapping, *left_out)
+
+
+def _measured(name: str, depths: Mapping[Pair, float]) -> Iterator[Measurement]:
+    deepest = sorted(depths.items(), key=lambda item: (-item[1], item[0]))
+    for (first, second), depth in deepest[:_MOST_PAIRS]:
+        yield Measurement(name, depth, first, second)
+
+
+@dataclass
+class ContactQuery:
+    """Which parts of a robot are inside each other, in poses of its joints.
+
+    Attributes:
+        unswept: Joints that `swept` left out: with so many shapes it would take too long.
+    """
+
+    scene: Scene
+    unswept: int = 0
+
+    def __post_init__(self) -> None:
+        import mujoco
+
+        self.model = mujoco.MjModel.from_xml_string(self.scene.mjcf)
+        self.model.geom_contype[:] = 1
+        self.model.geom_conaffinity[:] = 1
+        self.model.body_contype[:] = 1
+        self.model.body_conaffinity[:] = 1
+        self.data = mujoco.MjData(self.model)
+        self.parts = [self._part(geom) for geom in range(self.model.ngeom)]
+        self.pieces = [self.scene.welded.get(part, part) for part in self.parts]
+        self.tied = {frozenset(pair) for pair in self.scene.tied}
+
+    def depths(self, qpos: Sequence[float] | None = None) -> dict[Pair, float]:
+        """Return how deep pairs of links, or a link and the ground, are inside each other, metres.
+
+        Args:
+            qpos: Of the model; the pose at the start if none is given.
+        """
+        import mujoco
+
+        self.data.qpos[:] = self.model.qpos0 if qpos is None else qpos
+        mujoco.mj_kinematics(self.model, self.data)
+        mujoco.mj_collision(self.model, self.data)
+        deepest: dict[Pair, float] = {}
+        geoms, distances = self.data.contact.geom.tolist(), self.data.contact.dist.tolist()
+        for (one, two), distance in zip(geoms, distances, strict=True):
+            if distance <= -_LEAST and self._counts(one, two):
+                pair = self._pair(one, two)
+                deepest[pair] = max(deepest.get(pair, 0.0), -distance)
+        return deepest
+
+    def swept(self, already: Mapping[Pair, float]) -> dict[Pair, float]:
+        """Return the deepest overlaps while one joint after another moves and all else rests.
+
+        Args:
+            already: Pairs that overlap at the start; nothing more is said about them.
+        """
+        ranges = list(self._ranges())
+        share = _EFFORT // max(self.model.ngeom * len(ranges), 1)
+        steps = min(max(share, 4), _STEPS)
+        most = _EFFORT // (self.model.ngeom * steps)
+        self.unswept = max(len(ranges) - most, 0)
+        deepest: dict[Pair, float] = {}
+        for address, low, high in ranges[:most]:
+            for step in range(steps + 1):
+                pose = self.model.qpos0.copy()
+                pose[address] = low + (high - low) * step / steps
+                for pair, depth in self.depths(pose).items():
+                    if pair not in already and GROUND not in pair:
+                        deepest[pair] = max(deepest.get(pair, 0.0), depth)
+        return deepest
+
+    def _ranges(self) -> Iterator[tuple[int, float, float]]:
+        """Yield where each joint to move stands in `qpos`, and between which values it moves.
+
+        Slides without limits are left out: nothing says how far they go.
+        """
+        import mujoco
+
+        for joint in self.scene.swept:
+            name = self.scene.joints[joint]
+            for each in (name, f"{name}_2"):
+                index = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, each)
+                if index < 0:
+                    continue
+                address = int(self.model.jnt_qposadr[index])
+                slides = self.model.jnt_type[index] == mujoco.mjtJoint.mjJNT_SLIDE
+                turns = self.model.jnt_type[index] == mujoco.mjtJoint.mjJNT_HINGE
+                limited = bool(self.model.jnt_limited[index])
+                low, high = (float(each) for each in self.model.jnt_range[index])
+                if turns and not (limited and high - low < _FULL_TURN):
+                    yield address, 0.0, _FULL_TURN
+                elif limited and slides:
+                    yield address, max(low, -_LONGEST), min(high, _LONGEST)
+                elif limited:
+                    yield address, low, high
+
+    def _part(self, geom: int) -> str:
+        name = self.model.geom(geom).name
+        return self.scene.geoms.get(name, GROUND)
+
+    def _pair(self, one: int, two: int) -> Pair:
+        first, second = sorted((self.parts[one], self.parts[two]))
+        return (second, first) if first == GROUND else (first, second)
+
+    def _counts(self, one: int, two: int) -> bool:
+        """Return whether two shapes are of parts that no joint ties directly."""
+        first, second = self.pieces[one], self.pieces[two]
+        return first != second and frozenset((first, second)) not in self.tied

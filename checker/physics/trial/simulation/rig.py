@@ -1,0 +1,167 @@
+"""A scene in MuJoCo with the servos and belts that a plan needs, found by the robot's names."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from checker.physics.trial.mjcf.carriers import carriers_of
+from checker.physics.trial.mjcf.scene import Scene
+from checker.physics.trial.plan import Plan
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_WHEEL_SECONDS = 0.001
+"""Time constant of a wheel's velocity servo."""
+_HOLD_SECONDS = 0.01
+"""Of a position servo: stiff against the robot's weight, slow against the time step."""
+
+
+class Rig:
+    """MuJoCo's model and data, ready to step.
+
+    Attributes:
+        model, data: MuJoCo's.
+        root: Number of the body whose pose is the robot's.
+        mass: Of the robot, kg.
+        parts: Of each geom, the scoped name of its link; empty for the ground.
+        joints: Number of the joint of each actuator.
+        names: Scoped name of the joint of each actuator.
+        initial: Where these joints start, rad or m.
+        tracked: Scoped names of the links whose motion is kept.
+        bodies: Numbers of their bodies.
+    """
+
+    def __init__(self, scene: Scene, plan: Plan, timestep: float) -> None:
+        """Compile the scene.
+
+        Raises:
+            ValueError: MuJoCo refuses it.
+        """
+        import mujoco
+        import numpy as np
+
+        self.scene, self.plan = scene, plan
+        self.model: Any = mujoco.MjModel.from_xml_string(scene.mjcf)
+        self.model.opt.timestep = timestep
+        self.model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+        self.data: Any = mujoco.MjData(self.model)
+        self.root: int = self.model.body(scene.bodies[scene.root]).id
+        self.mass = float(self.model.body_subtreemass[0])
+        self.parts = [scene.geoms.get(self.model.geom(i).name, "") for i in range(self.model.ngeom)]
+        self.names = sorted(scene.actuators, key=self._actuator)
+        self.joints = np.array([self._joint(name) for name in self.names], dtype=int)
+        self.tracked = list(dict.fromkeys(carriers_of(scene).values()))
+        bodies = [self.model.body(scene.bodies[name]).id for name in self.tracked]
+        self.bodies = np.array(bodies, dtype=int)
+        self._link_place = np.array(scene.root_in_robot[:3])
+        turned = np.zeros(9)
+        mujoco.mju_quat2Mat(turned, np.array(scene.root_in_robot[3:]))
+        self._link_to_robot = turned.reshape(3, 3).T
+        mujoco.mj_forward(self.model, self.data)
+        self._tune()
+        self.initial = self.positions
+        self.belts = self._belts()
+
+    def _actuator(self, joint: str) -> int:
+        return int(self.model.actuator(self.scene.actuators[joint]).id)
+
+    def _joint(self, name: str) -> int:
+        return int(self.model.joint(self.scene.joints[name]).id)
+
+    @property
+    def positions(self) -> Array:
+        """Where the joints of the actuators stand, rad or m."""
+        found: Array = self.data.qpos[self.model.jnt_qposadr[self.joints]]
+        return found
+
+    def pose(self) -> tuple[Array, Array]:
+        """Return position (metres) and rotation (3×3) of the robot's frame in the world."""
+        return self.frame(self.data.xpos[self.root], self.data.xmat[self.root])
+
+    def frame(self, place: Array, turn: Array) -> tuple[Array, Array]:
+        """Return the pose of the robot's frame, from one or many of the body `root`.
+
+        Args:
+            place: Position, metres (… × 3).
+            turn: Rotation (… × 9).
+        """
+        rotation = turn.reshape(*turn.shape[:-1], 3, 3) @ self._link_to_robot
+        return place - rotation @ self._link_place, rotation
+
+    def _tune(self) -> None:
+        """Give each servo the stiffness that its load asks for; their force has no limit.
+
+        A limited stiff servo chatters; what it asks for is compared with the limits afterwards.
+        """
+        own, reaches = self._own_inertia(), self._reaches()
+        wheels = {wheel.joint: wheel for wheel in self.plan.wheels}
+        for number, name in enumerate(self.names):
+            inertia = own[number]
+            if name in wheels:
+                share = self.mass / len(wheels)
+                inertia += share * wheels[name].radius ** 2
+            if name in self.plan.speeds:
+                self._velocity_servo(number, inertia / _WHEEL_SECONDS)
+            else:
+                carried = inertia + self.mass * reaches[number] ** 2
+                # Critically damped.
+                stiffness = carried / _HOLD_SECONDS**2
+                self._position_servo(number, stiffness, 2 * carried / _HOLD_SECONDS)
+
+    def _own_inertia(self) -> Array:
+        """Return each joint's diagonal of the mass matrix, kg·m² or kg."""
+        model = self.model
+        # The diagonal ends each row of the sparse lower triangle.
+        last = model.M_rowadr + model.M_rownnz - 1
+        diagonal: Array = self.data.M[last][model.jnt_dofadr[self.joints]]
+        return diagonal
+
+    def _reaches(self) -> Array:
+        """Return how far from each joint the parts below it reach, metres.
+
+        It is the lever at which a joint carries the robot if the robot stands on these parts.
+        """
+        import numpy as np
+
+        model, data = self.model, self.data
+        reaches = np.zeros(len(self.joints))
+        # Bodies are numbered depth first: those below one follow it.
+        last = np.arange(model.nbody)
+        for body in range(model.nbody - 1, 0, -1):
+            parent = model.body_parentid[body]
+            last[parent] = max(last[parent], last[body])
+        for number, joint in enumerate(self.joints):
+            body = model.jnt_bodyid[joint]
+            below = (model.geom_bodyid >= body) & (model.geom_bodyid <= last[body])
+            away = np.linalg.norm(data.geom_xpos[below] - data.xanchor[joint], axis=1)
+            reaches[number] = np.max(away + model.geom_rbound[below], initial=0.0)
+        return reaches
+
+    def _velocity_servo(self, number: int, gain: float) -> None:
+        self.model.actuator_gainprm[number, 0] = gain
+        self.model.actuator_biasprm[number, :3] = 0.0, 0.0, -gain
+
+    def _position_servo(self, number: int, stiffness: float, damping: float) -> None:
+        self.model.actuator_gainprm[number, 0] = stiffness
+        self.model.actuator_biasprm[number, :3] = 0.0, -stiffness, -damping
+
+    def _belts(self) -> tuple[list[int], list[Array]]:
+        """Return the geoms of belts, and in its frame the velocity of each surface at 1 m/s."""
+        import numpy as np
+
+        geoms: list[int] = []
+        surfaces: list[Array] = []
+        _, robot = self.pose()
+        for belt in self.plan.belts:
+            # The surface runs backwards where it touches the ground.
+            surface = -(robot @ np.array(belt.forward))
+            for name in self.scene.belts.get(belt.link, ()):
+                geom = int(self.model.geom(name).id)
+                frame = self.data.geom_xmat[geom].reshape(3, 3)
+                geoms.append(geom)
+                surfaces.append(frame.T @ surface)
+        return geoms, surfaces

@@ -1,0 +1,176 @@
+"""Drives a robot in MuJoCo: commands in, samples out. Runs in the child process."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from checker.physics.trial.course import HOVER
+from checker.physics.trial.measures.touches import ContactLog
+from checker.physics.trial.mjcf.scene import Scene
+from checker.physics.trial.plan import Plan
+from checker.physics.trial.profile import Knots
+from checker.physics.trial.simulation.flight import PILOT_SECONDS, Pilot
+from checker.physics.trial.simulation.rig import Rig
+from checker.physics.trial.simulation.samples import (
+    CLOSE_SECONDS,
+    SAMPLE_SECONDS,
+    Samples,
+    take,
+)
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_AWAY = 1e4
+"""Metres from the start beyond which a robot is not simulated but lost."""
+_WARNINGS = {
+    "mjWARN_BADQPOS": "a position that is no usable number",
+    "mjWARN_BADQVEL": "a velocity that is no usable number",
+    "mjWARN_BADQACC": "an acceleration that is no usable number",
+}
+
+
+@dataclass
+class Run:
+    """A simulation.
+
+    Attributes:
+        rig: With the state at the end.
+        timestep: Seconds.
+        samples: At the start and every 50 ms.
+        contacts: With the ground, sampled more often.
+        forces: Of the servos in each step, N·m or N (steps × servos).
+        hover_effort: Largest share of its greatest thrust that a rotor gives to carry the weight;
+            None if no shares keep the balance, and for what does not fly.
+        trouble: What ended it before its time, as the end of a sentence; else empty.
+    """
+
+    rig: Rig
+    timestep: float
+    samples: Samples = field(default_factory=Samples)
+    contacts: ContactLog = field(default_factory=ContactLog)
+    forces: list[Array] = field(default_factory=list)
+    hover_effort: float | None = None
+    trouble: str = ""
+
+
+def drive(scene: Scene, plan: Plan, timestep: float) -> Run:
+    """Drive the course.
+
+    Args:
+        scene: The robot.
+        plan: What it shall do.
+        timestep: Seconds.
+
+    Raises:
+        ValueError: MuJoCo refuses the scene.
+    """
+    import mujoco
+
+    rig = Rig(scene, plan, timestep)
+    run = Run(rig, timestep)
+    steps = round(plan.seconds / timestep)
+    every, often = round(SAMPLE_SECONDS / timestep), round(PILOT_SECONDS / timestep)
+    commands = _commands({**plan.speeds, **plan.places}, rig.names, steps, timestep)
+    belts = _Belts(rig, plan, steps, timestep) if plan.belts else None
+    pilot = Pilot(rig, plan) if plan.rotors else None
+    model, data = rig.model, rig.data
+    step = mujoco.mj_step
+    lift = _step_of(plan, HOVER, timestep)
+    touched = _touched(plan, steps, every, timestep)
+    for number in range(steps):
+        data.ctrl[:] = commands[number]
+        if belts is not None and number in belts.changes:
+            model.geom_surfacevel[belts.geoms, :3] = belts.velocities(number)
+        if pilot is not None and number >= lift:
+            if number == lift:
+                run.hover_effort = pilot.take_over()
+            if (number - lift) % often == 0:
+                pilot.fly(number * timestep)
+        step(model, data)
+        run.forces.append(data.actuator_force.copy())
+        if number in touched:
+            run.contacts.add(rig, number * timestep)
+        if number % every == 0:
+            take(run.samples, rig, number * timestep)
+            run.trouble = _trouble(rig, number * timestep)
+            if run.trouble:
+                break
+    return run
+
+
+def _step_of(plan: Plan, leg: str, timestep: float) -> int:
+    found = plan.leg(leg)
+    return round(found.start / timestep) if found is not None else 0
+
+
+def _touched(plan: Plan, steps: int, every: int, timestep: float) -> set[int]:
+    """Return the steps whose contacts are sampled."""
+    touched = set(range(0, steps, every))
+    for leg in plan.legs:
+        close = CLOSE_SECONDS.get(leg.name, 0.0)
+        first, behind = round((leg.end - close) / timestep), round(leg.end / timestep)
+        touched.update(range(first, behind))
+    return touched
+
+
+def _commands(lines: dict[str, Knots], joints: list[str], steps: int, timestep: float) -> Array:
+    """Return the command of each servo in each step (steps × servos)."""
+    import numpy as np
+
+    commands = np.zeros((steps, len(joints)))
+    for column, joint in enumerate(joints):
+        commands[:, column] = _sampled(lines[joint], steps, timestep)
+    return commands
+
+
+def _sampled(line: Knots, steps: int, timestep: float) -> Array:
+    import numpy as np
+
+    times = np.arange(steps) * timestep
+    sampled: Array = np.interp(times, [time for time, _ in line], [value for _, value in line])
+    return sampled
+
+
+class _Belts:
+    """The surfaces of belts.
+
+    Attributes:
+        geoms: Whose surfaces move.
+        changes: Steps in which a belt changes its speed.
+    """
+
+    def __init__(self, rig: Rig, plan: Plan, steps: int, timestep: float) -> None:
+        import numpy as np
+
+        self.geoms, surfaces = rig.belts
+        self._surfaces = np.array(surfaces).reshape(-1, 3)
+        lines = {belt.link: _sampled(belt.speed, steps, timestep) for belt in plan.belts}
+        speeds = [lines[rig.parts[geom]] for geom in self.geoms]
+        self._speeds = np.array(speeds).reshape(-1, steps).T
+        changed = (np.diff(self._speeds, axis=0) != 0.0).any(axis=1)
+        self.changes = {0, *(np.flatnonzero(changed) + 1).tolist()}
+
+    def velocities(self, number: int) -> Array:
+        """Return the velocities of the surfaces in a step, m/s, in the frames of their geoms."""
+        moved: Array = self._speeds[number][:, None] * self._surfaces
+        return moved
+
+
+def _trouble(rig: Rig, time: float) -> str:
+    """Return what went wrong in the simulation, as the end of a sentence; else nothing."""
+    import mujoco
+
+    for name, what in _WARNINGS.items():
+        warning = rig.data.warning[getattr(mujoco.mjtWarning, name)]
+        if warning.number:
+            return f"ended after {time:.2f} s with {what} ({name.removeprefix('mjWARN_')})"
+    away = math.hypot(*rig.data.xpos[rig.root])
+    if not away < _AWAY:
+        return f"ended after {time:.2f} s with the robot {away:.3g} m away"
+    return ""

@@ -1,0 +1,194 @@
+"""What a trial measured: data only, the same in the report's JSON."""
+
+from __future__ import annotations
+
+import sys
+from array import array
+from base64 import b64decode, b64encode
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, field, replace
+from typing import Any
+
+from checker.base.record import record
+
+
+@record()
+class Repair:
+    """A change that was needed so that the trial could go on.
+
+    Attributes:
+        part: Scoped name of a link or joint of the robot.
+        what: The change, as the end of a sentence: `has a zero principal moment, 1e-7 kg·m² taken`.
+        serious: Whether MuJoCo refuses the model as written for it.
+    """
+
+    part: str
+    what: str
+    serious: bool = False
+
+
+@record()
+class Leg:
+    """A stretch of the course.
+
+    Attributes:
+        name: `settle`, `drive`, `stop after drive`, `turn`, `stop after turn`, `full speed`;
+            `hover`, `climb` of copters; `hold` of legged robots and those without drive.
+        start: Seconds.
+        end: Seconds.
+        linear: Commanded forward speed (for `climb` the height rate), m/s.
+        angular: Commanded turn rate, rad/s.
+    """
+
+    name: str
+    start: float
+    end: float
+    linear: float = 0.0
+    angular: float = 0.0
+
+
+@record()
+class Measurement:
+    """One figure.
+
+    Attributes:
+        name: Such as `speed_ratio`; the list is in `checker/physics/trial/measures/figures.py`.
+        value: In the unit that the list says; never NaN (a figure that is none is left out).
+        part: Scoped name of the link or joint it is about; empty for the robot.
+        other: Scoped name of the second part, for figures about pairs; `ground` for the ground.
+    """
+
+    name: str
+    value: float
+    part: str = ""
+    other: str = ""
+
+
+@record()
+class Replay:
+    """How the robot moved, to be looked at.
+
+    Attributes:
+        time: Of each sample, seconds.
+        poses: By the scoped name of each link that moves by itself: position x, y, z (metres) and
+            quaternion w, x, y, z of the link's frame in the world, flat, seven numbers a sample.
+        carriers: Scoped name of the link in `poses` that carries it, for each other link.
+    """
+
+    time: tuple[float, ...]
+    poses: Mapping[str, tuple[float, ...]]
+    carriers: Mapping[str, str]
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what JSON can express: the poses in single precision, little-endian, as base64."""
+        return {
+            "time": list(self.time),
+            "poses": {name: _to_text(poses) for name, poses in self.poses.items()},
+            "carriers": dict(self.carriers),
+        }
+
+    @classmethod
+    def from_json(cls, said: Mapping[str, Any]) -> Replay:
+        """Return the replay that `as_json` expressed.
+
+        Raises:
+            KeyError, TypeError, ValueError: It is no replay.
+        """
+        time = tuple(said["time"])
+        poses = {name: _from_text(text) for name, text in said["poses"].items()}
+        if any(len(each) != POSE_NUMBERS * len(time) for each in poses.values()):
+            raise ValueError("a replay needs seven numbers a sample of each link")
+        return cls(time, poses, dict(said["carriers"]))
+
+
+def _to_text(numbers: Sequence[float]) -> str:
+    return b64encode(_swapped(array("f", numbers)).tobytes()).decode("ascii")
+
+
+def _from_text(text: str) -> tuple[float, ...]:
+    numbers = array("f", b64decode(text))
+    return tuple(_swapped(numbers))
+
+
+def _swapped(numbers: array[float]) -> array[float]:
+    """Turn the machine's order of bytes into little-endian, or back."""
+    if sys.byteorder == "big":
+        numbers.byteswap()
+    return numbers
+
+
+POSE_NUMBERS = 7
+"""Of a pose in a replay: x, y, z, and the quaternion w, x, y, z."""
+
+
+@record()
+class Trial:
+    """The outcome of a trial.
+
+    Attributes:
+        drive: What was driven, a value of `DriveKind`.
+        versions: Of MuJoCo and of the course, by name.
+        legs: The course that was driven; empty when MuJoCo refused the model.
+        measurements: All figures.
+        repairs: What had to be changed.
+        refused: MuJoCo's reason not to take the model even with repairs; empty if it did.
+        refused_part: Scoped name of the link or joint that the reason is about; empty if unknown.
+        trouble: Solver warnings and NaN, as ends of sentences; empty for a sound run.
+        notes: What was left out of the trial and why, as sentences.
+        not_driven: Why a robot that has a drive was only let stand, as the end of a sentence.
+        series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
+            `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
+            `torque:<joint>` (N·m), `joint:<joint>` (rad or m).
+        replay: How it moved; None where nothing moved, and of robots of too many moving parts.
+    """
+
+    drive: str
+    versions: Mapping[str, str] = field(default_factory=dict)
+    legs: tuple[Leg, ...] = ()
+    measurements: tuple[Measurement, ...] = ()
+    repairs: tuple[Repair, ...] = ()
+    refused: str = ""
+    refused_part: str = ""
+    trouble: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    not_driven: str = ""
+    series: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    replay: Replay | None = None
+
+    def value(self, name: str, part: str = "") -> float | None:
+        """Return a figure; None when it was not measured."""
+        for each in self.measurements:
+            if each.name == name and each.part == part:
+                return each.value
+        return None
+
+    def all(self, name: str) -> tuple[Measurement, ...]:
+        """Return the figures of one name, of every part they were measured for."""
+        return tuple(each for each in self.measurements if each.name == name)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        replay = self.replay.as_json() if self.replay is not None else None
+        return {**asdict(replace(self, replay=None)), "replay": replay}
+
+    @classmethod
+    def from_json(cls, said: Mapping[str, Any]) -> Trial:
+        """Return the trial that `as_json` expressed.
+
+        Raises:
+            KeyError, TypeError, ValueError: It is no trial.
+        """
+        return cls(
+            drive=said["drive"],
+            versions=dict(said["versions"]),
+            legs=tuple(Leg(**each) for each in said["legs"]),
+            measurements=tuple(Measurement(**each) for each in said["measurements"]),
+            repairs=tuple(Repair(**each) for each in said["repairs"]),
+            refused=said["refused"],
+            refused_part=said["refused_part"],
+            trouble=tuple(said["trouble"]),
+            notes=tuple(said["notes"]),
+            not_driven=said["not_driven"],
+            series={name: tuple(values) for name, values in said["series"].items()},
+            replay=Replay.from_json(said["replay"]) if said["replay"] is not None else None,
+        )

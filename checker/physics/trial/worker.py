@@ -1,0 +1,73 @@
+"""Drives a trial in a child process: the module behind `checker.base.child_process`."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+
+from checker.base.sandbox.files import NO_FILES, Files
+from checker.physics.trial.course import VERSION
+from checker.physics.trial.measures.measurement import measured
+from checker.physics.trial.measures.motion import Motion
+from checker.physics.trial.measures.series import replay_of, series_of, too_many
+from checker.physics.trial.mjcf.scene import Scene
+from checker.physics.trial.plan import Plan
+from checker.physics.trial.simulation.contacts import overlaps
+from checker.physics.trial.simulation.simulation import drive
+from checker.physics.trial.trial import Trial
+
+
+def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
+    """Drive a robot.
+
+    Args:
+        request: JSON with `scene`, `plan` and `timestep` (seconds).
+
+    Returns:
+        JSON of the trial.
+    """
+    said = json.loads(request)
+    trial = driven(Scene.from_json(said["scene"]), Plan.from_json(said["plan"]), said["timestep"])
+    return json.dumps(trial.as_json()).encode()
+
+
+def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:
+    """Drive a robot and measure; a run that MuJoCo gives up is tried again with half the step."""
+    import mujoco
+
+    trial = Trial(
+        drive=plan.kind,
+        versions={"mujoco": mujoco.__version__, "course": VERSION},
+        repairs=scene.repairs,
+        notes=(*scene.notes, *plan.notes, *too_many(scene)),
+        not_driven=plan.not_driven,
+    )
+    try:
+        run = drive(scene, plan, timestep)
+        if run.trouble:
+            run = drive(scene, plan, timestep / 2)
+    except ValueError as refusal:
+        return _refused(trial, str(refusal), scene)
+    motion = Motion(run, plan)
+    return replace(
+        trial,
+        legs=plan.legs,
+        measurements=(*measured(motion), *overlaps(scene)),
+        trouble=(run.trouble,) if run.trouble else (),
+        series=series_of(motion),
+        replay=replay_of(run),
+    )
+
+
+def _refused(trial: Trial, reason: str, scene: Scene) -> Trial:
+    """Name what MuJoCo refuses by the names that the robot gives it."""
+    names = {mj: link for link, mj in scene.bodies.items()}
+    names |= {mj: joint for joint, mj in scene.joints.items()}
+    names |= scene.geoms
+    part = next((names[word] for word in _QUOTED.findall(reason) if word in names), "")
+    said = _QUOTED.sub(lambda found: f"'{names.get(found[1], found[1])}'", reason)
+    return replace(trial, refused=" ".join(said.split()), refused_part=part)
+
+
+_QUOTED = re.compile(r"'([^']*)'")

@@ -1,0 +1,243 @@
+"""From paths to a report: the whole pipeline on one screen."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import field, replace
+from itertools import chain
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from checker.base.cache import NO_CACHE, Cache, cache_folder
+from checker.base.errors import InvalidSettings, UnreadableInput
+from checker.base.garbage_collection import collection_put_off
+from checker.base.progress import Say, say_nothing
+from checker.base.record import record
+from checker.base.resources import versions
+from checker.base.words import shortened
+from checker.engine.report_cache import memory_key, recalled, remember
+from checker.finding import Safety
+from checker.package.inputs import open_input
+from checker.package.package import Package
+from checker.report.report import (
+    NotOpened,
+    PackageReport,
+    Report,
+)
+from checker.settings import Settings, find_settings, folders_above
+
+if TYPE_CHECKING:
+    from checker.base.child_process import Child
+
+
+def check_package(path: Path, settings: Settings | None = None) -> Report:
+    """Check a package, an archive, a folder of packages or a model file.
+
+    Args:
+        path: What to check.
+        settings: What to judge; those found beside each package when None.
+
+    Raises:
+        UnreadableInput: There is nothing to check at the path.
+        InvalidSettings: The settings name what does not exist; not raised for those in a package's
+            own folder, which the report tells among what was not opened.
+    """
+    return _report([list(_check_input(Task(path, settings=settings)))])
+
+
+def check_paths(
+    paths: Sequence[Path],
+    wishes: Mapping[str, Any],
+    jobs: int = 1,
+    say: Say = say_nothing,
+    mesh_child: Callable[[], Child] | None = None,
+) -> Report:
+    """Check several inputs; one that cannot be opened does not keep the others from it.
+
+    Args:
+        paths: What to check.
+        wishes: Fields of `Settings` that the command line sets; None leaves them.
+        jobs: Processes.
+        say: Told what takes long when it begins; called in each of the processes.
+        mesh_child: See `Task`; called in each of the processes.
+
+    Raises:
+        InvalidSettings: The settings name what does not exist; not raised for those in a package's
+            own folder, which the report tells among what was not opened.
+    """
+    inputs = [Task(path, wishes=wishes, say=say, mesh_child=mesh_child) for path in paths]
+    tasks = [task for each in inputs for task in _parts(each, jobs)]
+    if jobs > 1 and len(tasks) > 1:
+        from concurrent.futures import ProcessPoolExecutor
+
+        with ProcessPoolExecutor(jobs) as pool:
+            return _report(list(pool.map(_check_or_say_why_not, tasks)))
+    return _report([_check_or_say_why_not(task) for task in tasks])
+
+
+@record()
+class Task:
+    """What one process does at a time.
+
+    Attributes:
+        path: As the user gave it.
+        only: Name of the one package to check there; empty for all.
+        settings: To judge by, instead of those beside the package.
+        wishes: Fields of the settings to replace.
+        say: Told what takes long.
+        mesh_child: Starts what reads the meshes of a package, if it is not to be started as usual.
+    """
+
+    path: Path
+    only: str = ""
+    settings: Settings | None = None
+    wishes: Mapping[str, Any] = field(default_factory=dict)
+    say: Say = say_nothing
+    mesh_child: Callable[[], Child] | None = None
+
+    def settings_for(self, package: Package) -> Settings:
+        """Return the settings that judge a package; no search leaves an unpacked archive."""
+        if self.settings is not None:
+            return self.settings
+        given = self.path.resolve()
+        folders = folders_above(package.root)
+        if given.is_file() and not package.only:
+            inside = folders_above(package.root, top=package.workspace.directories[0])
+            folders = chain(inside, folders_above(given.parent))
+        return find_settings(folders).overridden(**self.wishes)
+
+    def shown(self, package: Package) -> str:
+        """Return the package's path as the user would write it."""
+        if package.only:
+            return str(self.path.parent)
+        given = self.path.resolve()
+        if package.root.is_relative_to(given):
+            return str(self.path / package.root.relative_to(given))
+        return str(self.path / package.name)
+
+
+def _parts(task: Task, jobs: int) -> list[Task]:
+    """Part the check of a folder into those of its packages, so that processes can share them."""
+    try:
+        if jobs > 1 and task.path.is_dir():
+            with open_input(task.path) as opened:
+                return [replace(task, only=each.name) for each in opened.packages]
+    except (UnreadableInput, OSError):
+        pass  # the task that meets it again says so
+    return [task]
+
+
+_Checked = list[PackageReport | NotOpened]
+_PATCHED = 2000
+"""Findings whose fixes a report's patch holds; `--fix` makes all."""
+_PROBLEM_LIMIT = 600
+"""Characters of what is wrong with settings."""
+
+
+def _check_or_say_why_not(task: Task) -> _Checked:
+    try:
+        return list(_check_input(task))
+    except UnreadableInput as error:
+        return [NotOpened(str(task.path), f"{error.reason}; {error.advice}", failed=True)]
+
+
+def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:
+    started = perf_counter()
+    with open_input(task.path) as opened:
+        opening = perf_counter() - started
+        for number, package in enumerate(opened.packages):
+            if task.only in ("", package.name):
+                if number:
+                    # The packages before have left what nothing but the collection finds.
+                    gc.collect()
+                report = _checked(package, task)
+                if isinstance(report, PackageReport):
+                    report = replace(report, timings={"open": opening, **report.timings})
+                yield report
+        for each in opened.skipped:
+            yield NotOpened(str(task.path / each.name), each.reason, failed=False)
+
+
+def _checked(package: Package, task: Task) -> PackageReport | NotOpened:
+    """Check a package; where its own settings are at fault, the others are checked all the same."""
+    try:
+        return _recalled_or_judged(package, task)
+    except InvalidSettings as error:
+        if task.settings or error.path is None or not error.path.is_relative_to(package.root):
+            raise
+        file = error.path.relative_to(package.root)
+        problem = shortened(error.problem, _PROBLEM_LIMIT)
+        reason = f"is not checked: its settings cannot be used: {file}: {problem}"
+        return NotOpened(task.shown(package), reason, failed=True)
+
+
+def settings_of(path: Path) -> Iterator[Settings]:
+    """Yield the settings of each package at a path, but for those that cannot be used.
+
+    For packages in an archive these are the defaults: nothing that they name lasts.
+
+    Raises:
+        UnreadableInput: There is nothing to check at the path.
+    """
+    task = Task(path)
+    with open_input(path) as opened:
+        for package in opened.packages:
+            lasts = package.only or path.is_dir()
+            with suppress(InvalidSettings):
+                yield task.settings_for(package) if lasts else Settings()
+
+
+def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
+    """Take the report of a package from the cache while nothing has changed, else check it."""
+    started = perf_counter()
+    settings, shown = task.settings_for(package), task.shown(package)
+    cache = Cache(cache_folder()) if settings.cache else NO_CACHE
+    # An archive is unpacked into another folder each time.
+    is_archive = not task.path.is_dir()
+    key = memory_key(package, settings) if settings.cache and not is_archive else ""
+    known = recalled(cache, key, shown)
+    if known is not None:
+        return replace(known, timings={"recall": perf_counter() - started})
+    # Readers, engines and rules are loaded only when there is something to judge.
+    from checker.physics.mesh.early import early_child
+    from checker.report.scene.early import early_children
+
+    meshes = None if settings.select else early_child(package, cache, task.mesh_child)
+    early = early_children(meshes, display=settings.display)
+    with collection_put_off():
+        from checker.engine.review import judged
+
+        report = judged(package, shown, settings, cache, task.say, early)
+        if settings.display:
+            report = _with_patch(report, package)
+    remember(cache, key, report)
+    return report
+
+
+def _with_patch(report: PackageReport, package: Package) -> PackageReport:
+    """Add what the safe fixes change, for those who want to see it."""
+    from checker.fix.rounds import one_round, patch
+
+    started = perf_counter()
+    changes = ""
+    # Who needs a patch that cannot be made asks for it, and hears why.
+    with suppress(Exception):
+        changes = patch(one_round(package, report.findings[:_PATCHED], (Safety.SAFE,)))
+    timings = {**report.timings, "patch": perf_counter() - started}
+    return replace(report, patch=changes, timings=timings)
+
+
+def _report(done: Sequence[_Checked]) -> Report:
+    """Join what was checked; a package that was given twice is reported once."""
+    packages: dict[tuple[Path, str], PackageReport] = {}
+    not_opened: dict[NotOpened, None] = {}
+    for each in chain.from_iterable(done):
+        if isinstance(each, NotOpened):
+            not_opened[each] = None
+        else:
+            packages.setdefault((Path(each.path).resolve(), each.name), each)
+    ordered = sorted(packages.values(), key=lambda each: (each.name, each.path))
+    return Report(tuple(ordered), versions(), tuple(not_opened))

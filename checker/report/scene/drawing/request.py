@@ -1,0 +1,147 @@
+"""What the child that draws is asked: shapes in groups, and shots of them at moments."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from checker.base.record import record
+from checker.model.geometry.transform import Transform
+from checker.physics.trial.mjcf.names import quaternion, well_placed
+from checker.report.scene.drawing.camera import Camera
+from checker.report.scene.files.wire import surface_to_json
+from checker.report.scene.scene import DisplayScene, Item, Layer
+from checker.report.scene.surface import Surface
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+GROUPS = {Layer.VISUAL: 0, Layer.COLLISION: 1}
+"""The layers that are drawn, and the numbers by which shots choose them."""
+_FARTHEST = 1e5
+"""Metres; what reaches farther is not drawn."""
+_ITEMS = 2000
+"""That are drawn of a robot."""
+
+
+@record()
+class Shot:
+    """One picture.
+
+    Attributes:
+        caption: A sentence without its dot.
+        layer: What is seen.
+        camera: Where from.
+        tile: Length of the ground's tiles, metres.
+        sample: Of the tracks.
+    """
+
+    caption: str
+    layer: Layer
+    camera: Camera
+    tile: float = 1.0
+    sample: int = 0
+
+
+@dataclass(eq=False)
+class _Meshes:
+    """Surfaces as they are used: one entry for each that is used at one scale."""
+
+    known: dict[tuple[int, int, int, tuple[float, ...]], int] = field(default_factory=dict)
+    written: list[dict[str, Any]] = field(default_factory=list)
+
+    def number(self, surface: Surface, scale: tuple[float, float, float]) -> int:
+        colours = surface.vertex_colours
+        key = (id(surface.vertices), id(surface.faces), id(colours), scale)
+        if key not in self.known:
+            self.known[key] = len(self.written)
+            self.written.append(surface_to_json(_scaled(surface, scale)))
+        return self.known[key]
+
+
+def request_of(
+    scene: DisplayScene, shots: Sequence[Shot], ground: float, width: int, height: int
+) -> bytes:
+    """Return what the worker needs to know.
+
+    Args:
+        scene: Of the robot.
+        shots: Pictures of it.
+        ground: Height of the ground, metres.
+        width: Of a picture, pixels.
+        height: Likewise.
+    """
+    meshes = _Meshes()
+    shown = list(drawn_items(scene))
+    geoms = [
+        {
+            "mesh": meshes.number(surface, item.scale),
+            "link": number,
+            "group": GROUPS[item.layer],
+            "pose": _seven(item.pose),
+            "colour": surface.colour,
+        }
+        for number, item in shown
+        for surface in item.surfaces
+        if len(surface.faces)
+    ]
+    used = sorted({number for number, _ in shown})
+    asked = {
+        "width": width,
+        "height": height,
+        "ground": ground,
+        "meshes": meshes.written,
+        "links": used,
+        "geoms": geoms,
+        "shots": [_shot(scene, shot, used) for shot in shots],
+    }
+    return json.dumps(asked).encode()
+
+
+def drawn_items(scene: DisplayScene) -> Iterator[tuple[int, Item]]:
+    """Yield what is drawn, each with the number of its link."""
+    left = dict.fromkeys(GROUPS, _ITEMS)
+    for number, link in enumerate(scene.links):
+        for item in link.items:
+            if left.get(item.layer, 0) and _is_sound(item):
+                left[item.layer] -= 1
+                yield number, item
+
+
+def _is_sound(item: Item) -> bool:
+    import numpy as np
+
+    corners = [surface.vertices for surface in item.surfaces if len(surface.vertices)]
+    if not corners or not well_placed(item.pose):
+        return False
+    largest = max(float(np.abs(each).max()) for each in corners) * max(map(abs, item.scale))
+    return 0.0 < largest < _FARTHEST
+
+
+def _scaled(surface: Surface, scale: tuple[float, float, float]) -> Surface:
+    import numpy as np
+
+    x, y, z = scale
+    # Mirrored triangles are turned, so that their outer sides stay outside.
+    faces = surface.faces[:, ::-1] if x * y * z < 0.0 else surface.faces
+    vertices = surface.vertices * np.array(scale, np.float32)
+    return Surface(vertices, faces, vertex_colours=surface.vertex_colours)
+
+
+def _shot(scene: DisplayScene, shot: Shot, links: Sequence[int]) -> Mapping[str, Any]:
+    poses = scene.poses(shot.sample)
+    return {
+        "group": GROUPS[shot.layer],
+        "camera": shot.camera.as_json(),
+        "tile": shot.tile,
+        "see_through": shot.layer is Layer.COLLISION,
+        "poses": [_seven(poses[scene.links[number].name]) for number in links],
+    }
+
+
+def _seven(pose: Transform) -> list[float]:
+    return [*pose.translation, *quaternion(pose.rotation)]

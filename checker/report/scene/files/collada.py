@@ -1,0 +1,144 @@
+"""Triangles of a COLLADA file by material.
+
+Only diffuse colours, diffuse pictures and transparency are taken over (COLLADA 1.4.1, FX elements
+of profile_COMMON): the light of the display is not that of the file.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from lxml import etree
+
+from checker.physics.mesh.collada_xml import local_name, parse_collada, without_looks
+from checker.physics.mesh.dae import metres_per_unit, triangles_of_scene
+from checker.report.scene.files.piece import Look, Piece
+from checker.report.scene.surface import GREY, Colour
+
+_FAINTEST = 0.02
+"""Alpha below which a material counts as opaque: exporters that mix up 0 and 1 are common."""
+
+
+def collada_pieces(data: bytes) -> Iterator[Piece]:
+    """Yield the triangles of the scene, metres.
+
+    Raises:
+        NoSurface: The file is no COLLADA.
+    """
+    import numpy as np
+
+    root, _ = parse_collada(data)
+    metres, _ = metres_per_unit(root)
+    looks = _Looks(root)
+    for geometry, triangles in triangles_of_scene(without_looks(root))[0]:
+        look = looks.of(geometry, triangles.original.material or "")
+        corners = np.asarray(triangles.vertex, np.float64)[triangles.vertex_index] * metres
+        yield Piece(corners, look, _places(triangles))
+
+
+def _places(triangles: Any) -> Any:
+    """Return where corners lie in a picture, by the first set that the file has of it."""
+    import numpy as np
+
+    if not triangles.texcoordset:
+        return None
+    sets, numbers = triangles.texcoordset[0], triangles.texcoord_indexset[0]
+    sound = numbers.shape == triangles.vertex_index.shape and sets.shape[1:] >= (2,)
+    if not sound or numbers.min(initial=0) < 0 or numbers.max(initial=-1) >= len(sets):
+        return None
+    return np.asarray(sets, np.float64)[:, :2][numbers]
+
+
+class _Looks:
+    """The materials of a document; read before its looks are taken out."""
+
+    def __init__(self, root: etree._Element) -> None:
+        self._bound = _bound(root)
+        images = {_id(each): _text(each, "init_from") for each in root.iter("{*}image")}
+        effects = {_id(each): _look(each, images) for each in root.iter("{*}effect")}
+        self._materials = {
+            _id(each): effects.get(_target(each.find("{*}instance_effect"), "url"), Look())
+            for each in root.iter("{*}material")
+        }
+
+    def of(self, geometry: str, symbol: str) -> Look:
+        """Return the look of triangles of a geometry that name a symbol."""
+        return self._materials.get(self._bound.get((geometry, symbol), symbol), Look())
+
+
+def _bound(root: etree._Element) -> dict[tuple[str, str], str]:
+    """Return the id of the material that each symbol of a geometry stands for."""
+    return {
+        (_target(shown, "url"), bound.get("symbol", "")): _target(bound, "target")
+        for shown in root.iter("{*}instance_geometry")
+        for bound in shown.iter("{*}instance_material")
+    }
+
+
+def _look(effect: etree._Element, images: dict[str, str]) -> Look:
+    shading = effect.find("{*}profile_COMMON/{*}technique/*")
+    for kind in ("phong", "lambert", "blinn", "constant"):
+        found = effect.find(f"{{*}}profile_COMMON/{{*}}technique/{{*}}{kind}")
+        shading = found if found is not None else shading
+    if shading is None:
+        return Look()
+    shows = "emission" if local_name(shading) == "constant" else "diffuse"
+    texture = shading.find(f"{{*}}{shows}/{{*}}texture")
+    picture = _picture(effect, images, texture.get("texture", "")) if texture is not None else ""
+    red, green, blue, _ = _colour(shading, shows) or GREY
+    return Look((red, green, blue, _alpha(shading)), picture)
+
+
+def _picture(effect: etree._Element, images: dict[str, str], name: str) -> str:
+    """Return the file behind a texture: a sampler names a surface, which names an image."""
+    parameters = {each.get("sid", ""): each for each in effect.iter("{*}newparam")}
+    for inside in ("sampler2D/{*}source", "surface/{*}init_from"):
+        if name in parameters:
+            name = _text(parameters[name], inside) or name
+    return images.get(name, "")
+
+
+def _alpha(shading: etree._Element) -> float:
+    """Return how opaque a material is, by the modes A_ONE (the default) and RGB_ZERO."""
+    transparent = shading.find("{*}transparent")
+    if transparent is None:
+        return 1.0
+    share = _number(_text(shading, "transparency/{*}float") or "1")
+    red, green, blue, alpha = _colour(shading, "transparent") or (0.0, 0.0, 0.0, 1.0)
+    if transparent.get("opaque", "A_ONE") == "RGB_ZERO":
+        # Weights of luminance, as the specification has them.
+        opaque = 1.0 - share * (0.212671 * red + 0.71516 * green + 0.072169 * blue)
+    else:
+        opaque = share * alpha
+    return min(opaque, 1.0) if opaque > _FAINTEST else 1.0
+
+
+def _colour(shading: etree._Element, name: str) -> Colour | None:
+    written = _text(shading, f"{name}/{{*}}color").split()
+    numbers = [min(max(_number(word), 0.0), 1.0) for word in written[:4]]
+    if len(numbers) < 3 or not all(map(math.isfinite, numbers)):
+        return None
+    red, green, blue, alpha = (*numbers, 1.0)[:4]
+    return (red, green, blue, alpha)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def _text(element: etree._Element, path: str) -> str:
+    found = element.find(f"{{*}}{path}")
+    return (found.text or "").strip() if found is not None else ""
+
+
+def _id(element: etree._Element) -> str:
+    return element.get("id", "")
+
+
+def _target(element: etree._Element | None, name: str) -> str:
+    return element.get(name, "").lstrip("#") if element is not None else ""

@@ -1,0 +1,136 @@
+"""Triangles of a Wavefront OBJ file by material, and what its material files say of their looks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from checker.physics.mesh.obj import textures_in
+from checker.physics.mesh.surface import NoSurface
+from checker.report.scene.files.piece import Look, Piece
+from checker.report.scene.surface import GREY
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+_FAINTEST = 0.02
+"""Alpha below which a material counts as opaque: writers that mix up 0 and 1 are common."""
+
+
+@dataclass(eq=False)
+class _Faces:
+    """Triangles of one material: numbers of corners, and of places in its picture (-1: none)."""
+
+    corners: list[int] = field(default_factory=list)
+    places: list[int] = field(default_factory=list)
+
+
+@dataclass(eq=False)
+class _Reading:
+    """What the lines read so far say."""
+
+    corners: list[list[bytes]] = field(default_factory=list)
+    places: list[list[bytes]] = field(default_factory=list)
+    faces: dict[str, _Faces] = field(default_factory=dict)
+    material: str = ""
+
+    def line(self, words: list[bytes]) -> None:
+        """Take over one line."""
+        match words[0]:
+            case b"v":
+                self.corners.append(words[1:4])
+            case b"vt":
+                self.places.append([*words[1:3], b"0"][:2])
+            case b"usemtl":
+                self.material = _name(words)
+            case b"f":
+                self._face([self._corner(word) for word in words[1:]])
+
+    def _face(self, corners: list[tuple[int, int]]) -> None:
+        """Cut a polygon into a fan, as loaders do."""
+        faces = self.faces.setdefault(self.material, _Faces())
+        for second, third in pairwise(corners[1:]):
+            for corner, place in (corners[0], second, third):
+                faces.corners.append(corner)
+                faces.places.append(place)
+
+    def _corner(self, word: bytes) -> tuple[int, int]:
+        corner, place = [*word.split(b"/"), b""][:2]
+        return _counted(corner, self.corners), _counted(place or b"0", self.places)
+
+
+def wavefront_pieces(data: bytes, material_files: Iterable[bytes]) -> Iterator[Piece]:
+    """Yield the triangles, metres.
+
+    Raises:
+        NoSurface: The faces name corners that the file has not.
+        ValueError: A number is none.
+    """
+    import numpy as np
+
+    reading = _Reading()
+    for line in data.replace(b"\\\n", b" ").splitlines():
+        if words := line.split():
+            reading.line(words)
+    looks = {name: look for content in material_files for name, look in _looks(content)}
+    corners = np.array(reading.corners, np.float64).reshape(-1, 3)
+    places = np.array(reading.places, np.float64).reshape(-1, 2)
+    for material, faces in reading.faces.items():
+        triangles = _picked(corners, faces.corners)
+        if triangles is None:
+            raise NoSurface("names corners that it has not")
+        yield Piece(triangles, looks.get(material, Look()), _picked(places, faces.places))
+
+
+def _picked(rows: Array, numbers: list[int]) -> Array | None:
+    """Return the rows that triangles name (n × 3 × …); None where one of them does not exist."""
+    import numpy as np
+
+    chosen = np.array(numbers, np.int64).reshape(-1, 3)
+    if chosen.min(initial=0) < 0 or chosen.max(initial=-1) >= len(rows):
+        return None
+    picked: Array = rows[chosen]
+    return picked
+
+
+def _counted(word: bytes, known: list[Any]) -> int:
+    """Return a number that counts from 1, or backwards from the last one, as one from 0."""
+    number = int(word)
+    return number - 1 if number >= 0 else len(known) + number
+
+
+def _looks(content: bytes) -> Iterator[tuple[str, Look]]:
+    """Yield the materials of a material file: Kd, d or Tr, map_Kd."""
+    name, colour, alpha, picture = "", GREY[:3], 1.0, ""
+    for line in [*content.splitlines(), b"newmtl"]:
+        words = line.split() or [b""]
+        match words[0]:
+            case b"newmtl":
+                yield name, Look((*colour, alpha if alpha > _FAINTEST else 1.0), picture)
+                name, colour, alpha, picture = _name(words), GREY[:3], 1.0, ""
+            case b"Kd" if len(numbers := _numbers(words[1:4])) == 3:
+                colour = (numbers[0], numbers[1], numbers[2])
+            case b"d" if numbers := _numbers(words[-1:]):
+                alpha = numbers[0]
+            case b"Tr" if numbers := _numbers(words[-1:]):
+                alpha = 1.0 - numbers[0]
+            case b"map_Kd":
+                picture = next(iter(textures_in(line)), "")
+
+
+def _numbers(words: list[bytes]) -> list[float]:
+    """Return numbers between 0 and 1; nothing when a word is none."""
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        return []
+    return [min(max(each, 0.0), 1.0) for each in numbers if math.isfinite(each)]
+
+
+def _name(words: list[bytes]) -> str:
+    return b" ".join(words[1:]).decode("utf-8", "replace")

@@ -1,0 +1,238 @@
+"""Pictures of a robot and its trial, for readers without a 3D viewer and for print."""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+from checker.base.cache import NO_CACHE, Cache, code_hash, key_of
+from checker.base.child_process import Child, Died, from_json
+from checker.base.resources import version_of
+from checker.model.geometry.transform import Transform
+from checker.report.report import Picture
+from checker.report.scene.drawing.camera import Camera, framed
+from checker.report.scene.drawing.request import Shot, drawn_items, request_of
+from checker.report.scene.early import PLATFORMS, artist
+from checker.report.scene.scene import DisplayScene, Layer
+from checker.report.scene.surface import Surface
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+
+# Which pictures are taken of a robot: of its shapes, and of moments of its trial.
+
+
+MOMENTS = 3
+"""Of the trial."""
+_FROM_FRONT_LEFT, _FROM_SIDE = (212.0, -22.0), (262.0, -25.0)
+"""Azimuth and elevation of the camera's direction, degrees: of the robot, of its path."""
+_TILES = 8.0
+"""Tiles of the ground from the camera to what it looks at, or up to two and a half times more."""
+_ALONG_PATH = 12
+"""Samples that a camera must see to see the whole path."""
+_LEAST_MOTION = 0.02
+"""Metres that parts move on average between two moments worth a picture each."""
+
+
+def shots_of(scene: DisplayScene, aspect: float) -> Iterator[Shot]:
+    """Yield the shots of a robot.
+
+    Args:
+        scene: Of it.
+        aspect: Width of a picture over its height.
+    """
+    captions = {
+        Layer.VISUAL: "The robot, from its front left",
+        Layer.COLLISION: "Its collision shapes, from its front left",
+    }
+    for layer, caption in captions.items():
+        boxes = _boxes(scene, layer)
+        if boxes:
+            points = _points(scene, boxes, 0)
+            camera = framed(points, *_FROM_FRONT_LEFT, aspect)
+            yield Shot(caption, layer, camera, _tile(camera))
+    yield from _moments(scene, aspect)
+
+
+def _moments(scene: DisplayScene, aspect: float) -> Iterator[Shot]:
+    """Yield the moments of a trial that differ most, from one place that sees all of it."""
+    import numpy as np
+
+    chosen = _distinct(scene)
+    if scene.tracks is None or len(chosen) < 2:
+        return
+    layer = Layer.VISUAL if _boxes(scene, Layer.VISUAL) else Layer.COLLISION
+    boxes = _boxes(scene, layer)
+    if not boxes:
+        return
+    along = {*np.linspace(0, len(scene.tracks.time) - 1, _ALONG_PATH).astype(int), *chosen}
+    points = np.concatenate([_points(scene, boxes, int(sample)) for sample in along])
+    camera = framed(points, *_FROM_SIDE, aspect)
+    for sample in chosen:
+        seconds, tile = float(scene.tracks.time[sample]), _tile(camera)
+        caption = f"The trial after {seconds:.1f} s; tiles are {tile:g} m long"
+        yield Shot(caption, layer, camera, tile, sample)
+
+
+def _distinct(scene: DisplayScene) -> list[int]:
+    """Return samples of the tracks, in order: the first, and those that differ most from others."""
+    import numpy as np
+
+    if scene.tracks is None or not scene.tracks.poses or not len(scene.tracks.time):
+        return []
+    places = np.stack([poses[:, :3] for poses in scene.tracks.poses.values()], axis=1)
+    chosen = [0]
+    while len(chosen) < MOMENTS:
+        away = np.linalg.norm(places[:, None] - places[None, chosen], axis=3).mean(axis=2)
+        nearest = away.min(axis=1)
+        if not nearest.max() > _LEAST_MOTION:
+            break
+        chosen.append(int(nearest.argmax()))
+    return sorted(chosen)
+
+
+def _tile(camera: Camera) -> float:
+    """Return the length of the ground's tiles, metres: 1, 2 or 5 times a power of ten."""
+    whole = math.floor(math.log10(camera.distance / _TILES))
+    steps = (step * 10.0**whole for step in (5, 2, 1))
+    return next((each for each in steps if each <= camera.distance / _TILES), 10.0**whole)
+
+
+def _boxes(scene: DisplayScene, layer: Layer) -> dict[int, Array]:
+    """Return corners of boxes around what a layer shows, in the frames of the links (n × 3)."""
+    import numpy as np
+
+    found: dict[int, list[Array]] = {}
+    for number, item in drawn_items(scene):
+        if item.layer is layer:
+            corners = _box(item.surfaces) * np.array(item.scale)
+            found.setdefault(number, []).append(_moved(corners, item.pose))
+    return {number: np.concatenate(corners) for number, corners in found.items()}
+
+
+def _points(scene: DisplayScene, boxes: Mapping[int, Array], sample: int) -> Array:
+    """Return the corners of boxes in the world, metres (n × 3)."""
+    import numpy as np
+
+    poses = scene.poses(sample)
+    return np.concatenate(
+        [_moved(corners, poses[scene.links[number].name]) for number, corners in boxes.items()]
+    )
+
+
+def _moved(points: Array, pose: Transform) -> Array:
+    import numpy as np
+
+    moved: Array = points @ np.array(pose.rotation).T + np.array(pose.translation)
+    return moved
+
+
+def _box(surfaces: Sequence[Surface]) -> Array:
+    import numpy as np
+
+    vertices = [each.vertices for each in surfaces if len(each.vertices)]
+    low = np.min([each.min(axis=0) for each in vertices], axis=0)
+    high = np.max([each.max(axis=0) for each in vertices], axis=0)
+    return np.array([*product(*zip(low, high, strict=True))], np.float64)
+
+
+def ground_of(scene: DisplayScene) -> float:
+    """Return the height of the ground: 0 in a trial's world, else below the robot."""
+    import numpy as np
+
+    if scene.tracks is not None:
+        return 0.0
+    boxes = (_boxes(scene, layer) for layer in (Layer.VISUAL, Layer.COLLISION))
+    points = np.concatenate([_points(scene, each, 0) for each in boxes if each])
+    return float(points[:, 2].min())
+
+
+WIDTH, HEIGHT = 640, 480
+"""Pixels."""
+_KIND = "pictures"
+
+
+@dataclass(eq=False)
+class Drawing:
+    """Pictures in the making, by a child process that may be there before its scene is.
+
+    Attributes:
+        cache: Where pictures are kept.
+        child: Waits for a scene, or draws it.
+    """
+
+    cache: Cache = NO_CACHE
+    child: Child | None = None
+    _request: bytes = b""
+    _key: str = ""
+    _known: list[bytes] | None = None
+    _shots: tuple[Shot, ...] = ()
+
+    def begin(self) -> None:
+        """Load what draws, while it is not known yet what."""
+        if self.child is None:
+            self.child = artist(PLATFORMS[0], None)
+
+    def stop(self) -> None:
+        """End what nobody waits for."""
+        if self.child is not None:
+            self.child.stop()
+
+    def give(self, scene: DisplayScene) -> None:
+        """Say what to draw; it is drawn while the caller does something else."""
+        self._shots = tuple(shots_of(scene, WIDTH / HEIGHT))
+        if self._shots:
+            self._request = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
+            own = code_hash("report/scene/drawing"), version_of("mujoco")
+            self._key = key_of(self._request, *own)
+            self._known = _files(self.cache.get(_KIND, self._key), len(self._shots))
+            if self._known is None:
+                self.begin()
+                if self.child is not None:
+                    self.child.give(self._request)
+
+    @property
+    def pictures(self) -> tuple[Picture, ...]:
+        """The pictures; none where nothing can draw without a window."""
+        drawn = self._known or self._drawn()
+        return tuple(
+            Picture(shot.caption, jpeg, WIDTH, HEIGHT)
+            for shot, jpeg in zip(self._shots, drawn or (), strict=drawn is not None)
+        )
+
+    def _drawn(self) -> list[bytes] | None:
+        """Return what the child draws, and keep it; None where nothing can draw."""
+        if self.child is None or not self._shots:
+            return None
+        for platform in PLATFORMS:
+            is_first = platform == PLATFORMS[0]
+            child = self.child if is_first else artist(platform, self._request)
+            said = _read(child.answer())
+            drawn = _files(said, len(self._shots))
+            if drawn is not None:
+                self.cache.put(_KIND, self._key, said)
+                return drawn
+        return None
+
+
+def _read(answer: bytes | Died) -> Any:
+    with suppress(ValueError):
+        return None if isinstance(answer, Died) else from_json(answer)
+    return None
+
+
+def _files(said: Any, number: int) -> list[bytes] | None:
+    """Return the files that stand in an answer, if they are as many as expected."""
+    try:
+        files = [base64.b64decode(each) for each in said]
+    except (TypeError, ValueError):
+        return None
+    return files if len(files) == number else None

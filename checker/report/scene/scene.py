@@ -1,0 +1,123 @@
+"""What is shown of a robot: links, what hangs on each of them in layers, and how they move."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping
+from dataclasses import field
+from typing import TYPE_CHECKING, Any
+
+from checker.base.record import record
+from checker.model.geometry.transform import Transform, Vector, rotation_from_quaternion
+from checker.report.scene.surface import Surface
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+
+class Layer(enum.StrEnum):
+    """What can be shown and hidden at once."""
+
+    VISUAL = "visual"
+    COLLISION = "collision"
+    INERTIA = "inertia"
+    FRAME = "frame"
+    JOINT = "joint"
+    MASS = "mass"
+    VIEW = "view"
+
+
+@record(eq=False)
+class Item:
+    """One thing to see.
+
+    Attributes:
+        layer: What it is shown and hidden with.
+        name: Of the visual, joint, sensor, … it stands for.
+        element: Path of that one's element, as `Place.element` has it.
+        pose: In the frame of the link that it hangs on.
+        surfaces: Its triangles, before `scale`.
+        scale: Along its own x, y, z; negative numbers mirror it.
+    """
+
+    layer: Layer
+    name: str
+    element: str
+    pose: Transform
+    surfaces: tuple[Surface, ...]
+    scale: Vector = (1.0, 1.0, 1.0)
+
+
+@record(eq=False)
+class LinkNode:
+    """A link with what hangs on it.
+
+    Attributes:
+        name: Scoped name; no two links have the same.
+        element: Path of its element, as `Place.element` has it.
+        pose: In the robot's frame while all joints stand at 0.
+        items: What is to see.
+        carrier: Name of the link with a track that this one is fixed to; empty where it has a track
+            of its own, and for what stays where it is.
+    """
+
+    name: str
+    element: str
+    pose: Transform
+    items: tuple[Item, ...]
+    carrier: str = ""
+
+
+@record(eq=False)
+class Tracks:
+    """How links move in the world (z up, the ground at z = 0).
+
+    Attributes:
+        time: Of the samples, seconds (n).
+        poses: By the link's name: x, y, z (metres) and quaternion w, x, y, z (n × 7).
+    """
+
+    time: Array = field(repr=False)
+    poses: Mapping[str, Array] = field(repr=False)
+
+
+@record(eq=False)
+class DisplayScene:
+    """All there is to see of a robot.
+
+    Attributes:
+        robot: Its name.
+        links: Carriers before those they carry.
+        tracks: How they move; None without a trial.
+        notes: What is not shown, as sentences.
+    """
+
+    robot: str
+    links: tuple[LinkNode, ...]
+    tracks: Tracks | None = None
+    notes: tuple[str, ...] = ()
+
+    def poses(self, sample: int = 0) -> dict[str, Transform]:
+        """Return the pose of each link in the world at a sample of the tracks.
+
+        Without tracks the world is the robot's frame.
+        """
+        tracked = self.tracks.poses if self.tracks is not None else {}
+        own = {link.name: link.pose for link in self.links}
+        poses: dict[str, Transform] = {}
+        for link in self.links:
+            if link.name in tracked:
+                poses[link.name] = _pose(tracked[link.name][sample])
+            elif link.carrier:
+                in_carrier = own[link.carrier].inverse @ link.pose
+                poses[link.name] = poses[link.carrier] @ in_carrier
+            else:
+                poses[link.name] = link.pose
+        return poses
+
+
+def _pose(seven: Array) -> Transform:
+    x, y, z, *quaternion = (float(number) for number in seven)
+    return Transform(rotation_from_quaternion(*quaternion), (x, y, z))

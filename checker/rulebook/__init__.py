@@ -1,0 +1,1 @@
+"""The rules that there are: pages, options, checklist, profiles, suppressions."""

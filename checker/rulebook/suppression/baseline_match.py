@@ -1,0 +1,131 @@
+"""Findings of now held against those of the baseline, place by place."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Sequence
+
+from checker.base.record import record
+from checker.finding import Severity
+from checker.rulebook.suppression.baseline import BaselineEntry
+from checker.rulebook.suppression.parts import StaleEntries
+from checker.rulebook.suppression.spots import Spot, by_element, by_words
+
+_Tell = Callable[[str, str, str, str], Hashable]
+_TELLS: tuple[_Tell, ...] = (by_words, by_element)
+"""What makes a place of now and one of an entry the same fault, the surer first."""
+
+
+@record()
+class Matched:
+    """What a baseline comes to.
+
+    Attributes:
+        entries: For each spot the number of its entry; None for what is not in the baseline.
+        stale: Numbers of the entries of which nothing is left.
+    """
+
+    entries: tuple[int | None, ...]
+    stale: tuple[int, ...]
+
+
+def matched(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Matched:
+    """Find the entry of each spot.
+
+    An entry stands for as many spots of a place as it counts there, and for none that is graver
+    than it was.
+    """
+    left = [dict(entry.places) for entry in entries]
+    taken: dict[int, int] = {}
+    for tell in _TELLS:
+        free = _free(entries, left, tell)
+        for at, each in enumerate(spots):
+            entry = None if at in taken else _take(each, free, left, tell)
+            if entry is not None:
+                taken[at] = entry
+    used = set(taken.values())
+    # What is left at a place of an unused entry is graver than that: the fault is not gone.
+    left_over = [each for at, each in enumerate(spots) if at not in taken]
+    graver = {_told(tell, each) for each in left_over for tell in _TELLS}
+    unused = (at for at in range(len(entries)) if at not in used)
+    stale = tuple(at for at in unused if graver.isdisjoint(_tales(entries[at])))
+    return Matched(tuple(map(taken.get, range(len(spots)))), stale)
+
+
+_Free = dict[tuple[Severity, Hashable], deque[int]]
+"""Numbers of entries that may have something left, by what tells them."""
+
+
+def _free(entries: Sequence[BaselineEntry], left: Sequence[dict[str, int]], tell: _Tell) -> _Free:
+    free: _Free = {}
+    for at, entry in enumerate(entries):
+        for place, number in left[at].items():
+            told = tell(entry.rule, place, entry.key, entry.message)
+            if number and told is not None:
+                free.setdefault((entry.severity, told), deque()).append(at)
+    return free
+
+
+def _take(spot: Spot, free: _Free, left: Sequence[dict[str, int]], tell: _Tell) -> int | None:
+    """Take a place of an entry that is as grave as the spot, else of a graver one."""
+    for severity in list(Severity)[spot.severity.rank :: -1]:
+        waiting = free.get((severity, _told(tell, spot)))
+        while waiting:
+            entry = waiting[0]
+            if left[entry][spot.place] > 0:
+                left[entry][spot.place] -= 1
+                return entry
+            waiting.popleft()
+    return None
+
+
+def _told(tell: _Tell, spot: Spot) -> Hashable:
+    return tell(spot.rule, spot.place, spot.key, spot.message)
+
+
+def _tales(entry: BaselineEntry) -> Iterator[Hashable]:
+    for place in entry.places:
+        told = (tell(entry.rule, place, entry.key, entry.message) for tell in _TELLS)
+        yield from (each for each in told if each is not None)
+
+
+class Held:
+    """What the baseline holds of one package, asked rule by rule."""
+
+    def __init__(self, entries: Iterable[BaselineEntry]) -> None:
+        self._entries: dict[str, list[BaselineEntry]] = {}
+        for entry in entries:
+            self._entries.setdefault(entry.rule, []).append(entry)
+        self._stale = dict(self._entries)
+
+    def knows(self, rule: str) -> bool:
+        """Say whether the baseline holds findings of a rule."""
+        return rule in self._entries
+
+    def entries_of(self, rule: str, spots: Sequence[Spot]) -> list[BaselineEntry | None]:
+        """Return the entry of each spot that a rule finds; None for what is new."""
+        entries = self._entries.get(rule, [])
+        found = matched(spots, entries)
+        self._stale[rule] = [entries[at] for at in found.stale]
+        return [None if at is None else entries[at] for at in found.entries]
+
+    def stale(
+        self, known: Collection[str], looked: Collection[str], file: str
+    ) -> tuple[StaleEntries, ...]:
+        """Return what is gone: of rules that looked, one by one; then of rules that do not exist.
+
+        Args:
+            known: Ids of all rules.
+            looked: Ids of those that looked at all they ask for.
+            file: What to call the baseline's file.
+        """
+        gone = {rule: tuple(each.message for each in self._stale[rule]) for rule in self._stale}
+        of_rules = [
+            StaleEntries((rule,), gone[rule], file)
+            for rule in sorted(gone)
+            if gone[rule] and rule in looked and rule in known
+        ]
+        unknown = tuple(sorted(rule for rule in gone if rule not in known))
+        messages = tuple(message for rule in unknown for message in gone[rule])
+        others = [StaleEntries(unknown, messages, file, known=False)] if unknown else []
+        return (*of_rules, *others)

@@ -1,0 +1,132 @@
+"""Comments that set findings aside: `<!-- subt-check: ignore[SEN005] reason -->`, and with `#`.
+
+They are found by reading the text alone, so that one inside of a string counts as well.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import islice
+
+from checker.base.record import record
+from checker.base.words import shortened
+from checker.finding import Place
+from checker.rulebook.suppression.entries import REASON_LIMIT
+from checker.source.text import SourceText
+
+STEM = "subt-check"
+"""What every mark holds, in small letters or capitals."""
+XML_SUFFIXES = (
+    *(".sdf", ".urdf", ".xacro", ".xml", ".launch", ".config", ".world", ".gazebo", ".srdf"),
+    *(".ign", ".md"),
+)
+"""Where only the form of XML is a comment."""
+TEXT_SUFFIXES = (
+    *XML_SUFFIXES,
+    *(".rb", ".erb", ".yaml", ".yml", ".txt", ".cmake", ".py", ".toml", ".rviz", ".sh"),
+)
+COMMENTS_LIMIT = 1_000
+"""Of one file; the rest has no effect."""
+NAMES_LIMIT = 20
+"""Of one comment."""
+
+_LENGTH_LIMIT = 4_000
+_START = re.compile(
+    r"(<!--\s{0,200}|#[ \t]{0,200})subt-check[ \t]*(:|(?=\s{0,9}ignore\s{0,9}\[))", re.IGNORECASE
+)
+"""Without the colon, what follows tells that it is meant as a mark."""
+_CONTENT = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?(.*)", re.DOTALL)
+
+
+@record()
+class Comment:
+    """A comment that wants findings set aside.
+
+    Attributes:
+        place: Where it stands.
+        names: Ids or names of rules; none where the comment has another form.
+        fault: What is wrong with its form, as a part of a sentence; empty when nothing is.
+        reason: Why; empty when it does not say.
+        lines: Of the file, counted from 1: findings there are set aside.
+    """
+
+    place: Place
+    names: tuple[str, ...]
+    reason: str
+    lines: tuple[int, ...]
+    fault: str = ""
+
+
+def comments_of(source: SourceText) -> tuple[Comment, ...]:
+    """Return the comments of a file, in their order."""
+    marks = list(islice(_marks(source), COMMENTS_LIMIT))
+    below = _lines_below(source, [(mark.start(), end) for mark, end in marks])
+    return tuple(comment for mark, end in marks if (comment := _read(source, mark, end, below)))
+
+
+def _marks(source: SourceText) -> Iterator[tuple[re.Match[str], int]]:
+    """Yield the beginning of each comment that carries the mark, and where the comment ends."""
+    only_xml = source.file.lower().endswith(XML_SUFFIXES)
+    for found in _START.finditer(source.text):
+        end = _end(source.text, found)
+        if end > 0 and not (only_xml and found[0].startswith("#")):
+            yield found, end
+
+
+def _end(text: str, found: re.Match[str]) -> int:
+    """Return where a comment ends, or -1 when it does not end soon."""
+    limit = found.end() + _LENGTH_LIMIT
+    if found[0].startswith("<!--"):
+        end = text.find("-->", found.end(), limit)
+        return end + 3 if end >= 0 else -1
+    end = text.find("\n", found.end(), limit)
+    return end if end >= 0 else min(limit, len(text))
+
+
+def _lines_below(source: SourceText, stretches: list[tuple[int, int]]) -> dict[int, int]:
+    """Return the line that comments alone on theirs are about, by their first lines.
+
+    Of comments that stand one below the other, all are about the line below the last.
+    """
+    below: dict[int, int] = {}
+    for start, end in reversed(stretches):
+        if _is_alone(source.text, start, end):
+            following = source.position(end)[0] + 1
+            below[source.position(start)[0]] = below.get(following, following)
+    return below
+
+
+def _is_alone(text: str, start: int, end: int) -> bool:
+    """Say whether the lines of a comment hold nothing but comments."""
+    first = text.rfind("\n", max(0, start - _LENGTH_LIMIT), start) + 1
+    last = text.find("\n", end, end + _LENGTH_LIMIT)
+    last = len(text) if last < 0 else last
+    if start - first > _LENGTH_LIMIT or last - end > _LENGTH_LIMIT:
+        return False
+    if text[start] == "#":
+        return not text[first:start].strip()
+    before, *comments = text[first:last].split("<!--")
+    behind = [each.partition("-->") for each in comments]
+    return not before.strip() and all(ended and not rest.strip() for _, ended, rest in behind)
+
+
+def _read(
+    source: SourceText, mark: re.Match[str], end: int, below: dict[int, int]
+) -> Comment | None:
+    """Return what a comment says; None when it is about something else."""
+    content = _CONTENT.match(source.text[mark.end() : end].removesuffix("-->"))
+    if content is None:
+        return None
+    word, bracket, reason = content.groups()
+    ignores = word.lower() == "ignore"
+    if bracket is None and not ignores:
+        return None
+    place = source.place(mark.start(), end)
+    lines = tuple(sorted({place.line, place.end_line, below.get(place.line, place.line)}))
+    if not mark[2]:
+        return Comment(place, (), "", lines, "no colon stands behind subt-check")
+    words = [name.strip() for name in (bracket or "").split(",")] if ignores else []
+    names = tuple(dict.fromkeys(filter(None, words)))[:NAMES_LIMIT]
+    why = shortened(" ".join(reason.split()), REASON_LIMIT) if re.search(r"\w", reason) else ""
+    return Comment(place, names, why, lines, "" if names else "no ignore[RULE] stands in it")

@@ -1,0 +1,79 @@
+"""What rules are given to judge how findings are set aside."""
+
+from __future__ import annotations
+
+from checker.base.record import record
+from checker.finding import Place
+from checker.rulebook.suppression.comments import Comment
+from checker.rulebook.suppression.entries import SettingsEntry
+
+
+@record()
+class UnknownName:
+    """A word of a comment that names no rule; the hint says which one may be meant."""
+
+    comment: Comment
+    name: str
+    hint: str
+
+
+@record()
+class UnusedComment:
+    """A comment, and the id of a rule that looked and found nothing for it to set aside."""
+
+    comment: Comment
+    rule: str
+
+
+@record()
+class UnusedEntries:
+    """Entries of a settings file that set nothing aside.
+
+    Attributes:
+        place: Of the settings file; of the package folder when it lies elsewhere.
+        file: What to call the settings file.
+        own: Whether it lies in the package, so that it serves no other.
+    """
+
+    entries: tuple[SettingsEntry, ...]
+    place: Place
+    file: str
+    own: bool
+
+
+@record()
+class Suppressions:
+    """What the package's comments and the settings want set aside, and what of it has no effect.
+
+    Attributes:
+        comments: Those in the package's own files.
+    """
+
+    comments: tuple[Comment, ...]
+    unknown: tuple[UnknownName, ...]
+    unused: tuple[UnusedComment, ...]
+    unused_entries: UnusedEntries
+
+
+@record()
+class StaleEntries:
+    """Findings of one rule that the baseline holds and that are gone.
+
+    Attributes:
+        rules: Its id; those of all rules that do not exist, together.
+        messages: What they said.
+        file: What to call the baseline's file.
+        known: Whether the rule exists.
+    """
+
+    rules: tuple[str, ...]
+    messages: tuple[str, ...]
+    file: str
+    known: bool = True
+
+
+@record()
+class BaselineUse:
+    """What of the baseline is stale, rule by rule."""
+
+    stale: tuple[StaleEntries, ...]

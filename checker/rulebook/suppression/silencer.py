@@ -1,0 +1,223 @@
+"""Decides which findings do not count: because of a comment, a settings file or the baseline."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from pathlib import Path
+
+from checker.base.disk_file import NotReadable
+from checker.base.record import record
+from checker.base.words import Suggestions
+from checker.finding import Place
+from checker.package.package import Package
+from checker.report.report import IN_BASELINE, SuppressedBy
+from checker.rule import Finding, Rule
+from checker.rulebook.suppression.baseline import BaselineEntry
+from checker.rulebook.suppression.baseline_match import Held
+from checker.rulebook.suppression.comments import (
+    STEM,
+    TEXT_SUFFIXES,
+    Comment,
+    comments_of,
+)
+from checker.rulebook.suppression.entries import SettingsEntry
+from checker.rulebook.suppression.parts import (
+    Suppressions,
+    UnknownName,
+    UnusedComment,
+    UnusedEntries,
+)
+from checker.rulebook.suppression.spots import Spot
+from checker.source.text_file import TEXT_LIMIT
+
+SEARCHED_LIMIT = 100_000_000
+"""Bytes of a package's own files in which comments are looked for before findings point there."""
+COMMENTS_LIMIT = 2_000
+"""Of a package and the siblings that its findings point at."""
+
+_STEMS = tuple(STEM.encode(encoding) for encoding in ("utf-8", "utf-16-le", "utf-16-be"))
+_Line = tuple[str, int, str]
+"""A file, a line of it, and the id of a rule that is not to count there."""
+
+
+@record()
+class Silence:
+    """Why a finding does not count.
+
+    Attributes:
+        place: Of the comment that says so; None for what stands elsewhere.
+    """
+
+    by: SuppressedBy
+    reason: str
+    place: Place | None = None
+
+
+class Silencer:
+    """The wishes about one package, and which of them were of use.
+
+    Attributes:
+        held: What the baseline holds of the package.
+    """
+
+    def __init__(
+        self,
+        package: Package,
+        entries: Sequence[SettingsEntry],
+        rules: Iterable[Rule],
+        baseline: Iterable[BaselineEntry] = (),
+    ) -> None:
+        self.held = Held(baseline)
+        self._package = package
+        self._ids = {name: rule.id for rule in rules for name in (rule.id, rule.name)}
+        self._entries: dict[str, list[SettingsEntry]] = {}
+        for entry in entries:
+            self._entries.setdefault(self._id(entry.rule), []).append(entry)
+        self._files: set[str] = set()
+        self._comments: dict[_Line, Comment] = {}
+        self._used_lines: set[_Line] = set()
+        self._used_entries: set[SettingsEntry] = set()
+        self._comments_left = COMMENTS_LIMIT
+        self._own = tuple(self._own_comments())
+
+    def silences(
+        self, rule: str, found: Sequence[Finding], spot_of: Callable[[Finding], Spot]
+    ) -> list[Silence | None]:
+        """Return why each finding of a rule does not count; None for those that do.
+
+        Args:
+            rule: Its id.
+            found: All that it found.
+            spot_of: Returns how the baseline knows a finding.
+        """
+        silences = [self._by_wish(rule, each.places[0]) for each in found]
+        if not self.held.knows(rule):
+            return silences
+        # A place that is reported twice in the same words is one place of the finding.
+        spots = {
+            at: (each.places[0], spot_of(each))
+            for at, each in enumerate(found)
+            if silences[at] is None
+        }
+        distinct = list(dict.fromkeys(spots.values()))
+        entries = self.held.entries_of(rule, [spot for _, spot in distinct])
+        held = dict(zip(distinct, entries, strict=True))
+        for at, spot in spots.items():
+            if entry := held[spot]:
+                silences[at] = Silence(SuppressedBy.BASELINE, entry.reason or IN_BASELINE)
+        return silences
+
+    def _by_wish(self, rule: str, place: Place) -> Silence | None:
+        """Return the comment or the entry of the settings that is about a place."""
+        comment = self._comment_at(rule, place)
+        entries = [each for each in self._entries.get(rule, ()) if each.covers(place)]
+        self._used_entries.update(entries)
+        if comment:
+            return Silence(SuppressedBy.COMMENT, comment.reason, comment.place)
+        return Silence(SuppressedBy.SETTINGS, entries[0].reason) if entries else None
+
+    def suppressions(self, looked: Collection[str], settings: Path | None) -> Suppressions:
+        """Return what the wishes came to.
+
+        Args:
+            looked: Ids of the rules that looked at all they ask for.
+            settings: The settings file.
+        """
+        suggestions = Suggestions(self._ids)
+        unknown = [
+            UnknownName(comment, name, suggestions.hint(name.upper()) or suggestions.hint(name))
+            for comment in self._own
+            for name in comment.names
+            if not self._id(name)
+        ]
+        unused = [
+            UnusedComment(comment, rule)
+            for comment in self._own
+            for rule in self._ids_of(comment)
+            if comment.reason and rule in looked and not self._was_used(comment, rule)
+        ]
+        idle = [
+            entry
+            for rule, entries in self._entries.items()
+            for entry in entries
+            if rule in looked and entry not in self._used_entries
+        ]
+        unused_entries = self._placed(tuple(idle), settings)
+        return Suppressions(self._own, tuple(unknown), tuple(unused), unused_entries)
+
+    def _placed(self, entries: tuple[SettingsEntry, ...], settings: Path | None) -> UnusedEntries:
+        root = self._package.root
+        if settings is None or not settings.is_relative_to(root):
+            return UnusedEntries(entries, Place(""), settings.name if settings else "", own=False)
+        path = settings.relative_to(root).as_posix()
+        return UnusedEntries(entries, Place(path), path, own=True)
+
+    def _was_used(self, comment: Comment, rule: str) -> bool:
+        file = comment.place.file
+        return any((file, line, rule) in self._used_lines for line in comment.lines)
+
+    def _id(self, name: str) -> str:
+        """Return the id of a rule by its id or name; empty when there is no such rule."""
+        return self._ids.get(name.upper()) or self._ids.get(name.lower()) or ""
+
+    def _ids_of(self, comment: Comment) -> Iterator[str]:
+        yield from dict.fromkeys(filter(None, map(self._id, comment.names)))
+
+    def _comment_at(self, rule: str, place: Place) -> Comment | None:
+        if place.file not in self._files:
+            self._keep(place.file, self._comments_in(place.file))
+        line = (place.file, place.line, rule)
+        comment = self._comments.get(line)
+        if comment:
+            self._used_lines.add(line)
+        return comment
+
+    def _own_comments(self) -> Iterator[Comment]:
+        """Find the comments in the package's own files; a file that has none costs a search."""
+        budget = SEARCHED_LIMIT
+        for entry in self._package.index.files:
+            if entry.target_state is not None or not entry.path.lower().endswith(TEXT_SUFFIXES):
+                continue
+            budget -= entry.size
+            if budget < 0:
+                return
+            marked = self._is_marked(entry.path)
+            yield from self._keep(entry.path, self._comments_in(entry.path) if marked else ())
+
+    def _is_marked(self, path: str) -> bool:
+        data = self._package.read_bytes(path, TEXT_LIMIT)
+        return not isinstance(data, NotReadable) and any(stem in data.lower() for stem in _STEMS)
+
+    def _comments_in(self, path: str) -> tuple[Comment, ...]:
+        if not path.lower().endswith(TEXT_SUFFIXES):
+            return ()
+        source = self._package.read(path)
+        if isinstance(source, NotReadable) or STEM not in source.text.lower():
+            return ()
+        comments = comments_of(source)[: self._comments_left]
+        self._comments_left -= len(comments)
+        return comments
+
+    def _keep(self, path: str, comments: tuple[Comment, ...]) -> tuple[Comment, ...]:
+        """Enter the comments of a file by the lines that they are about."""
+        self._files.add(path)
+        for comment in comments:
+            for rule in self._ids_of(comment) if comment.reason else ():
+                for line in comment.lines:
+                    self._comments.setdefault((path, line, rule), comment)
+        return comments
+
+
+def parted(
+    rule: str,
+    found: Sequence[Finding],
+    silencer: Silencer | None,
+    spot_of: Callable[[Finding], Spot],
+) -> dict[Silence | None, list[Finding]]:
+    """Part what a rule found by why it does not count; what does stands under None."""
+    nothing = [None] * len(found)
+    silences = silencer.silences(rule, found, spot_of) if silencer else nothing
+    parts: dict[Silence | None, list[Finding]] = {}
+    for each, silence in zip(found, silences, strict=True):
+        parts.setdefault(silence, []).append(each)
+    return parts

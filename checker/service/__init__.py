@@ -1,0 +1,1 @@
+"""The web service: its site, jobs, store, processes and client."""

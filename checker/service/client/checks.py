@@ -1,0 +1,172 @@
+"""A check on a service: ordered, waited for, cancelled, and its results fetched."""
+
+from __future__ import annotations
+
+import enum
+import re
+from collections.abc import Iterator
+from time import sleep
+from typing import Annotated
+from urllib.parse import quote, unquote
+
+from checker.base.errors import CheckerError
+from checker.base.progress import Say
+from checker.base.record import record
+from checker.base.words import count, plain, shortened
+from checker.report.files import ARTEFACT_NAME, INDEX
+from checker.report.from_json import SIZE_LIMIT
+from checker.report.reading import Unfit, read_as
+from checker.service.client.connection import Answer, Connection
+from checker.service.client.form import Form
+
+FILE_LIMIT = SIZE_LIMIT
+"""Bytes of a result's file."""
+_CHECKS = "/api/checks"
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.3, 2.0
+"""Seconds between two looks at a check."""
+_SHOWN = 600
+
+
+class End(enum.StrEnum):
+    """How a check has ended, as the API calls it: `REFUSED` by its package, `FAILED` by us."""
+
+    DONE = "done"
+    REFUSED = "refused"
+    FAILED = "failed"
+    CANCELLED = "cancelled"
+
+
+@record()
+class Given:
+    """What the service answers to an upload."""
+
+    id: Annotated[str, re.compile(r"[A-Za-z0-9_-]{16,100}")]
+
+
+@record()
+class Standing:
+    """How a check stands, as far as it matters here; the members are those of the API."""
+
+    stage: str
+    words: str = ""
+    ahead: int = 0
+    files: tuple[str, ...] = ()
+
+    @property
+    def end(self) -> End | None:
+        """How it has ended; None while it has not."""
+        return next((each for each in End if each == self.stage), None)
+
+    def __str__(self) -> str:
+        """Say it in a few words."""
+        said = plain(shortened(self.words or self.stage, _SHOWN))
+        before = f" ({count(self.ahead, 'check')} before it)" if self.ahead > 0 else ""
+        return said + before
+
+
+@record()
+class Check:
+    """One check on a service."""
+
+    connection: Connection
+    id: str
+
+    @property
+    def link(self) -> str:
+        """The address of its page."""
+        return f"{self.connection.server}/checks/{self.id}"
+
+    @property
+    def _path(self) -> str:
+        return f"{_CHECKS}/{self.id}"
+
+    def names(self, standing: Standing) -> Iterator[str]:
+        """Yield the names of the result's files, such as `rover/report.html`."""
+        for address in standing.files:
+            name = unquote(address.removeprefix(f"{self._path}/")).removeprefix("packages/")
+            if ARTEFACT_NAME.fullmatch(name):
+                yield name
+
+    def wait(self, say: Say) -> Standing:
+        """Wait until the check ends, and return how.
+
+        Raises:
+            CheckerError: The service does not say.
+        """
+        said, pause = "", _FIRST_PAUSE
+        while True:
+            standing = self._standing()
+            if standing.end is not None:
+                return standing
+            if str(standing) != said:
+                said, pause = str(standing), _FIRST_PAUSE
+                say(said)
+            sleep(pause)
+            pause = min(1.5 * pause, _LONGEST_PAUSE)
+
+    def cancel(self) -> None:
+        """End the check.
+
+        Raises:
+            CheckerError: The service does not do it.
+        """
+        answer = self.connection.ask("DELETE", self._path)
+        if answer.status not in (200, 202, 204, 404, 409):
+            raise refusal(self.connection, answer)
+
+    def file(self, name: str) -> bytes | None:
+        """Return a file of the result; None if there is none of that name.
+
+        Raises:
+            CheckerError: The service does not give it.
+        """
+        inner = "packages/" if "/" in name or name == INDEX else ""
+        path = f"{self._path}/{inner}{quote(name)}"
+        answer = self.connection.ask("GET", path, limit=FILE_LIMIT)
+        if answer.status == 404:
+            return None
+        if answer.status != 200:
+            raise refusal(self.connection, answer)
+        return answer.body
+
+    def _standing(self) -> Standing:
+        answer = self.connection.ask("GET", self._path)
+        if answer.status != 200:
+            raise refusal(self.connection, answer)
+        try:
+            return read_as(Standing, answer.json())
+        except Unfit:
+            raise _unclear(self.connection, answer) from None
+
+
+def order(connection: Connection, form: Form) -> Check:
+    """Upload a file and return its check.
+
+    Raises:
+        CheckerError: The service does not take it; the text says why.
+    """
+    answer = connection.ask("POST", _CHECKS, form)
+    if answer.status != 201:
+        raise refusal(connection, answer)
+    try:
+        given = read_as(Given, answer.json())
+    except Unfit:
+        raise _unclear(connection, answer) from None
+    return Check(connection, given.id)
+
+
+def refusal(connection: Connection, answer: Answer) -> CheckerError:
+    """Return what a service says against a request, in its own words where it has some."""
+    said = answer.json()
+    if isinstance(said, dict) and isinstance(said.get("error"), str):
+        words = [said["error"], said.get("advice", "")]
+        told = " ".join(word for word in words if isinstance(word, str) and word)
+        return CheckerError(f"{connection.server}: {plain(shortened(told, _SHOWN))}")
+    return _unclear(connection, answer)
+
+
+def _unclear(connection: Connection, answer: Answer) -> CheckerError:
+    return CheckerError(
+        f"{connection.server} answers {answer.status}, and not as the service of subt-check does; "
+        "check the address"
+    )

@@ -1,0 +1,225 @@
+"""One stage of a check: an upload in the store becomes a result in the store, by a child process.
+
+Nothing of an upload is looked into in the worker: the child opens it, and what it brings back
+counts as a stranger's too. The worker writes all that is kept, under names that it knows.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import secrets
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import asdict
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+from checker.base.cache import key_of
+from checker.base.child_process import from_json
+from checker.base.disk_file import NotReadable, read_bytes
+from checker.base.private_files import make_folder
+from checker.base.sandbox.files import Content, Files
+from checker.base.sandbox.task import FAULT_LIMIT, OUT_OF_MEMORY
+from checker.base.words import plain
+from checker.engine.report_cache import program_parts
+from checker.report.files import ARTEFACT_NAME
+from checker.service.jobs.children import ANSWER_LIMIT, Children, Ended
+from checker.service.jobs.crowd import let_pass
+from checker.service.jobs.layout import CACHE, UPLOAD, is_part
+from checker.service.jobs.limits import StageLimits
+from checker.service.jobs.outcome import (
+    FAILED_INSIDE,
+    UNFINISHED,
+    Cancelled,
+    Checked,
+    Died,
+    Outcome,
+    Refused,
+)
+from checker.service.jobs.port import Order, Stage
+from checker.service.jobs.summary import read_summary
+from checker.service.store.store import RESULT_LIMIT, SUMMARY, Store
+
+LIMITS: Mapping[Stage, StageLimits] = {
+    Stage.STATIC: StageLimits(seconds=300.0),
+    Stage.TRIAL: StageLimits(seconds=900.0),
+}
+UPLOAD_LIMIT = 2_000_000_000
+"""Bytes of an upload that is read here; the service takes no larger ones."""
+_FILES_LIMIT = 50_000
+"""Of a result and of what was worked out for it: what has no content takes room on a disk, too."""
+_PARTS_LIMIT = 10_000
+"""Of one upload, by all of its checks."""
+_LOG = logging.getLogger(__name__)
+
+
+def check_upload(
+    store: Store,
+    children: Children,
+    order: Order,
+    stage: Stage,
+    cancelled: Callable[[], bool],
+    limits: StageLimits | None = None,
+) -> Outcome:
+    """Check an upload; a result that is in the store already is not made again.
+
+    Args:
+        store: Holds the upload, takes the result.
+        children: One of them checks.
+        order: What to check.
+        stage: `STATIC` for the rules alone and the JSON report, `TRIAL` for all.
+        cancelled: Whether to stop; asked a few times a second.
+        limits: Of the child; those of the stage when None.
+    """
+    try:
+        known = stored_result(store, order, stage)
+        return known or _checked(store, children, order, stage, cancelled, limits or LIMITS[stage])
+    except OSError as error:
+        _LOG.exception("the disk or the system failed")
+        return Died(f"{UNFINISHED}: {error.strerror or 'the system failed'}")
+
+
+def _checked(
+    store: Store,
+    children: Children,
+    order: Order,
+    stage: Stage,
+    cancelled: Callable[[], bool],
+    limits: StageLimits,
+) -> Outcome:
+    upload = store.upload(order.upload)
+    if upload is None:
+        return Refused("the upload is no longer there; upload it again")
+    request = {
+        "name": order.name,
+        "profile": order.profile,
+        "stage": stage,
+        "limits": asdict(limits),
+    }
+    let_pass(store, cancelled)
+    content = read_bytes(upload, order.name, UPLOAD_LIMIT)
+    if isinstance(content, NotReadable):
+        _LOG.error("an upload %s", content.reason)
+        return Died(FAILED_INSIDE)
+    contents = chain(((UPLOAD, content),), _known_parts(store, order.upload))
+    with children.checked(
+        json.dumps(request).encode(), contents, limits.seconds, cancelled
+    ) as ended:
+        if ended.cancelled:
+            return Cancelled()
+        return _outcome(store, order, result_key(order, stage), ended, limits)
+
+
+def result_key(order: Order, stage: Stage) -> str:
+    """Return the key of an order's result at a stage: of all that the result depends on."""
+    return key_of(*program_parts(), order.upload, order.name, order.profile, stage)
+
+
+def stored_result(store: Store, order: Order, stage: Stage) -> Checked | None:
+    """Return the result of an order at a stage, if it is in the store and whole."""
+    key = result_key(order, stage)
+    path = store.file(key, SUMMARY) if store.has(key) else None
+    return read_summary(key, _read(path)) if path else None
+
+
+def _outcome(store: Store, order: Order, key: str, ended: Ended, limits: StageLimits) -> Outcome:
+    match _parsed(ended.answer) if ended.code == 0 else None:
+        case {"refused": str(reason)}:
+            return Refused(plain(reason))
+        case {"crashed": bool(crashed)} as answer:
+            # What went wrong with us may go right the next time: nobody else gets this result.
+            checked = read_summary(secrets.token_hex(32) if crashed else key, answer)
+            if checked is not None:
+                return _kept(store, order, checked, ended)
+    last_words = repr(ended.answer[-FAULT_LIMIT:].decode(errors="replace"))
+    how = "overdue" if ended.overdue else f"code {ended.code}"
+    _LOG.error("the child ended (%s) and said: %s", how, last_words)
+    return Died(_cause(ended, limits))
+
+
+def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome:
+    """Put a result into the store: files that we write, under names that we know."""
+    with store.workplace() as place:
+        try:
+            made = place / "made"
+            _write_result(made, ended.files)
+            (made / SUMMARY).write_bytes(ended.answer)
+            store.keep(checked.key, made)
+        except ValueError as error:
+            _LOG.error("the child made what is no result: %s", plain(str(error)))
+            return Died(f"{UNFINISHED}: its report is too large or damaged")
+        # Without them, the next check takes longer.
+        with suppress(OSError):
+            _keep_parts(store, order.upload, ended.files, place / "part")
+    return checked
+
+
+def _write_result(folder: Path, files: Files) -> None:
+    """Write the files of a result.
+
+    Raises:
+        ValueError: The process that made them had no reason to make these.
+    """
+    if len(files.names) > _FILES_LIMIT:
+        raise ValueError(f"a result holds no more than {_FILES_LIMIT} files")
+    folder.mkdir()
+    left = RESULT_LIMIT
+    for name in files.names:
+        left -= files.size(name)
+        if left < 0:
+            raise ValueError(f"a result holds no more than {RESULT_LIMIT / 1e9:g} GB")
+        if ARTEFACT_NAME.fullmatch(name):
+            path = folder / name
+            path.parent.mkdir(exist_ok=True)
+            with path.open("xb") as file:
+                files.copy(name, file)
+        elif not is_part(name):
+            raise ValueError(f"a result does not hold {name[:200]!r}")
+
+
+def _known_parts(store: Store, upload: str) -> Iterator[tuple[str, Content]]:
+    """Yield what was worked out in an earlier check of the same upload: of no other one."""
+    folder = store.parts(upload)
+    if folder is not None:
+        for path in sorted(folder.glob(f"{CACHE}/*/??/*.json")):
+            name = path.relative_to(folder).as_posix()
+            yield name, read_bytes(path, name, RESULT_LIMIT)
+
+
+def _keep_parts(store: Store, upload: str, files: Files, work: Path) -> None:
+    """Keep what a check has worked out, for later checks of the same upload alone."""
+    folder = store.parts(upload)
+    kept = 0 if folder is None else sum(1 for _ in folder.rglob("*.json"))
+    for name in filter(is_part, files.names):
+        kept += 1
+        if folder is not None and kept < _PARTS_LIMIT:
+            make_folder((folder / name).parent)
+            with work.open("wb") as file:
+                files.copy(name, file)
+            work.replace(folder / name)
+
+
+def _read(path: Path) -> Any:
+    """Return the JSON in a file of a result; None if there is none."""
+    data = read_bytes(path, path.name, ANSWER_LIMIT)
+    return None if isinstance(data, NotReadable) else _parsed(data)
+
+
+def _parsed(data: bytes) -> Any:
+    try:
+        return from_json(data)
+    except ValueError:
+        return None
+
+
+def _cause(ended: Ended, limits: StageLimits) -> str:
+    if ended.overdue:
+        advice = "check fewer packages at a time"
+        return f"{UNFINISHED}: it took longer than {limits.seconds:g} s and was stopped; {advice}"
+    if ended.code is None or ended.code < 0:
+        return f"{UNFINISHED}: it was killed; it may have needed too much time or memory"
+    if ended.code == OUT_OF_MEMORY:
+        return f"{UNFINISHED}: it needed more than {limits.memory / 1e9:g} GB of memory"
+    return FAILED_INSIDE

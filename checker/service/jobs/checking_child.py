@@ -1,0 +1,134 @@
+"""Reads an upload and checks it: what a process in the sandbox (`checker.base.sandbox`) does.
+
+It loads what a check needs, then waits for the upload. When there is nothing to do for a while, a
+process that reads meshes waits beside it. What it makes goes back as it was asked for, in one file
+without a name; nothing that it writes elsewhere is ever looked at.
+"""
+
+from __future__ import annotations
+
+import json
+import shlex
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from functools import cache as once
+from itertools import chain
+from pathlib import Path
+from select import select
+from typing import Any
+
+from checker.base.child_process import Child
+from checker.base.sandbox.files import Content, Files
+from checker.base.sandbox.task import INPUT, Answer
+from checker.physics.mesh.early import mesh_child
+from checker.report.report import Report
+from checker.service.jobs.layout import new_parts, settle
+from checker.service.jobs.limits import StageLimits, limit
+from checker.service.jobs.port import Stage
+
+_NEEDED = ("checker.engine.review", "checker.report.files", "markdown_it", "pinocchio")
+"""What nearly every check loads; some of it starts threads."""
+_IDLE = 0.5
+"""Seconds without a check, after which the next one is taken for that of a new upload: of one that
+has waited, and of the second stage, the meshes are mostly known."""
+
+
+def prepare() -> None:
+    """Load what a check needs; what cannot be loaded is told by the check that misses it."""
+    from importlib import import_module
+
+    from checker.base.errors import CheckerError
+    from checker.engine.report_cache import program_parts
+    from checker.rulebook.discovery import all_rules
+
+    for name in _NEEDED:
+        with suppress(ImportError):
+            import_module(name)
+    with suppress(CheckerError):
+        all_rules()
+    # Reports are remembered as those of the program that is loaded, not of a newer one on the disk.
+    program_parts()
+    _waiting()
+
+
+@once
+def _waiting() -> list[Child]:
+    """Return the process that reads meshes, if the check lets it come first."""
+    return [] if select([INPUT], [], [], _IDLE)[0] else [mesh_child()]
+
+
+def answer(request: bytes, files: Files) -> Answer:
+    """Check an upload.
+
+    Args:
+        request: JSON: `name` of the uploaded file, `profile`, `stage` and `limits`.
+        files: The upload, and parts of an earlier check of it; see `checker.service.jobs.layout`.
+
+    Returns:
+        JSON: why the upload is `refused`, or the summary of the result; and the files of the
+        result, with parts for the next stage.
+    """
+    asked = json.loads(request)
+    place = Path.cwd()
+    settle(place, asked["name"], files)
+    limit(StageLimits(**asked["limits"]))
+    said, made = _checked(asked, place)
+    return json.dumps(said).encode(), chain(made, new_parts(place, files.names))
+
+
+def _meshes() -> Child:
+    """Return a process that waits for meshes: the one that is there, the first time."""
+    waiting = _waiting()
+    if waiting and waiting[0].alive:
+        return waiting.pop()
+    return mesh_child()
+
+
+def _checked(
+    asked: Mapping[str, Any], place: Path
+) -> tuple[dict[str, Any], Iterator[tuple[str, Content]]]:
+    """Return the answer, and the files of the result."""
+    from checker.base.errors import InvalidSettings, UnreadableInput
+    from checker.base.words import shortened
+    from checker.pipeline import check_paths
+    from checker.rulebook.profiles import profile_names
+    from checker.service.jobs.neutral import without_folder
+    from checker.service.jobs.summary import summary
+
+    if asked["profile"] not in ("", *profile_names()):
+        known = ", ".join(profile_names())
+        return _refused(f"there is no profile {asked['profile']!r}; choose one of {known}")
+    stage, name = Stage(asked["stage"]), str(asked["name"])
+    wishes = {
+        "profile": asked["profile"] or None,
+        "trial": False if stage is Stage.STATIC else None,
+        "display": stage is not Stage.STATIC,
+    }
+    try:
+        # Relative, so that no report shows where this machine keeps it.
+        report = without_folder(check_paths([Path(name)], wishes, mesh_child=_meshes), place)
+    except (InvalidSettings, UnreadableInput) as error:
+        return _refused(shortened(str(error), 1_000))
+    if not report.packages:
+        reasons = (f"{each.path} {each.reason}" for each in report.not_opened)
+        return _refused(shortened(". ".join(reasons), 1_000))
+    return summary(report), _files(report, stage, asked)
+
+
+def _refused(reason: str) -> tuple[dict[str, Any], Iterator[tuple[str, Content]]]:
+    return {"refused": reason}, iter(())
+
+
+def _files(report: Report, stage: Stage, asked: Mapping[str, Any]) -> Iterator[tuple[str, Content]]:
+    """Yield the result: of the static stage the JSON alone, since the trial's follows soon."""
+    from checker.report.files import artefacts
+    from checker.report.formats import FORMATS
+    from checker.report.palette import Palette
+    from checker.report.render_settings import Manner
+
+    profile = ("--profile", asked["profile"]) if asked["profile"] else ()
+    command = shlex.join(("subt-check", asked["name"], *profile))
+    manner = Manner(Palette(enabled=False), "/", command)
+    early = [("report.json", FORMATS["json"](report, manner))]
+    for name, content in early if stage is Stage.STATIC else artefacts(report, manner):
+        yield name, content.encode("utf-8") if isinstance(content, str) else content

@@ -1,0 +1,161 @@
+"""The processes that check uploads, the next one started before there is anything for it to do.
+
+Python takes a second to load all that a check needs: as long as many a check itself.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, closing, contextmanager, suppress
+from time import monotonic
+
+from checker.base.child_process import Child, Limits
+from checker.base.record import record
+from checker.base.sandbox.files import NO_FILES, Content, Files
+from checker.base.sandbox.launcher import OwnLauncher
+from checker.service.jobs.limits import NICENESS, StageLimits
+from checker.service.store.store import Store
+
+MODULE = "checker.service.jobs.checking_child"
+ANSWER_LIMIT = 5_000_000
+"""Bytes of the answer, besides the files of the result."""
+_LOOK = 0.2
+"""Seconds between questions whether a check is still wanted."""
+
+
+@record()
+class Ended:
+    """How a check ended.
+
+    Attributes:
+        code: Exit code of its process; of a signal, its negative number; None if it has none.
+        answer: What it says, where it says something; of one that failed, why.
+        files: What it has made.
+        overdue: It took too long and was stopped.
+        cancelled: It was no longer wanted and was stopped.
+    """
+
+    code: int | None
+    answer: bytes = b""
+    files: Files = NO_FILES
+    overdue: bool = False
+    cancelled: bool = False
+
+
+class _Place:
+    """A process that checks, its folder and its sandbox: for one check, and then no more."""
+
+    def __init__(self, store: Store, limits: Limits) -> None:
+        """Start it."""
+        with ExitStack() as held:
+            folder = held.enter_context(store.workplace())
+            starter = OwnLauncher(folder, niceness=NICENESS)
+            held.enter_context(closing(starter))
+            self._starter = starter
+            self.child = Child(
+                MODULE, None, limits, starter=starter, works=True, folder=folder.parent
+            )
+            held.callback(self.child.stop)
+            self._held = held.pop_all()
+
+    @property
+    def alive(self) -> bool:
+        """Whether it can still check."""
+        return self._starter.alive and self.child.alive
+
+    def close(self) -> None:
+        """End all of its processes, and remove its folder."""
+        self._held.close()
+
+
+class Children:
+    """Has processes check, each of them once."""
+
+    def __init__(self, store: Store, ahead: bool = True) -> None:
+        """Start nothing yet.
+
+        Args:
+            store: Holds the folders that they work in.
+            ahead: Whether one is to wait for the next check.
+        """
+        self._store, self._ahead = store, ahead
+        self._lock = threading.Lock()
+        self._waiting: _Place | None = None
+
+    @contextmanager
+    def checked(
+        self,
+        request: bytes,
+        contents: Iterable[tuple[str, Content]],
+        seconds: float,
+        cancelled: Callable[[], bool],
+    ) -> Iterator[Ended]:
+        """Have a process check an upload; at the end none of its processes is left.
+
+        Args:
+            request: See `checker.service.jobs.checking_child`.
+            contents: The files that go with it.
+            seconds: By the clock, before it is stopped.
+            cancelled: Whether it is no longer wanted; asked a few times a second.
+
+        Yields:
+            How it ended; its files can be read meanwhile.
+
+        Raises:
+            OSError: The system starts no process, or the disk is full.
+        """
+        place = self._take()
+        try:
+            place.child.give(request, contents)
+            yield _watched(place.child, seconds, cancelled)
+        finally:
+            place.close()
+            # Not before: the next one would take processors from this one.
+            self.get_ready()
+
+    def get_ready(self) -> None:
+        """Start a process that waits for the next check; where that fails, the check says why."""
+        with self._lock, suppress(OSError):
+            if self._ahead and not self._has_one():
+                self._waiting = self._start()
+
+    def close(self) -> None:
+        """End the process that waits, and have no other one wait; those that check go on."""
+        with self._lock:
+            self._ahead = False
+            if self._waiting is not None:
+                self._waiting.close()
+                self._waiting = None
+
+    def _take(self) -> _Place:
+        with self._lock:
+            found, self._waiting = (self._waiting if self._has_one() else None), None
+        return found or self._start()
+
+    def _has_one(self) -> bool:
+        """Whether a process waits; one that has died meanwhile is let go."""
+        if self._waiting is not None and not self._waiting.alive:
+            self._waiting.close()
+            self._waiting = None
+        return self._waiting is not None
+
+    def _start(self) -> _Place:
+        most = StageLimits(0.0)
+        return _Place(self._store, Limits(_PROCESSOR_SECONDS, most.memory))
+
+
+_PROCESSOR_SECONDS = 3600.0
+"""More than any stage has: its own limit comes with the request."""
+
+
+def _watched(child: Child, seconds: float, cancelled: Callable[[], bool]) -> Ended:
+    """Wait for a process, and return how it ended."""
+    deadline = monotonic() + seconds
+    unwanted = cancelled()
+    while not child.ends(min(_LOOK, max(0.0, deadline - monotonic()))):
+        unwanted = unwanted or cancelled()
+        if unwanted or monotonic() >= deadline:
+            return Ended(None, overdue=not unwanted, cancelled=unwanted)
+    answered = child.answered(ANSWER_LIMIT)
+    return Ended(child.code, *answered) if isinstance(answered, tuple) else Ended(child.code)

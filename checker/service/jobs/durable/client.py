@@ -1,0 +1,119 @@
+"""The job engine as the web process has it: it takes orders and answers, and checks nothing."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+
+import sqlalchemy as sa
+
+from checker.base.record import record
+from checker.service.jobs.checking import stored_result
+from checker.service.jobs.durable.database import open_database, prepare, reachable
+from checker.service.jobs.durable.keys import key_of_check
+from checker.service.jobs.durable.ledger import Ledger, Step
+from checker.service.jobs.durable.queues import WAITS, Queues, queues_of
+from checker.service.jobs.durable.readings import alive, events_of, state_of
+from checker.service.jobs.outcome import Checked
+from checker.service.jobs.port import RETENTION_DAYS, Alive, Event, Order, Stage, State
+from checker.service.store.store import Store
+
+_DAY = 86400.0
+
+
+@record()
+class DurableJobs:
+    """`Jobs` on a database: SQLite or PostgreSQL.
+
+    Ids, which open reports, end here: what lies behind knows checks by their keys alone.
+
+    Attributes:
+        engine: Of the database, prepared.
+        queues: Of the same database.
+        store: Uploads and results.
+        retention_days: After which all of a check is deleted.
+    """
+
+    engine: sa.Engine
+    queues: Queues
+    store: Store
+    retention_days: float = RETENTION_DAYS
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        """The book of checks."""
+        return Ledger(self.engine)
+
+    def submit(self, order: Order) -> str:
+        """Take an order and return the id of its check; once it returns, the order is not lost.
+
+        What was checked before, with the same content, name, profile and program, is not checked
+        again: the new check finishes at once and shares the report.
+        """
+        id = secrets.token_urlsafe(16)
+        key = key_of_check(id)
+        known = stored_result(self.store, order, Stage.TRIAL)
+        step = finished(known) if known else Step("queued", Stage.QUEUED, WAITS)
+
+        def then(connection: sa.Connection) -> None:
+            if known is None:
+                self.queues.put(connection, key, Stage.STATIC)
+
+        with reachable():
+            self.ledger.enter(key, order, self.retention_days * _DAY, step, then)
+        return id
+
+    def status(self, id: str) -> State | None:
+        """Return where a check stands; None for an id that was never given or is forgotten."""
+        with reachable(), self.engine.connect() as connection:
+            state = state_of(connection, key_of_check(id))
+        return state and replace(state, id=id)
+
+    def events(self, id: str, after: int = 0) -> Sequence[Event]:
+        """Return what has happened so far after event number `after`, in order."""
+        with reachable(), self.engine.connect() as connection:
+            return events_of(connection, key_of_check(id), after)
+
+    def cancel(self, id: str) -> bool:
+        """End a check; False if there was nothing to end."""
+        with reachable():
+            return self.ledger.cancel(key_of_check(id))
+
+    def result(self, id: str) -> str:
+        """Return the key of the final report in the store; empty while there is none."""
+        state = self.status(id)
+        return state.result if state is not None and state.stage is Stage.DONE else ""
+
+    def alive(self) -> Alive:
+        """Return what is known of the engine."""
+        with reachable(), self.engine.connect() as connection:
+            return alive(self.engine, connection)
+
+
+def durable_jobs(
+    database_url: str, store: Store, retention_days: float = RETENTION_DAYS
+) -> DurableJobs:
+    """Return the engine; its tables are made if they are missing.
+
+    Args:
+        database_url: `sqlite:///…` or `postgresql://…`.
+        store: Uploads and results.
+        retention_days: After which all of a new check is deleted.
+
+    Raises:
+        JobsUnreachable: The database does not answer.
+    """
+    engine = open_database(database_url)
+    prepare(engine)
+    queues = queues_of(engine)
+    with reachable():
+        queues.declare()
+    return DurableJobs(engine, queues, store, retention_days)
+
+
+def finished(checked: Checked) -> Step:
+    """Return the last step of a check with a report."""
+    data = {"result": checked.key}
+    return Step("end", Stage.DONE, checked.words, checked.key, checked.packages, data)

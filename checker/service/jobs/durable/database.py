@@ -1,0 +1,155 @@
+"""The database: a SQLite file on one machine, or PostgreSQL for several."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import sqlalchemy as sa
+
+from checker.base.private_files import tighten
+from checker.base.words import plain, shortened
+from checker.service.jobs.durable.tables import make_tables
+from checker.service.jobs.durable.upgrade import hash_clear_ids
+from checker.service.jobs.port import JobsUnreachable
+
+CONNECT_SECONDS = 5
+"""After which a server that does not answer counts as unreachable."""
+POOL_SIZE = 20
+"""Connections at most, made as they are needed and then kept: to make one takes longer than to use
+it."""
+_POOL_SECONDS = 15
+"""That a thread waits for one of them."""
+_POOL: Mapping[str, Any] = {
+    "pool_size": POOL_SIZE,
+    "max_overflow": 0,
+    "pool_timeout": _POOL_SECONDS,
+    "pool_use_lifo": True,
+    "hide_parameters": True,  # names of files are their senders', and errors get into logs
+}
+_BUSY_MILLISECONDS = 30_000
+_NO_ADDRESS = (
+    "SUBT_CHECK_DATABASE_URL is no address of a database that processes share, expected "
+    "sqlite:///FILE or postgresql://…"
+)
+"""Said without the address: it may hold a password."""
+AWAY = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
+_SHOWN = 200
+_MIGRATION_LOCK = 7_302_815_601
+"""Of PostgreSQL's advisory locks; any number that others do not use."""
+
+
+def open_database(url: str) -> sa.Engine:
+    """Return a pool of connections; none is made yet.
+
+    Args:
+        url: `sqlite:///…` or `postgresql://…`.
+
+    Raises:
+        JobsUnreachable: The address is none, or its kind is not known.
+    """
+    try:
+        address = sa.make_url(url)
+    except (sa.exc.ArgumentError, ValueError):
+        raise JobsUnreachable(_NO_ADDRESS) from None
+    if address.get_backend_name() == "sqlite":
+        return _sqlite(address)
+    if address.get_backend_name() not in ("postgres", "postgresql"):
+        raise JobsUnreachable(_NO_ADDRESS)
+    return sa.create_engine(
+        address.set(drivername="postgresql+psycopg"),
+        pool_pre_ping=True,
+        **_POOL,
+        connect_args={"connect_timeout": CONNECT_SECONDS},
+    )
+
+
+@contextmanager
+def reachable() -> Iterator[None]:
+    """Say of a database that does not answer that it is unreachable.
+
+    Raises:
+        JobsUnreachable: It did not answer.
+    """
+    try:
+        yield
+    except AWAY as error:
+        raise JobsUnreachable(f"the database does not answer: {_cause(error)}") from error
+    except sa.exc.DatabaseError as error:
+        if type(error) is not sa.exc.DatabaseError:
+            raise
+        # What SQLite says of a file that is damaged, or is none of its own.
+        raise JobsUnreachable(f"the database cannot be read: {_cause(error)}") from error
+
+
+def prepare(engine: sa.Engine) -> None:
+    """Make the tables that are missing, DBOS's own and the ledger's, and upgrade older ones.
+
+    Many may do so at once.
+
+    Raises:
+        JobsUnreachable: The database does not answer.
+    """
+    from dbos import DBOS
+
+    with reachable():
+        with engine.connect():
+            pass
+        DBOS.migrate(engine.url.render_as_string(hide_password=False))
+        with engine.begin() as connection:
+            if engine.dialect.name == "sqlite":
+                connection.exec_driver_sql("BEGIN IMMEDIATE")
+            else:
+                connection.execute(sa.select(sa.func.pg_advisory_xact_lock(_MIGRATION_LOCK)))
+            make_tables(connection)
+        hash_clear_ids(engine)
+
+
+def now(engine: sa.Engine) -> sa.ColumnElement[float]:
+    """Return the database's clock, seconds since the epoch: clocks of machines may differ."""
+    if engine.dialect.name == "sqlite":
+        return (sa.func.julianday("now", type_=sa.Double) - 2440587.5) * 86400.0
+    return sa.cast(sa.extract("epoch", sa.func.clock_timestamp()), sa.Double)
+
+
+def _cause(error: sa.exc.SQLAlchemyError) -> str:
+    """Return what the database said, without the statement that it was asked."""
+    said = getattr(error, "orig", None) or type(error).__name__
+    return plain(shortened(str(said).partition("\n")[0], _SHOWN))
+
+
+def _make(file: Path) -> None:
+    """Make the file, for its owner alone: SQLite would let all read it, and what lies beside it.
+
+    Raises:
+        JobsUnreachable: It cannot be made or written.
+    """
+    try:
+        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        os.close(os.open(file, os.O_RDWR | os.O_CREAT, 0o600))
+        for suffix in ("", "-wal", "-shm"):  # of an older version, or a copy
+            tighten(file.with_name(file.name + suffix))
+    except OSError as error:
+        reason = error.strerror or "it cannot be opened"
+        raise JobsUnreachable(f"the database {file} cannot be written ({reason})") from None
+
+
+def _sqlite(address: sa.URL) -> sa.Engine:
+    if address.database in (None, "", ":memory:"):  # each process would have one of its own
+        raise JobsUnreachable(_NO_ADDRESS)
+    _make(Path(address.database))
+    engine = sa.create_engine(address, **_POOL)
+
+    @sa.event.listens_for(engine, "connect")
+    def _configure(connection: Any, _record: Any) -> None:
+        # Writers queue up from the start of a transaction, and readers never wait for them.
+        connection.isolation_level = "IMMEDIATE"
+        connection.execute(f"PRAGMA busy_timeout={_BUSY_MILLISECONDS}")
+        connection.execute("PRAGMA journal_mode=WAL")
+        connection.execute("PRAGMA synchronous=FULL")
+        connection.execute("PRAGMA foreign_keys=ON")
+
+    return engine

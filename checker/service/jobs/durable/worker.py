@@ -1,0 +1,162 @@
+"""A worker: a process that takes checks from the queues until it is told to stop."""
+
+from __future__ import annotations
+
+import logging
+import os
+import secrets
+import signal
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import field
+
+from checker.base.record import record
+from checker.base.sandbox.layers import Layer, hides_files
+from checker.base.signals import on_requests_to_end
+from checker.engine.report_cache import program_parts
+from checker.service.jobs.children import Children
+from checker.service.jobs.durable.database import open_database, prepare, reachable
+from checker.service.jobs.durable.engine import land, launch
+from checker.service.jobs.durable.ledger import Ledger
+from checker.service.jobs.durable.queues import queues_of
+from checker.service.jobs.durable.retention import Retention
+from checker.service.jobs.durable.roll import Roll
+from checker.service.jobs.durable.stages import Stages
+from checker.service.jobs.durable.watchdog import Watchdog
+from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable
+from checker.service.jobs.sandbox import layers_of_checks
+from checker.service.store.store import Store
+
+_LOG = logging.getLogger(__name__)
+_LANDING_SECONDS = 10.0
+"""For the children of what is handed back to end, and for the database to hear of it."""
+
+
+def _some_name() -> str:
+    return f"worker-{secrets.token_hex(4)}"
+
+
+@record()
+class WorkerOptions:
+    """How a worker works.
+
+    Attributes:
+        database_url: As `checker.service.jobs.place.database_url` says it.
+        store: Uploads and results.
+        name: Of this worker, of letters, digits and `-`; no other one has it at the same time. One
+            that is started again under its old name takes up at once what it had in hand.
+        trials: At once in each worker of the database; None keeps what was said last, at first 1.
+        grace_seconds: To finish what is in hand after the signal to stop; then it is handed back.
+        beat_seconds: Between two signs of life.
+        silence_seconds: After which other workers take this one for dead.
+        cleaning_seconds: Between two rounds that delete what has had its time.
+        unused_seconds: That files stay which no check refers to.
+        ahead: Whether the process of the next check is started before there is one; it has 0.1 GB.
+    """
+
+    database_url: str
+    store: Store
+    name: str = field(default_factory=_some_name)
+    trials: int | None = None
+    grace_seconds: float = 20.0
+    beat_seconds: float = 10.0
+    silence_seconds: float = SILENCE_SECONDS
+    cleaning_seconds: float = 3600.0
+    unused_seconds: float = 3600.0
+    ahead: bool = True
+
+
+def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
+    """Take checks from the queues until `stop` is set, then finish or hand back what is in hand.
+
+    One worker runs in a process. Threads of DBOS that wait for what was handed back outlive it:
+    end the process by `os._exit`, as `work` does.
+
+    Raises:
+        JobsUnreachable: The database does not answer at the start.
+    """
+    engine = open_database(options.database_url)
+    prepare(engine)
+    layers = layers_of_checks(options.store)
+    _tell_of(layers)
+    queues, roll = queues_of(engine), Roll(engine, layers)
+    children = Children(options.store, options.ahead)
+    stages = Stages(Ledger(engine), queues, options.store, options.name, children)
+    watchdog = Watchdog(roll, options.name, options.silence_seconds)
+    retention = Retention(engine, queues, options.store, options.unused_seconds)
+    # What every result depends on takes 0.1 s to look through: now no upload waits for it.
+    program_parts()
+    with reachable():
+        queues.declare(options.trials)
+        roll.beat(options.name)
+        launch(engine, options.name, stages.run)
+    children.get_ready()
+    landed = threading.Event()
+    _in_background(watchdog.look, options.beat_seconds, landed)
+    _in_background(retention.delete, options.cleaning_seconds, stop)
+    _LOG.info("%s waits for checks", options.name)
+    stop.wait()
+    _LOG.info("%s stops; it has %g s for what is in hand", options.name, options.grace_seconds)
+    _land(stages, options.grace_seconds)
+    children.close()
+    landed.set()
+    with suppress(JobsUnreachable), reachable():
+        roll.strike(options.name)
+
+
+def _tell_of(layers: Sequence[Layer]) -> None:
+    said = ", ".join(f"{each.name} ({each.words})" for each in layers if each.held)
+    _LOG.info("layers of the sandbox: %s", said or "none")
+    if not hides_files(layers):
+        _LOG.warning("no layer hides files: what takes over a check reads all that this user can")
+
+
+def work(options: WorkerOptions) -> None:
+    """Be a worker until SIGTERM or SIGINT; the process ends with it. A second signal ends at once.
+
+    Raises:
+        JobsUnreachable: The database does not answer at the start.
+    """
+    logging.basicConfig(
+        level=logging.INFO,
+        stream=sys.stderr,
+        format="%(asctime)s %(levelname)s %(name)s: %(message)s",
+    )
+    logging.getLogger("dbos").setLevel(logging.WARNING)
+    stop = threading.Event()
+    # Whoever started it may have it ignore the terminal's Ctrl-C, and stop it in time.
+    both = (signal.SIGTERM, signal.SIGINT)
+    heeded = [each for each in both if signal.getsignal(each) is not signal.SIG_IGN]
+    on_requests_to_end(heeded, stop.set, lambda: os._exit(1))
+    run_worker(stop, options)
+    logging.shutdown()
+    os._exit(0)
+
+
+def _land(stages: Stages, grace_seconds: float) -> None:
+    """Finish what is in hand; hand it back when the time is over."""
+    timer = threading.Timer(grace_seconds, stages.hand_back.set)
+    timer.daemon = True
+    timer.start()
+    land(grace_seconds + _LANDING_SECONDS)
+    timer.cancel()
+
+
+def _in_background(do: Callable[[], None], every_seconds: float, stop: threading.Event) -> None:
+    """Do something at once and again and again, come what may, until told to stop."""
+
+    def repeat() -> None:
+        while True:
+            try:
+                with reachable():
+                    do()
+            except JobsUnreachable as error:
+                _LOG.warning("%s", error)
+            except Exception:  # noqa: BLE001 - a worker without its watchdog is taken for dead
+                _LOG.exception("%s fails", do.__qualname__)
+            if stop.wait(every_seconds):
+                return
+
+    threading.Thread(target=repeat, daemon=True, name=do.__qualname__).start()

@@ -1,0 +1,56 @@
+"""What can come of one stage of a check."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from checker.base.record import record
+
+
+@record()
+class Checked:
+    """A report is in the store.
+
+    Attributes:
+        key: Of the result.
+        packages: As in `State.packages`.
+        words: What came out, one sentence.
+    """
+
+    key: str
+    packages: tuple[Mapping[str, Any], ...]
+    words: str
+
+
+@record()
+class Refused:
+    """The upload cannot be checked, and its sender can mend that.
+
+    Attributes:
+        reason: Why, and what to do; one sentence.
+    """
+
+    reason: str
+
+
+@record()
+class Died:
+    """The checker could not finish: it ran into a limit, or into a fault of its own.
+
+    Attributes:
+        reason: One sentence that begins with `UNFINISHED`.
+    """
+
+    reason: str
+
+
+@record()
+class Cancelled:
+    """Somebody wanted it to end."""
+
+
+UNFINISHED = "the checker could not finish"
+"""How people are told that they are not at fault."""
+FAILED_INSIDE = f"{UNFINISHED}: it failed inside; its operator finds the cause in the log"
+Outcome = Checked | Refused | Died | Cancelled

@@ -1,0 +1,154 @@
+"""What the service needs of a job engine: six calls; `durable` implements them."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping, Sequence
+from dataclasses import field
+from typing import Any, Protocol
+
+from checker.base.record import record
+from checker.base.sandbox.layers import Layer
+
+
+class Stage(enum.StrEnum):
+    """How far a check has come.
+
+    It is `REFUSED` when the upload is at fault and its sender can mend that, and `FAILED` when the
+    checker could not finish.
+    """
+
+    QUEUED = "queued"
+    STATIC = "static"
+    TRIAL = "trial"
+    DONE = "done"
+    REFUSED = "refused"
+    FAILED = "failed"
+    CANCELLED = "cancelled"
+
+    @property
+    def is_final(self) -> bool:
+        """Whether nothing will change any more."""
+        return self in (Stage.DONE, Stage.REFUSED, Stage.FAILED, Stage.CANCELLED)
+
+
+@record()
+class Order:
+    """A check that somebody asks for.
+
+    Attributes:
+        upload: Hash (BLAKE3, hexadecimal) of the uploaded content in the store.
+        name: Of the uploaded file, made safe by `service.store.naming`; its ending says what it is.
+        profile: Of the check; empty for what suits.
+    """
+
+    upload: str
+    name: str
+    profile: str = ""
+
+
+@record()
+class State:
+    """Where a check stands.
+
+    Attributes:
+        id: Of the check, unguessable.
+        order: What was asked for.
+        stage: How far it is.
+        words: What is going on or went wrong, one sentence.
+        ahead: Checks in front of it in the queue.
+        created: Seconds since the epoch.
+        result: Key of the stored report so far (static findings at first); empty before.
+        packages: Of each package so far: its "name", "verdict" (ready, not_ready, incomplete),
+            "errors", "warnings", "infos" and the "folder" of its files in the result ("" for one).
+        expires: When everything of it is deleted, seconds since the epoch.
+    """
+
+    id: str
+    order: Order
+    stage: Stage
+    words: str = ""
+    ahead: int = 0
+    created: float = 0.0
+    result: str = ""
+    packages: tuple[Mapping[str, Any], ...] = ()
+    expires: float = 0.0
+
+
+@record()
+class Event:
+    """Something that happened to a check; numbers go up by one from 1."""
+
+    number: int
+    stage: Stage
+    words: str
+    time: float
+    data: Mapping[str, Any] = field(default_factory=dict)
+
+
+RETENTION_DAYS = 30
+"""After which all of a check is deleted, unless somebody says otherwise."""
+SILENCE_SECONDS = 60.0
+"""After which a worker that shows no sign of life counts as dead."""
+
+
+class JobsUnreachable(Exception):
+    """The database does not answer; any of the calls may raise it."""
+
+
+@record()
+class Alive:
+    """What is known of the engine.
+
+    Attributes:
+        workers: Seconds since each worker's last sign of life, by its name.
+        waiting: Checks that wait, by queue.
+        running: Checks that run.
+        layers: Of the sandbox around what each worker checks; older versions do not say them.
+    """
+
+    workers: Mapping[str, float]
+    waiting: Mapping[str, int]
+    running: int
+    layers: Mapping[str, Sequence[Layer]] = field(default_factory=dict)
+
+    @property
+    def living(self) -> Mapping[str, Sequence[Layer]]:
+        """The workers that have not been silent for too long, with their layers."""
+        return {
+            name: self.layers.get(name, ())
+            for name, seconds in self.workers.items()
+            if seconds <= SILENCE_SECONDS
+        }
+
+
+class Jobs(Protocol):
+    """The six calls; none of them waits for a check, and all may be called from many threads."""
+
+    def submit(self, order: Order) -> str:
+        """Take an order and return the id of its check; once it returns, the order is not lost."""
+        ...
+
+    def status(self, id: str) -> State | None:
+        """Return where a check stands; None for an id that was never given or is forgotten."""
+        ...
+
+    def events(self, id: str, after: int = 0) -> Sequence[Event]:
+        """Return what has happened so far after event number `after`, in order."""
+        ...
+
+    def cancel(self, id: str) -> bool:
+        """End a check; False if there was nothing to end."""
+        ...
+
+    def result(self, id: str) -> str:
+        """Return the key of the final report in the store; empty while there is none."""
+        ...
+
+    def alive(self) -> Alive:
+        """Return what is known of the engine.
+
+        Raises:
+            JobsUnreachable: The database does not answer.
+        """
+        ...

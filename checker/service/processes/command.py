@@ -1,0 +1,200 @@
+"""What `serve` and `worker` do."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import secrets
+import signal
+import socket
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from checker.base.errors import CheckerError
+from checker.base.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
+from checker.base.private_files import UMASK
+from checker.base.sandbox.launcher import module_path
+from checker.base.signals import on_requests_to_end
+from checker.service.processes.child import CHILD
+from checker.service.processes.exposure import address_of, listening, risk_of, warning_of
+from checker.service.processes.supervisor import Pace, Process, keep_running, stop_all
+from checker.service.store.place import data_folder
+
+if TYPE_CHECKING:
+    from checker.service.store.store import Store
+
+_NEEDED = ("blake3", "dbos", "fastapi", "uvicorn")
+_MOST_WORKERS = 2
+"""Unless more are asked for: a trial keeps a core busy."""
+
+
+def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
+    """Run the web server and its workers until SIGTERM or SIGINT; a second one ends all at once.
+
+    Raises:
+        CheckerError: The service is not installed, its database does not answer, or what is asked
+            for makes no sense.
+    """
+    _refuse_without_extra()
+    store = _data_made(options)
+    _refuse_without_database()
+    environment = _environment(options)
+    with listening(options.host, options.port) as bound:
+        for warning in filter(None, _warnings(bound, environment, store)):
+            _say(warning)
+        stop, at_once = _signals()
+        processes = _processes(options, bound, environment)
+        for each in processes:
+            each.start()
+        try:
+            return _served(bound, processes, stop, at_once, pace or Pace())
+        finally:
+            bound.close()
+            stop_all(processes, at_once, Pace(grace=0.0))
+
+
+def worker(options: argparse.Namespace) -> int:
+    """Be a worker of a service until SIGTERM or SIGINT; see `jobs.durable.worker.work`.
+
+    Raises:
+        CheckerError: The service is not installed, or its database does not answer.
+    """
+    _refuse_without_extra()
+    from checker.service.jobs.durable.worker import WorkerOptions, work
+    from checker.service.jobs.place import database_url
+    from checker.service.jobs.port import JobsUnreachable
+
+    os.umask(UMASK)  # for its children and their libraries, too
+    store = _data_made(options)
+    own = {"name": options.name} if options.name else {}
+    try:
+        work(WorkerOptions(database_url(), store, trials=options.jobs, **own))
+    except JobsUnreachable as error:
+        raise CheckerError(str(error)) from None
+    return EXIT_CLEAN
+
+
+def _refuse_without_extra() -> None:
+    if missing := [name for name in _NEEDED if find_spec(name) is None]:
+        raise CheckerError(
+            f"{missing[0]} is not installed, which the service needs; "
+            "run: pip install 'subt-check[service]'"
+        )
+
+
+def _refuse_without_database() -> None:
+    """Say once what each of the processes would say."""
+    from checker.service.jobs.durable.database import open_database, reachable
+    from checker.service.jobs.place import database_url
+    from checker.service.jobs.port import JobsUnreachable
+
+    shown = ""
+    try:
+        engine = open_database(database_url())
+        shown = f" ({engine.url.render_as_string(hide_password=True)})"
+        with reachable(), engine.connect():
+            pass
+    except JobsUnreachable as error:
+        raise CheckerError(f"{error}{shown}") from None
+    engine.dispose()
+
+
+def _environment(options: argparse.Namespace) -> Mapping[str, str]:
+    """Return the variables of the processes: those of here, and what the options say."""
+    said = {"SUBT_CHECK_BASE_URL": options.base_url} if options.base_url else {}
+    said |= {"SUBT_CHECK_PUBLIC": "1"} if options.public else {}
+    said |= {"SUBT_CHECK_WITHOUT_SANDBOX": "1"} if options.without_sandbox else {}
+    return {**os.environ, "PYTHONPATH": module_path(), **said}
+
+
+def _warnings(bound: socket.socket, environment: Mapping[str, str], store: Store) -> Iterator[str]:
+    """Yield what to say aloud of who may upload, and of what that risks.
+
+    Raises:
+        CheckerError: It is more than somebody has allowed.
+    """
+    from checker.service.jobs.sandbox import layers_of_checks
+
+    yield warning_of(bound, environment)
+    # Without workers as well: the indexes of archives are read here.
+    yield risk_of(environment, lambda: layers_of_checks(store))
+
+
+def _data_made(options: argparse.Namespace) -> Store:
+    """Return the store, made if need be, for nobody else; children look for it in the environment.
+
+    Raises:
+        CheckerError: It cannot be made or written.
+    """
+    from checker.service.store.store import Store
+
+    if options.data:
+        os.environ["SUBT_CHECK_DATA"] = str(Path(options.data).absolute())
+    folder = data_folder()
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        problem = "" if os.access(folder, os.W_OK | os.X_OK) else "permission denied"
+    except OSError as error:
+        problem = error.strerror or "it cannot be made"
+    if problem:
+        raise CheckerError(
+            f"{folder} cannot hold the data of the service ({problem}); choose another by --data"
+        )
+    store = Store(folder)
+    store.tighten()
+    return store
+
+
+def _processes(
+    options: argparse.Namespace, bound: socket.socket, environment: Mapping[str, str]
+) -> Sequence[Process]:
+    number = options.workers
+    if number is None:
+        number = min(_MOST_WORKERS, os.cpu_count() or 1)
+    child = (*CHILD, str(os.getpid()))
+    descriptor, group = bound.fileno(), secrets.token_hex(4)
+    web = (*child, "web", str(descriptor), options.behind_proxy)
+    workers = [
+        Process(f"worker {n}", (*child, "worker", f"worker-{group}-{n}"), environment)
+        for n in range(1, number + 1)
+    ]
+    return [Process("the web server", web, environment, (descriptor,)), *workers]
+
+
+def _signals() -> tuple[threading.Event, threading.Event]:
+    """Return the events that the first and the second request to end set."""
+    stop, at_once = threading.Event(), threading.Event()
+    on_requests_to_end((signal.SIGTERM, signal.SIGINT), stop.set, at_once.set)
+    return stop, at_once
+
+
+def _served(
+    bound: socket.socket,
+    processes: Sequence[Process],
+    stop: threading.Event,
+    at_once: threading.Event,
+    pace: Pace,
+) -> int:
+    web = processes[0]
+    while not (_answers(bound) or stop.is_set()):
+        if not web.is_running:
+            return web.exit_code or EXIT_CRASH  # it has said why
+        stop.wait(0.05)
+    if not stop.is_set():
+        show(f"subt-check serves at {address_of(bound)}\n")
+        keep_running(processes, stop, pace, _say)
+    bound.close()
+    _say("stops; a second signal ends it at once")
+    return EXIT_CLEAN if stop_all(processes, at_once, pace) else EXIT_CRASH
+
+
+def _answers(bound: socket.socket) -> bool:
+    """Say whether somebody listens at the socket."""
+    return bool(bound.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN))
+
+
+def _say(words: str) -> None:
+    say_progress(f"subt-check: {words}")

@@ -1,0 +1,146 @@
+"""Keeps processes running: starts them, starts anew what has died, and stops them in good order."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import threading
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from time import monotonic
+
+from checker.base.progress import Say
+from checker.base.record import record
+
+_LOOK_SECONDS = 0.2
+_SETTLED_SECONDS = 60.0
+"""A process that lives so long is well: the next death is a new misfortune."""
+_DEATHS_COUNTED = 30
+
+
+@record()
+class Pace:
+    """How long things take at most.
+
+    Attributes:
+        first_wait: Seconds before a dead process is started again; they double each time.
+        longest_wait: Seconds.
+        grace: Seconds that processes have to end when they are told to.
+    """
+
+    first_wait: float = 1.0
+    longest_wait: float = 60.0
+    grace: float = 45.0
+
+
+@dataclass
+class Process:
+    """A process that shall run.
+
+    Attributes:
+        name: For messages.
+        command: Program and arguments.
+        environment: Its variables.
+        descriptors: Open files that it takes over.
+    """
+
+    name: str
+    command: Sequence[str]
+    environment: Mapping[str, str]
+    descriptors: Sequence[int] = ()
+    _running: subprocess.Popen[bytes] | None = field(default=None, repr=False)
+    _started: float = 0.0
+    _deaths: int = 0
+    _next_start: float = 0.0
+
+    def start(self) -> None:
+        """Start it, apart from the terminal's signals: who keeps it passes them on."""
+        self._started = monotonic()
+        self._running = subprocess.Popen(  # noqa: S603 - our own interpreter and module
+            list(self.command),
+            env=dict(self.environment),
+            stdin=subprocess.DEVNULL,
+            pass_fds=tuple(self.descriptors),
+            process_group=0,
+        )
+
+    @property
+    def is_running(self) -> bool:
+        """Whether it runs now."""
+        return self._running is not None and self._running.poll() is None
+
+    @property
+    def exit_code(self) -> int:
+        """Of its last run; 0 while it runs."""
+        return (self._running.poll() or 0) if self._running is not None else 0
+
+    def mend(self, pace: Pace, say: Say) -> None:
+        """Start it again if it has died and has waited for its turn."""
+        if self.is_running:
+            return
+        now = monotonic()
+        if self._running is not None:
+            say(f"{self.name} {_how(self._running.returncode)}; {self._put_off(now, pace)}")
+            self._running = None
+        elif now >= self._next_start:
+            self.start()
+
+    def signal(self, number: int) -> None:
+        """Send a signal to it and to those that it started and that are still its group."""
+        if self._running is not None and self._running.poll() is None:
+            with suppress(ProcessLookupError):
+                os.killpg(self._running.pid, number)
+
+    def wait(self, seconds: float) -> bool:
+        """Wait for its end; False if it has not come by then."""
+        if self._running is None:
+            return True
+        try:
+            self._running.wait(max(seconds, 0.0))
+        except subprocess.TimeoutExpired:
+            return False
+        return True
+
+    def _put_off(self, now: float, pace: Pace) -> str:
+        """Put off the next start, longer with each death in a row, and return words about it."""
+        if now - self._started > _SETTLED_SECONDS:
+            self._deaths = 0
+        wait = min(pace.first_wait * 2.0**self._deaths, pace.longest_wait)
+        self._deaths = min(self._deaths + 1, _DEATHS_COUNTED)
+        self._next_start = now + wait
+        return f"it starts again in {wait:g} s"
+
+
+def _how(code: int) -> str:
+    if code < 0:
+        with suppress(ValueError):
+            return f"was ended by {signal.Signals(-code).name}"
+    return f"ended with exit code {code}"
+
+
+def keep_running(processes: Sequence[Process], stop: threading.Event, pace: Pace, say: Say) -> None:
+    """Keep processes running until `stop` is set."""
+    while not stop.wait(_LOOK_SECONDS):
+        for each in processes:
+            each.mend(pace, say)
+
+
+def stop_all(processes: Sequence[Process], at_once: threading.Event, pace: Pace) -> bool:
+    """End processes: those who are told to finish what they do, unless it shall be at once.
+
+    Returns:
+        Whether all have ended by themselves.
+    """
+    for each in processes:
+        each.signal(signal.SIGTERM)
+    ends = monotonic() + pace.grace
+    while any(each.is_running for each in processes):
+        if at_once.wait(_LOOK_SECONDS / 4) or monotonic() > ends:
+            break
+    willing = not any(each.is_running for each in processes)
+    for each in processes:
+        each.signal(signal.SIGKILL)
+        each.wait(10.0)
+    return willing

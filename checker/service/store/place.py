@@ -1,0 +1,32 @@
+"""Where the service keeps its data."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from checker.base.errors import CheckerError
+
+DATABASE = "jobs.sqlite"
+"""The file of the database in that folder, unless it lies elsewhere."""
+
+
+def data_folder() -> Path:
+    """Return the folder of uploads, results and the database; it may not be there yet.
+
+    `SUBT_CHECK_DATA`, else the user's data folder as the XDG base directories say.
+
+    Raises:
+        CheckerError: The user has no home folder, as in some containers.
+    """
+    own = os.environ.get("SUBT_CHECK_DATA")
+    if own:
+        return Path(own).absolute()
+    base = os.environ.get("XDG_DATA_HOME") or "~/.local/share"
+    try:
+        return (Path(base).expanduser() / "subt-check").absolute()
+    except RuntimeError:
+        raise CheckerError(
+            "this user has no home folder to keep uploads and reports in; "
+            "set SUBT_CHECK_DATA to a folder that it may write"
+        ) from None

@@ -1,0 +1,105 @@
+"""How the service says no: to programs in JSON, to people by a page."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from http import HTTPStatus
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+
+from checker.service.jobs.port import JobsUnreachable
+from checker.service.web import pages
+from checker.service.web.logs import LOGGER
+from checker.service.web.refusal import Refused, not_found
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+_FOR_PROGRAMS = ("/api/", "/healthz", "/readyz", "/metrics")
+CAUSE = "refused"
+"""Where the state of a request says why it was refused, for logs and metrics."""
+_LOG = logging.getLogger(LOGGER)
+
+
+class Problem(BaseModel):
+    """Why a request is refused.
+
+    Attributes:
+        error: What is wrong.
+        advice: What to do about it.
+    """
+
+    error: str
+    advice: str
+
+
+def refusal_answer(request: Request, refused: Refused) -> Response:
+    """Return the answer that says no."""
+    request.scope.setdefault("state", {})[CAUSE] = refused.cause
+    answer: Response
+    if request.scope["path"].startswith(_FOR_PROGRAMS):
+        problem = Problem(error=refused.error, advice=refused.advice)
+        answer = JSONResponse(problem.model_dump(), refused.status)
+    else:
+        answer = pages.error_page(refused.status, refused.error, refused.advice)
+    answer.headers.update(refused.headers)
+    return answer
+
+
+def say_no_by(app: FastAPI) -> None:
+    """Have an application answer by this module whatever goes wrong."""
+    from fastapi.exceptions import RequestValidationError
+
+    async def say_no(request: Request, error: Exception) -> Response:
+        return refusal_answer(request, _refusal_of(error))
+
+    for kind in (Refused, JobsUnreachable, HTTPException, RequestValidationError):
+        app.add_exception_handler(kind, say_no)
+
+
+def _refusal_of(error: Exception) -> Refused:
+    from fastapi.exceptions import RequestValidationError
+
+    match error:
+        case Refused():
+            return error
+        case JobsUnreachable():
+            _LOG.warning("the job engine does not answer", exc_info=error)
+            return _engine_away()
+        case HTTPException():
+            return _of_framework(error)
+        case RequestValidationError():
+            return _invalid(error.errors())
+        case _:
+            raise error
+
+
+def _engine_away() -> Refused:
+    error, advice = "The service cannot reach its database.", "Try again in a few seconds."
+    return Refused(503, error, advice, "engine", {"Retry-After": "5"})
+
+
+def _of_framework(error: HTTPException) -> Refused:
+    if error.status_code == HTTPStatus.NOT_FOUND:
+        return not_found()
+    if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
+        said = (
+            "This address does not take this method.",
+            "See /api/openapi.json for those it takes.",
+        )
+    else:
+        said = "The request cannot be understood.", "See /api/openapi.json for what is expected."
+    return Refused(error.status_code, *said, headers=dict(error.headers or {}))
+
+
+def _invalid(errors: Sequence[Any]) -> Refused:
+    """Name the first parameter at fault; its value is the client's own and not repeated."""
+    first = errors[0] if errors else {}
+    where = first.get("loc", ("request",))[-1]
+    what = first.get("msg", "not valid")
+    return Refused(422, f"The parameter {where!r} is wrong: {what}.", "Correct it.", "parameter")

@@ -1,0 +1,202 @@
+"""The API for programs, described by `/api/openapi.json`."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import RedirectResponse, Response
+
+from checker.base.record import record
+from checker.service.jobs.port import State
+from checker.service.web.answers import Problem
+from checker.service.web.events import HIGHEST, event_stream
+from checker.service.web.files import KINDS, file_response
+from checker.service.web.lookup import check_of
+from checker.service.web.receiving import new_check
+from checker.service.web.refusal import Refused
+from checker.service.web.services import Services
+from checker.service.web.views import CheckView, Created, address_of, check_view
+
+if TYPE_CHECKING:
+    from fastapi import APIRouter
+
+_FORM = {
+    "type": "object",
+    "required": ["file"],
+    "properties": {
+        "token": {"type": "string", "description": "Where one is needed and no header brings it."},
+        "profile": {"type": "string", "description": "What to judge by; empty for what suits."},
+        "file": {"type": "string", "format": "binary", "description": "Comes last."},
+    },
+}
+_UPLOAD = {"requestBody": {"required": True, "content": {"multipart/form-data": {"schema": _FORM}}}}
+_OTHERS = ("HEAD", "OPTIONS", "PATCH", "POST", "PUT", "TRACE")
+_SAID = {
+    400: "The form cannot be read, or was cut off.",
+    401: "A token is wanted.",
+    403: "The request comes from another site.",
+    404: "There is nothing at this address, or not yet.",
+    405: "Another method is expected.",
+    408: "The upload is too slow.",
+    413: "The file is too large.",
+    415: "It is no file that can be checked.",
+    421: "The service does not answer under this name.",
+    422: "The archive, the profile or a parameter is refused, and why.",
+    429: "Too many uploads; see Retry-After.",
+    503: "Too busy, or the database does not answer; see Retry-After.",
+}
+
+
+def router(services: Services) -> APIRouter:
+    """Return the routes of the API."""
+    from fastapi import APIRouter
+
+    api = Api(services)
+    made = APIRouter(prefix="/api/checks", tags=["checks"])
+    add = partial(made.add_api_route, responses=_refusals(404, 421, 422, 503))
+    made.add_api_route(
+        "",
+        api.create,
+        methods=["POST"],
+        status_code=201,
+        response_model=Created,
+        openapi_extra=_UPLOAD,
+        responses=_refusals(400, 401, 403, 408, 413, 415, 421, 422, 429, 503),
+    )
+    add("/{id}", api.show, methods=["GET"], response_model=CheckView)
+    add(
+        "/{id}",
+        api.cancel,
+        methods=["DELETE"],
+        response_model=CheckView,
+        responses=_refusals(403, 404, 421, 422, 503),
+    )
+    made.add_route("/api/checks/{id}", _other_method, methods=_OTHERS, include_in_schema=False)
+    _add_events(made, api)
+    _add_files(made, api)
+    return made
+
+
+def _add_events(router: APIRouter, api: Api) -> None:
+    from fastapi import Query
+
+    async def events(
+        request: Request, id: str, after: int = Query(default=0, ge=0, le=HIGHEST)
+    ) -> Response:
+        """Send the events behind number `after` as they happen, until the check ends."""
+        return await api.events(request, id, after)
+
+    stream: dict[int | str, dict[str, Any]] = {
+        200: {"content": {"text/event-stream": {}}},
+        204: {"description": "It is over."},
+    }
+    router.add_api_route(
+        "/{id}/events",
+        events,
+        response_class=Response,
+        responses={**_refusals(404, 421, 422, 503), **stream},
+    )
+
+
+def _add_files(router: APIRouter, api: Api) -> None:
+    for name, kind in KINDS.items():
+        here = "/{id}/packages/" if name == "index.html" else "/{id}/"
+        _add_file(router, here + name, api.file_named(name), kind)
+    for name in ("report.html", "robot.glb"):
+        inner = api.file_of_package(name)
+        _add_file(router, f"/{{id}}/packages/{{folder}}/{name}", inner, KINDS[name])
+    router.add_api_route("/{id}/index.html", api.index, include_in_schema=False)
+
+
+def _add_file(router: APIRouter, path: str, endpoint: Any, kind: str) -> None:
+    said: dict[int | str, dict[str, Any]] = {200: {"content": {kind.partition(";")[0]: {}}}}
+    name = path.rpartition("/")[2]
+    router.add_api_route(
+        path,
+        endpoint,
+        name=f"{name} of a package" if "{folder}" in path else name,
+        response_class=Response,
+        responses={**_refusals(404, 421, 422, 503), **said},
+    )
+
+
+@record()
+class Api:
+    """The routes. What is no coroutine runs in a thread: it waits for the engine or the disk."""
+
+    services: Services
+
+    async def create(self, request: Request, response: Response) -> Created:
+        """Take a package, an archive or a model file, and order its check."""
+        id = await new_check(request, self.services)
+        response.headers["Location"] = f"/api/checks/{id}"
+        return Created(id=id, url=self._page(request, id))
+
+    def show(self, request: Request, id: str) -> CheckView:
+        """Tell where a check stands."""
+        return self._view(request, check_of(self.services, id))
+
+    def cancel(self, request: Request, id: str) -> CheckView:
+        """End a check, and tell where it stands; one that has ended stays as it is."""
+        check_of(self.services, id)
+        self.services.jobs.cancel(id)
+        return self._view(request, check_of(self.services, id))
+
+    async def events(self, request: Request, id: str, after: int) -> Response:
+        """Send the events of a check."""
+        await run_in_threadpool(check_of, self.services, id)
+        return await event_stream(request, self.services, id, after)
+
+    def index(self, id: str) -> Response:
+        """Lead to the list of packages, beside their folders: its links are relative."""
+        self._file(id, "index.html")
+        return RedirectResponse(address_of(id, "index.html"), 307)
+
+    def file_named(self, name: str) -> Any:
+        """Return the route of a file that a result has once."""
+
+        def send(id: str) -> Response:
+            return self._file(id, name)
+
+        send.__doc__ = f"Send {name}; findings of the static rules come before the trial's."
+        return send
+
+    def file_of_package(self, name: str) -> Any:
+        """Return the route of a file that each of several packages has."""
+
+        def send(id: str, folder: str) -> Response:
+            return self._file(id, f"{folder}/{name}")
+
+        send.__doc__ = f"Send {name} of one of several packages, by its folder."
+        return send
+
+    def _file(self, id: str, name: str) -> Response:
+        state = check_of(self.services, id)
+        path = self.services.store.file(state.result, name) if state.result else None
+        if path is not None:
+            with suppress(FileNotFoundError):  # it is deleted just now
+                return file_response(path)
+        error = "The check has no such file, or not yet."
+        advice = f"Wait until /api/checks/{id} says that it is final, and see its files."
+        raise Refused(404, error, advice, "not found")
+
+    def _view(self, request: Request, state: State) -> CheckView:
+        names = self.services.store.names(state.result) if state.result else ()
+        return check_view(state, self._page(request, state.id), names)
+
+    def _page(self, request: Request, id: str) -> str:
+        return f"{self.services.address(request)}/checks/{id}"
+
+
+def _other_method(_: Request) -> Response:
+    """Name both methods of a check; the framework names those of one route."""
+    raise HTTPException(405, headers={"Allow": "DELETE, GET"})
+
+
+def _refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    return {each: {"model": Problem, "description": _SAID[each]} for each in statuses}

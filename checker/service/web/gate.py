@@ -1,0 +1,97 @@
+"""Who may do what: tokens, rates and places."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from math import ceil
+
+from starlette.requests import HTTPConnection
+
+from checker.service.web.config import Config
+from checker.service.web.rate import Rate, Slots, client_of
+from checker.service.web.refusal import Refused
+
+_SHARE = 2
+"""One client has one of so many places, rounded up."""
+
+
+class Gate:
+    """Lets requests pass or refuses them; used by the event loop alone."""
+
+    def __init__(self, config: Config) -> None:
+        self._tokens = tuple(token.encode() for token in config.tokens)
+        self._rate = Rate(0 if config.only_here else config.uploads_per_minute)
+        self._uploads = _slots(config.uploads_at_once)
+        self._streams = _slots(config.streams)
+
+    @contextmanager
+    def upload(self, request: HTTPConnection) -> Iterator[None]:
+        """Let an upload in as long as it lasts.
+
+        Raises:
+            Refused: The client sends too many, too many are under way, or its token is wrong.
+        """
+        client = client_of(request)
+        seconds = ceil(self._rate.wait(client))
+        if seconds:
+            raise _later(429, "Too many uploads come from this address.", seconds, "rate")
+        if token := bearer(request):
+            self._check(token)
+        with self._uploads.one(client) as free:
+            if not free:
+                raise _later(503, "Too many uploads are under way.", 5, "busy")
+            yield
+
+    @contextmanager
+    def stream(self, request: HTTPConnection) -> Iterator[None]:
+        """Let somebody watch a check as long as it lasts.
+
+        Raises:
+            Refused: Too many watch.
+        """
+        with self._streams.one(client_of(request)) as free:
+            if not free:
+                raise _later(503, "Too many checks are watched.", 5, "busy")
+            yield
+
+    def needs_token(self, request: HTTPConnection) -> Callable[[Mapping[str, str]], None]:
+        """Return what refuses the fields of a form without a token, where one is needed."""
+
+        def admit(fields: Mapping[str, str]) -> None:
+            if self._tokens and not bearer(request):
+                self._check(fields.get("token", ""))
+
+        return admit
+
+    def knows(self, token: str) -> bool:
+        """Whether it is one of the tokens; as slow for a good guess as for a bad one."""
+        given = token.strip().encode()
+        return sum(secrets.compare_digest(given, token) for token in self._tokens) > 0
+
+    def _check(self, token: str) -> None:
+        if self._tokens and not self.knows(token):
+            raise Refused(
+                401,
+                "This token is not known." if token else "This service wants a token.",
+                "Ask whoever runs the service for one; programs send it as 'Authorization: "
+                "Bearer …', or in the field 'token' before the file.",
+                "token",
+                {"WWW-Authenticate": "Bearer"},
+            )
+
+
+def bearer(request: HTTPConnection) -> str:
+    """Return the token that the header of a request brings; empty without."""
+    kind, _, token = request.headers.get("authorization", "").partition(" ")
+    return token.strip() if kind.lower() == "bearer" else ""
+
+
+def _slots(places: int) -> Slots:
+    return Slots(places, ceil(places / _SHARE))
+
+
+def _later(status: int, error: str, seconds: int, cause: str) -> Refused:
+    advice = f"Try again in {seconds} s."
+    return Refused(status, error, advice, cause, {"Retry-After": str(seconds)})

@@ -1,0 +1,134 @@
+"""Whether the service lives, whether it is ready for work, and what it has counted."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+
+from checker.base.record import record
+from checker.base.sandbox.layers import hides_files
+from checker.service.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
+from checker.service.loopback import is_loopback
+from checker.service.web.answers import Problem
+from checker.service.web.gate import bearer
+from checker.service.web.refusal import Refused, not_found
+from checker.service.web.services import Services
+
+if TYPE_CHECKING:
+    from fastapi import APIRouter
+
+_TEXT_FORMAT = "text/plain; version=0.0.4"
+
+
+class Well(BaseModel):
+    """Nothing is wrong."""
+
+    status: str = "ok"
+
+
+class Ready(Well):
+    """A check that is ordered now would be done.
+
+    Attributes:
+        sandbox: Names of the layers that hold where each living worker checks; said only to this
+            machine and to those with a token.
+    """
+
+    sandbox: Mapping[str, Sequence[str]] | None = None
+
+
+def router(services: Services) -> APIRouter:
+    """Return the routes for those who look after the service."""
+    from fastapi import APIRouter
+
+    health = Health(services)
+    made = APIRouter(tags=["health"])
+    no: dict[int | str, dict[str, Any]] = {
+        503: {"model": Problem, "description": "Not ready, and why."}
+    }
+    made.add_api_route("/healthz", health.lives, response_model=Well)
+    made.add_api_route(
+        "/readyz",
+        health.ready,
+        response_model=Ready,
+        response_model_exclude_none=True,
+        responses=no,
+    )
+    made.add_api_route("/metrics", health.figures, include_in_schema=False)
+    return made
+
+
+@record()
+class Health:
+    """The routes."""
+
+    services: Services
+
+    async def lives(self) -> Well:
+        """Tell that the web process answers."""
+        return Well()
+
+    def ready(self, request: Request) -> Ready:
+        """Tell whether a check that is ordered now would be done, in the sandbox."""
+        alive = self._alive()
+        reasons = " ".join((*self._of_workers(alive), *self._of_disk()))
+        if reasons:
+            advice = "See the logs of the service and its workers."
+            raise Refused(503, reasons, advice, "not ready", {"Retry-After": "10"})
+        return Ready(sandbox=_sandbox(alive) if self._may_see(request) else None)
+
+    async def figures(self, request: Request) -> Response:
+        """Return the metrics, to this machine and to those with a token."""
+        if not self._may_see(request):
+            raise not_found()
+        alive = await run_in_threadpool(self._alive)
+        return PlainTextResponse(self.services.metrics.text(alive), media_type=_TEXT_FORMAT)
+
+    def _may_see(self, request: Request) -> bool:
+        """Whether it comes from this machine itself, by no proxy, or brings a token."""
+        host = request.client.host if request.client else ""
+        is_forwarded = "x-forwarded-for" in request.headers or "forwarded" in request.headers
+        if is_loopback(host) and not is_forwarded:
+            return True
+        return self.services.gate.knows(bearer(request))
+
+    def _alive(self) -> Alive | None:
+        try:
+            return self.services.jobs.alive()
+        except JobsUnreachable:
+            return None
+
+    def _of_workers(self, alive: Alive | None) -> Iterator[str]:
+        """Yield sentences about what is amiss with those who check."""
+        config = self.services.config
+        takes_risk = config.only_here or config.without_sandbox
+        if alive is None:
+            yield "The database does not answer."
+        elif not alive.living:
+            yield f"No worker has given a sign of life for {SILENCE_SECONDS:g} s."
+        elif not (takes_risk or all(map(hides_files, alive.living.values()))):
+            yield "A worker has no layer that hides files from what it checks."
+
+    def _of_disk(self) -> Iterator[str]:
+        """Yield sentences about what is amiss with the data folder."""
+        least = self.services.config.room
+        try:
+            free = shutil.disk_usage(self.services.store.folder).free
+        except OSError:
+            yield "The data folder cannot be read."
+        else:
+            if free < least:
+                yield f"The disk has {free / 1e6:.0f} MB free, expected {least / 1e6:.0f} MB."
+
+
+def _sandbox(alive: Alive | None) -> Mapping[str, Sequence[str]]:
+    living = alive.living if alive else {}
+    return {
+        worker: [each.name for each in layers if each.held] for worker, layers in living.items()
+    }

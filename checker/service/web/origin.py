@@ -1,0 +1,74 @@
+"""Requests that another site makes a browser send are refused."""
+
+from __future__ import annotations
+
+import re
+from urllib.parse import urlsplit
+
+from starlette.requests import Request
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from checker.base.record import record
+from checker.service.loopback import is_loopback
+from checker.service.web.answers import refusal_answer
+from checker.service.web.config import Config
+from checker.service.web.refusal import Refused
+
+_READING = ("GET", "HEAD", "OPTIONS")
+_HOST = re.compile(r"(\[[0-9A-Fa-f:.]{2,45}\]|[A-Za-z0-9._-]{1,253})(?::\d{1,5})?")
+
+
+@record()
+class OwnOrigin:
+    """Refuses what is meant for another host, or changes something on behalf of another site.
+
+    A service for this machine alone answers to names of this machine only: any site can give its
+    own name this machine's address (DNS rebinding), but not change the name that browsers send.
+    """
+
+    app: ASGIApp
+    config: Config
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request."""
+        if scope["type"] == "http":
+            request = Request(scope)
+            refused = self._misdirected(request) or self._cross_site(request)
+            if refused is not None:
+                await refusal_answer(request, refused)(scope, receive, send)
+                return
+        await self.app(scope, receive, send)
+
+    def _misdirected(self, request: Request) -> Refused | None:
+        host = request.headers.get("host", "")
+        match = _HOST.fullmatch(host)
+        name = match[1].lower() if match else ""
+        ours = urlsplit(self.config.base_url).hostname
+        if match and (not self.config.only_here or name == ours or is_loopback(name)):
+            return None
+        return Refused(
+            421,
+            "This service does not answer under this name.",
+            "Use http://localhost with its port; whoever runs it can set SUBT_CHECK_BASE_URL.",
+            "host",
+        )
+
+    def _cross_site(self, request: Request) -> Refused | None:
+        """Judge by what browsers add to each request; programs send neither header."""
+        if request.method in _READING:
+            return None
+        site = request.headers.get("sec-fetch-site")
+        origin = request.headers.get("origin")
+        if site in (None, "same-origin", "none") and (
+            origin is None or self._is_ours(origin, request)
+        ):
+            return None
+        error = "The request comes from another site."
+        return Refused(403, error, "Use the form of this service.", "origin")
+
+    def _is_ours(self, origin: str, request: Request) -> bool:
+        host = origin.partition("://")[2].lower()
+        here = {request.headers.get("host", "").lower()}
+        if self.config.base_url:
+            here.add(urlsplit(self.config.base_url).netloc.lower())
+        return host in here

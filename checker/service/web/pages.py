@@ -1,0 +1,170 @@
+"""The pages for people: the form, a check and how far it is, and the rule book."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from checker.base.record import record
+from checker.base.words import count, plain
+from checker.package.archives.archive import ARCHIVE_SUFFIXES
+from checker.package.archives.index import ArchiveLimits
+from checker.package.inputs import SINGLE_FILE_SUFFIXES
+from checker.rulebook.profiles import profile, profile_names
+from checker.service.jobs.port import Stage, State
+from checker.service.web import progress, rule_book
+from checker.service.web.first_findings import glance
+from checker.service.web.lookup import check_of
+from checker.service.web.receiving import new_check
+from checker.service.web.refusal import not_found
+from checker.service.web.services import Services
+from checker.service.web.site import FOLDER, html, static_file
+from checker.service.web.views import address_of
+
+if TYPE_CHECKING:
+    from fastapi import APIRouter
+    from starlette.requests import Request
+    from starlette.responses import Response
+
+_PACKAGES_SHOWN = 500
+_FILES = {
+    "report.json": ("JSON", "what subt-check --format json writes"),
+    "report.sarif": ("SARIF", "for code scanning"),
+    "robot.glb": ("robot.glb", "the robot and its trial for Blender and other viewers"),
+}
+"""Files of a result that the page offers beside the report, with their names and uses."""
+
+
+def router(services: Services) -> APIRouter:
+    """Return the routes of the pages.
+
+    Args:
+        services: What they show.
+    """
+    from fastapi import APIRouter
+
+    pages = _Pages(services)
+    made = APIRouter()
+    add = partial(made.add_route, include_in_schema=False)
+    add("/", pages.start, methods=["GET"])
+    add("/checks", pages.send, methods=["POST"])
+    add("/checks/{id}", pages.check, methods=["GET"])
+    add("/checks/{id}/cancel", pages.cancel, methods=["POST"])
+    add("/rules", _rules, methods=["GET"])
+    add("/rules/{id}", _rule, methods=["GET"])
+    add(FOLDER + "/{release}/{name}", _static, methods=["GET"])
+    return made
+
+
+def error_page(status: int, sentence: str, advice: str) -> Response:
+    """Return the page that says no.
+
+    Args:
+        status: Of HTTP.
+        sentence: What is wrong.
+        advice: What to do about it.
+    """
+    return html("error.html.j2", status=status, sentence=sentence, advice=advice)
+
+
+@record()
+class _Pages:
+    """The pages that need what the service works with.
+
+    What is no coroutine runs in a thread: the engine and the disk may take their time.
+    """
+
+    services: Services
+
+    def start(self, request: Request) -> Response:
+        """Show the form, and what becomes of what is sent."""
+        config, limits = self.services.config, ArchiveLimits()
+        return html(
+            "start.html.j2",
+            here="start",
+            upload_limit=config.upload_limit,
+            size=_megabytes(config.upload_limit),
+            unpacked=_megabytes(limits.unpacked_bytes),
+            limits=limits,
+            endings=(*ARCHIVE_SUFFIXES, *SINGLE_FILE_SUFFIXES),
+            archives=ARCHIVE_SUFFIXES,
+            single_files=SINGLE_FILE_SUFFIXES,
+            profiles=[profile(name) for name in profile_names()],
+            needs_token=bool(config.tokens),
+            kept=count(config.retention_days, "day"),
+            address=self.services.address(request),
+        )
+
+    async def send(self, request: Request) -> Response:
+        """Take the form as a browser without scripts sends it, and go to its check."""
+        return _see_other(f"/checks/{await new_check(request, self.services)}")
+
+    def check(self, request: Request) -> Response:
+        """Show a check: its steps, the first findings, in the end its results."""
+        state = check_of(self.services, request.path_params["id"])
+        found = glance(self.services.store, state.result)
+        names = self.services.store.names(state.result) if state.result else ()
+        done = state.stage is Stage.DONE
+        packages = progress.package_lines(state, names if done else ())
+        ended_early = state.stage.is_final and not done
+        events = self.services.jobs.events(state.id) if ended_early else ()
+        return html(
+            "check.html.j2",
+            id=state.id,
+            name=plain(state.order.name),
+            final=state.stage.is_final,
+            headline=progress.headline(state, packages),
+            steps=progress.steps_of(state, events),
+            packages=packages,
+            shown=_PACKAGES_SHOWN,
+            files=_files(state, names) if done else (),
+            first=found,
+            link=f"{self.services.address(request)}/checks/{state.id}",
+            events=f"/api/checks/{state.id}/events",
+            expires=progress.moment(state.expires) if state.expires else None,
+        )
+
+    def cancel(self, request: Request) -> Response:
+        """End a check and go back to its page."""
+        state = check_of(self.services, request.path_params["id"])
+        self.services.jobs.cancel(state.id)
+        return _see_other(f"/checks/{state.id}")
+
+
+def _rules(_: Request) -> Response:
+    groups = rule_book.groups()
+    number = sum(len(each.rules) for each in groups)
+    return html("rules.html.j2", here="rules", groups=groups, number=number)
+
+
+def _rule(request: Request) -> Response:
+    page = rule_book.pages().get(request.path_params["id"].upper())
+    if page is None:
+        raise not_found()
+    return html("rule.html.j2", entry=page.entry, body=page.body)
+
+
+def _static(request: Request) -> Response:
+    found = static_file(request.path_params["release"], request.path_params["name"])
+    if found is None:
+        raise not_found()
+    return found
+
+
+def _files(state: State, names: tuple[str, ...]) -> list[tuple[str, str, str]]:
+    """Return label, address and use of each file that is offered."""
+    return [
+        (label, address_of(state.id, name), use)
+        for name, (label, use) in _FILES.items()
+        if name in names
+    ]
+
+
+def _megabytes(size: int) -> str:
+    return f"{size / 1e6:g} MB"
+
+
+def _see_other(address: str) -> Response:
+    from starlette.responses import RedirectResponse
+
+    return RedirectResponse(address, status_code=303)

@@ -1,0 +1,178 @@
+"""How far a check is, in words and steps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from typing import Any
+
+from checker.base.record import record
+from checker.base.words import count, plain, shortened
+from checker.service.jobs.port import Event, Stage, State
+from checker.service.web.views import address_of
+
+STEPS = {
+    Stage.QUEUED: "Waiting",
+    Stage.STATIC: "Rules",
+    Stage.TRIAL: "Trial",
+    Stage.DONE: "Report",
+}
+"""The way of a check that goes well."""
+LEADS = {"ready": "Ready", "not_ready": "Not ready", "incomplete": "Incomplete"}
+_AGAIN = "Send the package again; if this stays, tell whoever runs this service."
+_TEXT_LIMIT = 600
+
+
+@record()
+class Step:
+    """One step of a check.
+
+    Attributes:
+        stands: `done`, `now`, `next`, `stopped` or `skipped`.
+        words: About it; may be empty.
+    """
+
+    name: str
+    stands: str
+    words: str = ""
+
+
+@record()
+class Headline:
+    """What a check comes to.
+
+    Attributes:
+        lead: A word or two.
+        rest: What follows behind a colon; may be empty.
+        mood: By which it is coloured: a verdict, or empty.
+        advice: What to do; may be empty.
+    """
+
+    lead: str
+    rest: str = ""
+    mood: str = ""
+    advice: str = ""
+
+
+@record()
+class PackageLine:
+    """A package of a check.
+
+    Attributes:
+        lead: The verdict.
+        page: Address of its report; empty as long as there is none.
+        model: Address of the robot in 3D; empty if there is none.
+    """
+
+    name: str
+    verdict: str
+    lead: str
+    errors: int
+    warnings: int
+    infos: int
+    page: str = ""
+    model: str = ""
+
+
+def steps_of(state: State, events: Sequence[Event]) -> tuple[Step, ...]:
+    """Return the steps of a check, the one under way or where it stopped marked.
+
+    Args:
+        state: Of the check.
+        events: Tell how far a check came that ended before its report.
+    """
+    order = list(STEPS)
+    ended_early = state.stage not in STEPS
+    went = [each.stage for each in events if each.stage in STEPS]
+    at = order.index((went or [Stage.QUEUED])[-1] if ended_early else state.stage)
+    here, after = ("stopped", "skipped") if ended_early else ("now", "next")
+    if state.stage is Stage.DONE:
+        here = "done"
+    stands = ["done"] * at + [here] + [after] * (len(order) - at - 1)
+    waits = "" if at == 0 or ended_early else _ahead(state)
+    return tuple(
+        Step(STEPS[stage], how, waits if how == "now" else "")
+        for stage, how in zip(order, stands, strict=True)
+    )
+
+
+def _ahead(state: State) -> str:
+    return f"{count(state.ahead, 'check')} ahead" if state.ahead else ""
+
+
+def headline(state: State, packages: Sequence[PackageLine]) -> Headline:
+    """Say in a sentence where a check stands."""
+    words = shortened(plain(state.words), _TEXT_LIMIT).rstrip(".")
+    match state.stage:
+        case Stage.REFUSED:
+            return Headline("Not checked", words, "not_ready", "Mend that and send it again.")
+        case Stage.FAILED:
+            return Headline("Not checked", words, "not_ready", _AGAIN)
+        case Stage.CANCELLED:
+            return Headline("Cancelled", "", "incomplete", "Send the package again to check it.")
+        case Stage.DONE:
+            return _verdict(words, packages)
+        case Stage.QUEUED:
+            return Headline("Waiting", _ahead(state) or "it begins in a moment")
+        case _:
+            return Headline("Checking", _so_far(packages) or words)
+
+
+def _verdict(words: str, packages: Sequence[PackageLine]) -> Headline:
+    """Return the verdict on the only package, or how many of several are ready."""
+    if len(packages) == 1:
+        (only,) = packages
+        return Headline(only.lead, words.removeprefix(only.lead).lstrip(": "), only.verdict)
+    ready = sum(each.verdict == "ready" for each in packages)
+    mood = "ready" if packages and ready == len(packages) else "not_ready"
+    return Headline(f"{ready} of {count(len(packages), 'package')} ready", "", mood)
+
+
+def _so_far(packages: Sequence[PackageLine]) -> str:
+    if not packages:
+        return ""
+    errors = sum(each.errors for each in packages)
+    warnings = sum(each.warnings for each in packages)
+    if not errors + warnings:
+        return "nothing to fix so far"
+    return f"{count(errors, 'error')} and {count(warnings, 'warning')} so far"
+
+
+def package_lines(state: State, names: Sequence[str]) -> tuple[PackageLine, ...]:
+    """Return the packages of a check.
+
+    Args:
+        state: Of the check.
+        names: Of the files of its result.
+    """
+    return tuple(_line(state, each, names) for each in state.packages)
+
+
+def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> PackageLine:
+    folder = str(package["folder"])
+    page, model = (f"{folder}/{name}".lstrip("/") for name in ("report.html", "robot.glb"))
+    verdict = str(package["verdict"])
+    return PackageLine(
+        name=plain(shortened(str(package["name"]), _TEXT_LIMIT)),
+        verdict=verdict,
+        lead=LEADS[verdict],
+        errors=int(package["errors"]),
+        warnings=int(package["warnings"]),
+        infos=int(package["infos"]),
+        page=address_of(state.id, page) if page in names else "",
+        model=address_of(state.id, model) if model in names else "",
+    )
+
+
+@record()
+class Moment:
+    """A moment, for people and for programs."""
+
+    words: str
+    iso: str
+
+
+def moment(seconds: float) -> Moment:
+    """Return a moment given in seconds since the epoch, in UTC."""
+    at = datetime.fromtimestamp(seconds, UTC)
+    return Moment(f"{at.day} {at:%B %Y, %H:%M} UTC", at.isoformat(timespec="seconds"))

@@ -1,0 +1,191 @@
+"""An upload on its way from a request into the store; whatever ends it leaves nothing behind."""
+
+from __future__ import annotations
+
+import asyncio
+import errno
+import os
+import shutil
+from collections.abc import AsyncIterator, MutableMapping
+from contextlib import suppress
+from dataclasses import dataclass
+from time import monotonic
+from typing import Any
+
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+
+from checker.rulebook.profiles import profile_names
+from checker.service.store.incoming import Incoming, TooLarge
+from checker.service.store.store import Store
+from checker.service.web.clerk.port import Slip
+from checker.service.web.config import Config
+from checker.service.web.form import ROOM, UploadForm
+from checker.service.web.refusal import Refused
+from checker.service.web.services import Services
+from checker.service.web.turns import Turn
+
+AT_ONCE = 1_048_576
+"""Bytes of each upload that the event loop writes itself. The system takes them into its memory in
+less time than it takes to change to a thread and back; more of them may have to wait for the disk.
+"""
+
+
+async def new_check(request: Request, services: Services) -> str:
+    """Take the upload form of a request and order a check of its file.
+
+    Args:
+        request: Its body is a multipart form: `token` where one is needed and no header brings
+            it, `profile` if wanted, then `file`.
+        services: Take the file and the order.
+
+    Returns:
+        The id of the check.
+
+    Raises:
+        Refused: The upload is not taken; nothing of it is left.
+        JobsUnreachable: The order cannot be taken now.
+    """
+    config = services.config
+    with services.gate.upload(request):
+        _refuse_announced(request, config)
+        try:
+            _refuse_without_room(services.store, config)
+            # Unless the clerk has taken it by then, nothing of it is left behind this.
+            with services.store.incoming(config.upload_limit) as incoming:
+                id = await _received(request, services, incoming)
+        except TooLarge:
+            raise too_large(config.upload_limit) from None
+        except OSError as error:
+            raise _no_room(error) from None
+    services.metrics.uploads += 1
+    return id
+
+
+async def _received(request: Request, services: Services, incoming: Incoming) -> str:
+    """Read the form, and have a check of its file ordered; see `new_check`."""
+    admit = services.gate.needs_token(request)
+    form = UploadForm(request.headers.get("content-type", ""), incoming.write, admit)
+    async with services.turns.one() as turn:
+        async for piece in _pieces(request, services.config, turn):
+            if incoming.size < AT_ONCE:
+                form.feed(piece)
+            else:
+                turn.end()
+                await run_in_threadpool(form.feed, piece)
+    form.end()
+    profile = _profile(form.fields.get("profile", ""))
+    return await services.clerk.take(Slip(str(incoming.path), form.name, profile))
+
+
+def too_large(limit: int) -> Refused:
+    """Return the refusal of a file that is larger than the limit."""
+    return Refused(
+        413,
+        f"The file is larger than the {limit / 1e6:g} MB allowed.",
+        "Leave out what the package does not need, or reduce its meshes and textures.",
+        "size",
+    )
+
+
+def _refuse_announced(request: Request, config: Config) -> None:
+    """Refuse what says of itself that it is too large, before any of it is read."""
+    length = request.headers.get("content-length", "")
+    if length.isdecimal() and len(length) <= 20 and int(length) > config.upload_limit + ROOM:
+        raise too_large(config.upload_limit)
+
+
+def _refuse_without_room(store: Store, config: Config) -> None:
+    """Refuse all uploads before the disk is so full that no check can be finished."""
+    try:
+        free = shutil.disk_usage(store.folder).free
+    except OSError:  # writing will tell
+        return
+    if free < config.room:
+        raise _no_room(OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)))
+
+
+@dataclass
+class _Patience:
+    """How long an upload is waited for: each byte of it buys time.
+
+    Attributes:
+        started: By the monotonic clock.
+        received: Bytes so far.
+    """
+
+    config: Config
+    started: float
+    received: int = 0
+
+    @property
+    def left(self) -> float:
+        """Seconds from now."""
+        config, passed = self.config, monotonic() - self.started
+        bought = config.idle_seconds + self.received / config.slowest
+        return min(bought, config.upload_seconds) - passed
+
+
+async def _pieces(request: Request, config: Config, turn: Turn) -> AsyncIterator[bytes]:
+    """Yield the body of a request piece by piece; a sender that does not keep up has no turn.
+
+    Raises:
+        Refused: It comes too slowly, is longer than any form, or ends early.
+    """
+    patience = _Patience(config, monotonic())
+    more = True
+    while more:
+        message = await _message(request, config, patience, turn)
+        if message["type"] == "http.disconnect":
+            raise Refused(400, "The upload was cut off.", "Send it again.", "cut")
+        piece: bytes = message.get("body", b"")
+        more = message.get("more_body", False)
+        patience.received += len(piece)
+        if patience.received > config.upload_limit + ROOM:
+            raise too_large(config.upload_limit)
+        if piece:
+            yield piece
+
+
+async def _message(
+    request: Request, config: Config, patience: _Patience, turn: Turn
+) -> MutableMapping[str, Any]:
+    if turn.lasts:
+        with suppress(TimeoutError):
+            async with asyncio.timeout_at(turn.until):
+                return await request.receive()
+        turn.end()
+    try:
+        async with asyncio.timeout(min(config.idle_seconds, max(patience.left, 0.0))):
+            return await request.receive()
+    except TimeoutError:
+        raise _too_slow(config) from None
+
+
+def _too_slow(config: Config) -> Refused:
+    least = config.slowest / 1e3
+    return Refused(
+        408,
+        f"The upload is too slow, expected {least:g} kB/s or more without long breaks.",
+        "Send it again by a better connection, or reduce it.",
+        "slow",
+    )
+
+
+def _profile(name: str) -> str:
+    known = profile_names()
+    if name and name not in known:
+        shown = ", ".join(known)
+        raise Refused(422, "There is no such profile.", f"Choose one of {shown}.", "profile")
+    return name
+
+
+def _no_room(error: OSError) -> Refused:
+    reason = error.strerror or "the disk does not answer"
+    return Refused(
+        503,
+        f"The service cannot keep the upload: {reason}.",
+        "Try again later.",
+        "disk",
+        {"Retry-After": "60"},
+    )

@@ -1,0 +1,225 @@
+"""What a parser stumbled over, in a person's words, and its likely cause."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from difflib import get_close_matches
+
+from checker.source.text import SourceText, Span
+from checker.source.xml_positions import XmlFault
+
+# What tinyxml2, and hence Gazebo, forgives though XML forbids it.
+#
+# Each function blanks the forgiven characters out, so that offsets stay the same, and reports them.
+
+
+_LATE_DECLARATION = re.compile(r"\s+(<\?xml\s[^>]*?\?>)")
+_HYPHENS = re.compile(r"-{2,}|-\Z")
+_TWO_HYPHENS = ("'--' inside a comment", "XML forbids two hyphens in a comment; write one")
+_REPORTED = 100
+
+
+def mend_declaration(source: SourceText) -> tuple[str, list[XmlFault]]:
+    """Forgive blanks before the XML declaration."""
+    text = source.text
+    late = _LATE_DECLARATION.match(text)
+    if late is None:
+        return text, []
+    fault = XmlFault(
+        Span(source, *late.span(1)),
+        "the XML declaration is not at the very start of the file",
+        "remove what is blank in front of it",
+    )
+    # Line ends stay: lxml counts lines.
+    blank = re.sub(r"[^\r\n]", " ", late.group())
+    return blank + text[late.end() :], [fault]
+
+
+def mend_comments(source: SourceText, text: str) -> tuple[str, list[XmlFault]]:
+    """Forgive `--` inside comments; the first ones are reported."""
+    faults: list[XmlFault] = []
+    parts: list[str] = []
+    at = 0
+    for start, end in _comment_bodies(text):
+        for hyphens in _HYPHENS.finditer(text[start:end]):
+            first, last = start + hyphens.start(), start + hyphens.end()
+            parts += [text[at:first], " " * (last - first)]
+            at = last
+            if len(faults) < _REPORTED:
+                faults.append(XmlFault(Span(source, first, last), *_TWO_HYPHENS))
+    return "".join([*parts, text[at:]]), faults
+
+
+def _comment_bodies(text: str) -> Iterator[tuple[int, int]]:
+    """Yield where the inside of each comment begins and ends; CDATA is passed over."""
+    at = text.find("<!")
+    while at >= 0:
+        for opening, closing in (("<!--", "-->"), ("<![CDATA[", "]]>")):
+            if text.startswith(opening, at):
+                start = at + len(opening)
+                end = text.find(closing, start)
+                if end < 0:
+                    return
+                if opening == "<!--":
+                    yield start, end
+                at = end
+                break
+        at = text.find("<!", at + 1)
+
+
+_OPENING = re.compile(r"<([^\s>/]{1,100})")
+_CLOSING = re.compile(r"[^\s>/<]{1,100}")
+_CLOSED_EARLY = re.compile(
+    r"<[A-Za-z_][\w:.-]{0,100}\s*>\s{0,100}[\w:.-]{1,100}\s{0,9}=\s{0,9}[\"']"
+)
+_NEAR = 200
+"""Characters around a fault in which its cause is looked for."""
+
+
+def explain(source: SourceText, message: str, at: int, still_open: list[int]) -> XmlFault:
+    """Say what is wrong.
+
+    Args:
+        source: The text.
+        message: expat's own.
+        at: Offset of the character that expat could not accept.
+        still_open: Offsets of the start tags that are open there, outermost first.
+    """
+    if not source.text.strip():
+        return XmlFault(source.whole(), "the file is empty")
+    if message == "mismatched tag" and still_open:
+        return _mismatched(source, at, still_open)
+    if message == "no element found":
+        return _too_early(source, at, still_open)
+    if message in ("not well-formed (invalid token)", "syntax error"):
+        return _invalid(source, at)
+    if message == "unclosed CDATA section":
+        at = source.text.rfind("<![CDATA[")
+    hint = _HINTS[message](source.text, at) if message in _HINTS else ""
+    return XmlFault(Span(source, at, min(at + 1, len(source.text))), message, hint)
+
+
+def _mismatched(source: SourceText, at: int, still_open: list[int]) -> XmlFault:
+    closing = _CLOSING.match(source.text, at)
+    name = closing.group() if closing else ""
+    names = [_name(source, opened) for opened in still_open]
+    if source.wrapper and name == source.wrapper:
+        # The inner text is over: its own last characters are the place to look at.
+        return _too_early(source, at - len("</"), still_open)
+    end = source.text.find(">", at) + 1 or len(source.text)
+    span = Span(source, at - len("</"), end)
+    if len(names) == 1 and source.wrapper:
+        return XmlFault(span, f"</{name}> closes no open element")
+    opened = still_open[-1]
+    message = f"</{name}> stands where <{names[-1]}> of line {_line(source, opened)} is still open"
+    hint = _never_closed(source, opened, at)
+    return XmlFault(span, message, hint or _wrong_name(name, names))
+
+
+def _wrong_name(name: str, names: list[str]) -> str:
+    if name in names:
+        return f"close <{names[-1]}> first"
+    if get_close_matches(name, names[-1:]):
+        return f"write </{names[-1]}>"
+    return f"no <{name}> is open"
+
+
+def _too_early(source: SourceText, at: int, still_open: list[int]) -> XmlFault:
+    span = Span(source, at, at)
+    if not still_open:
+        return XmlFault(span, "the file holds no element")
+    opened = still_open[-1]
+    label = f"<{_name(source, opened)}> of line {_line(source, opened)}"
+    hint = _never_closed(source, opened, at)
+    hint = f"{label} is never closed" + (f": {hint}" if hint else "")
+    return XmlFault(span, "the file ends too early", hint)
+
+
+def _never_closed(source: SourceText, opened: int, at: int) -> str:
+    """Say why the element that begins at `opened` has no end tag before `at`."""
+    name = _name(source, opened)
+    if _CLOSED_EARLY.match(source.text, opened):
+        return f"<{name}> is closed before its attributes"
+    lost = re.compile(rf"(?<!<)/{re.escape(name)}>").search(source.text, opened, at)
+    if lost is None:
+        return ""
+    return f"write </{name}> for {lost.group()} in line {_line(source, lost.start())}"
+
+
+def _name(source: SourceText, opened: int) -> str:
+    found = _OPENING.match(source.text, opened)
+    return found.group(1) if found else "?"
+
+
+def _line(source: SourceText, at: int) -> int:
+    """Return a line as a person finds it, which for emitted text is one of the Ruby file."""
+    return Span(source, at, at).line
+
+
+_CAUSES: tuple[tuple[re.Pattern[str], re.Pattern[str], str], ...] = tuple(
+    (re.compile(before), re.compile(after), hint)
+    for before, after, hint in (
+        (r"&\Z", r"", "write &amp; for &"),
+        (r"&[\w#]{1,40}\Z", r"", "write &amp; for &, or end the entity with ;"),
+        (r"]]\Z", r">", "write ]]&gt; for ]]>"),
+        (r"<!\Z|<!-\Z", r"", "a comment begins with <!-- and ends with -->"),
+        (r"<!--(?:[^-]|-[^-]){0,200}--\Z", r"", "a comment ends at -->, not before"),
+        (r"</\Z", r"\s", "remove the blank behind </"),
+        (r"<[^<>]{0,200}=\s*\Z", r"[^\s\"'<>]", "an attribute's value needs quotes"),
+        (r"<[^<>]{0,200}[\s\"'][\w:.-]{1,100}\s*\Z", r"/?>|[\w:.-]", "an attribute needs a value"),
+        (r"=\s*([\"'])[^\"'<>]{0,200}\1\Z", r"[\w:]", "attributes need a blank between them"),
+        (r"=\s*([\"'])[^\"']{0,200}\1\s*\Z", r"<", "the tag in front is not closed by >"),
+        (r"=\s*([\"'])[^<]{0,200}\Z", r"<", "the closing quote of a value in front is missing"),
+        (r"<[\w:.-]{1,100}\s*\Z", r"<", "the tag in front is not closed by >"),
+        (r"<\Z", r"/[\w:]", "there is no element left to close"),
+        (r"<\Z", r"", "write &lt; for <"),
+        (r"/\Z", r"[\s/]", "an empty element ends with />"),
+    )
+)
+"""What stands before and behind the character that is refused, and what it tells."""
+
+
+def _invalid(source: SourceText, at: int) -> XmlFault:
+    """Explain a character that cannot stand where it does."""
+    span = Span(source, at, min(at + 1, len(source.text)))
+    character = source.text[at : at + 1]
+    if character and not character.isprintable() and not character.isspace():
+        code = f"U+{ord(character):04X}"
+        return XmlFault(span, f"the character {code} cannot stand in XML", "remove it")
+    before, after = source.text[max(0, at - _NEAR) : at], source.text[at : at + _NEAR]
+    message = f"{character!r} cannot stand here" if character else "the text breaks off"
+    if not before.strip() or "<" not in source.text[:at]:
+        return XmlFault(span, message, "an XML file begins with <")
+    for tail, head, hint in _CAUSES:
+        if head.match(after) and tail.search(before):
+            return XmlFault(span, message, hint)
+    return XmlFault(span, message)
+
+
+def _second_root(text: str, at: int) -> str:
+    found = _OPENING.match(text, at)
+    what = f"<{found.group(1)}>" if found else "text"
+    return f"everything stands in one outermost element; {what} stands behind it"
+
+
+def _unclosed(text: str, at: int) -> str:
+    if text.startswith("<!--", at):
+        return "the comment that begins here has no -->"
+    tag_end = text.find(">", at)
+    if tag_end < 0:
+        return "the tag that begins here has no >"
+    if text.startswith("<?", at):
+        return "the declaration that begins here has no ?>"
+    return "a quote of the tag that begins here is missing"
+
+
+_HINTS: Mapping[str, Callable[[str, int], str]] = {
+    "junk after document element": _second_root,
+    "unclosed token": _unclosed,
+    "unclosed CDATA section": lambda *_: "the CDATA section that begins here has no ]]>",
+    "undefined entity": lambda *_: "XML knows &amp; &lt; &gt; &quot; and &apos;",
+    "duplicate attribute": lambda *_: "keep one of them",
+    "XML or text declaration not at start of entity": lambda *_: "remove the second <?xml …?>",
+    "reference to invalid character number": lambda *_: "that number is no character",
+}

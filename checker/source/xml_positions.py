@@ -1,0 +1,48 @@
+"""What is known of a text's tags once expat has been through it: places, or a fault."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from checker.base.record import record
+from checker.source.text import Span
+
+
+@dataclass(slots=True)
+class TagPosition:
+    """What one start tag says, and the character offsets of its element.
+
+    Attributes:
+        tag: Name as written, with its prefix.
+        attributes: Values by names as written; declarations of namespaces are none.
+        start: Of the start tag's `<`.
+        start_end: Behind the start tag's `>`.
+        end_start: Of the end tag's `<`; equal to `start_end` for `<a/>`.
+        end: Behind the end tag's `>`.
+    """
+
+    tag: str
+    attributes: Mapping[str, str]
+    start: int
+    start_end: int
+    end_start: int
+    end: int
+
+
+@record(eq=False)
+class XmlFault:
+    """Why and where a text is not well-formed XML."""
+
+    span: Span
+    message: str
+    hint: str = ""
+
+
+@record()
+class LocatedTags:
+    """All tags of a text in document order, and the text as the parsers are to read it."""
+
+    text: str
+    tags: list[TagPosition]
+    tolerated: tuple[XmlFault, ...]

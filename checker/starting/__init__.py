@@ -1,1 +1,0 @@
-"""What a repository needs to be checked: settings and a commit hook; the command `init`."""
