@@ -1,4 +1,4 @@
-"""Dependencies point one way, and what is heavy is loaded only where it is used."""
+"""Imports: the layers of pyproject.toml, nothing heavy before it is used, and a quick `--help`."""
 
 from __future__ import annotations
 
@@ -10,47 +10,21 @@ from pathlib import Path
 
 import pytest
 
-from tests.each import of_each
-
 ROOT = Path(__file__).parent.parent
-
-LAYERS = (
-    {"private", "record"},
-    {"cache", "collection", "ending", "errors", "finding", "fingerprint", "loopback"},
-    {"page", "parts", "resources", "saying", "versions"},
-    {"output", "report", "source"},
-    {"model", "package", "rule", "spawner"},
-    {"sandbox"},
-    {"confined"},
-    {"checklist", "discovery", "dynamics", "flattening"}
-    | {"mesh", "paperwork", "profiles", "rule_options", "spawning", "suppression"},
-    {"rule_pages", "rule_text", "stages", "store", "trial", "xacro"},
-    {"view"},
-    {"display"},
-    {"driving", "including", "launching", "settings"},
-    {"controlling", "describing"},
-    {"options", "subject"},
-    {"engine", "facts", "patching", "recall"},
-    {"measured", "suppressing"},
-    {"judging"},
-    {"check", "convert"},
-    {"fixing"},
-    {"doctor", "jobs", "migrate", "starting", "submitting"},
-    {"web"},
-    {"serving"},
-    {"commands"},
-    {"cli"},
-)
-"""Modules and packages of `checker`; each imports only what stands in an earlier row."""
-
-FOR_RULES = {
-    *("dynamics", "finding", "flattening", "launching", "model", "package", "paperwork"),
-    *("record", "resources", "rule", "source", "spawner", "spawning", "suppression", "trial"),
+HEAVY = {
+    "dbos",
+    "fastapi",
+    "httpx",
+    "mujoco",
+    "numpy",
+    "pinocchio",
+    "rich",
+    "scipy",
+    "trimesh",
+    "yourdfpy",
 }
-"""What a rule may import: the parts of a package, and what a rule's author reads."""
-
-HEAVY = {"dbos", "fastapi", "mujoco", "numpy", "pinocchio", "rich", "scipy", "trimesh", "yourdfpy"}
 NOT_FOR_HELP = {"lxml", "markdown_it", "tree_sitter", "yaml", "rules"} | HEAVY
+LOOSE = {"__init__", "finding", "pipeline", "rule", "rule_testing", "settings"}
 
 
 def modules(folder: str) -> list[Path]:
@@ -66,10 +40,6 @@ def imported(nodes: Iterator[ast.AST]) -> Iterator[str]:
             yield from (name.name for name in node.names)
 
 
-def all_imports(path: Path) -> Iterator[str]:
-    return imported(ast.walk(ast.parse(path.read_text("utf-8"))))
-
-
 def imports_when_loaded(path: Path) -> Iterator[str]:
     """Yield what a module imports as soon as it is imported itself."""
     waiting: list[ast.AST] = [ast.parse(path.read_text("utf-8"))]
@@ -82,46 +52,20 @@ def imports_when_loaded(path: Path) -> Iterator[str]:
             waiting += ast.iter_child_nodes(node)
 
 
-def unit_of(module: str) -> str:
-    """Return the part of `checker` that a module belongs to."""
-    return module.split(".")[1]
+def test_imports_keep_to_the_layers() -> None:
+    command = [Path(sys.executable).with_name("lint-imports"), "--no-cache"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
-def layer_of(unit: str) -> int:
-    layers = [number for number, units in enumerate(LAYERS) if unit in units]
-    assert len(layers) == 1, f"checker.{unit} stands in no row of LAYERS, or in two"
-    return layers[0]
-
-
-@of_each("path", modules("checker"), ids=lambda path: str(path.relative_to(ROOT / "checker")))
-def test_a_module_imports_only_what_lies_below_it(path: Path) -> None:
-    unit = path.relative_to(ROOT / "checker").parts[0].removesuffix(".py")
-    if unit == "__init__":
-        assert not list(all_imports(path))
-        return
-    for module in all_imports(path):
-        if module.startswith("checker.") and unit_of(module) != unit:
-            assert layer_of(unit_of(module)) < layer_of(unit), module
-
-
-def test_every_layer_names_what_exists() -> None:
-    there = {path.stem for path in (ROOT / "checker").iterdir() if path.stem != "__pycache__"}
-    assert set().union(*LAYERS) <= there
-
-
-def test_rules_import_the_parts_of_a_package_and_nothing_above() -> None:
+def test_rules_do_not_import_each_other() -> None:
     for path in modules("rules"):
-        for module in all_imports(path):
-            if module.startswith("checker."):
-                assert unit_of(module) in FOR_RULES, f"{path.name} imports {module}"
-            assert not module.startswith("rules."), f"{path.name} imports another rule"
+        found = imported(ast.walk(ast.parse(path.read_text("utf-8"))))
+        assert not [module for module in found if module.startswith("rules.")], path
 
 
-def test_the_checker_names_no_rule() -> None:
-    for path in modules("checker"):
-        assert not [m for m in all_imports(path) if m.split(".")[0] == "rules"], path
-    discovery = (ROOT / "checker/rulebook/discovery.py").read_text("utf-8")
-    assert 'importlib.import_module("rules")' in discovery
+def test_few_modules_stand_outside_of_the_rooms() -> None:
+    assert {path.stem for path in (ROOT / "checker").glob("*.py")} <= LOOSE
 
 
 @pytest.mark.parametrize("folder", ["checker", "rules"])

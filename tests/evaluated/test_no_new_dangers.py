@@ -44,13 +44,12 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/service/web/logs.py", ATTRIBUTE): "a constant",
     ("checker/expand/xacro/processor.py", ATTRIBUTE): "functions of xacro, named there",
     ("checker/expand/xacro/expression/mathematics.py", ATTRIBUTE): "functions of math, named there",
-    ("checker/expand/xacro/expression/methods.py", ATTRIBUTE): "methods of plain data, named there",
     ("checker/expand/xacro/expression/nodes.py", ATTRIBUTE): "keys of YAML, as xacro looks them up",
     (
         "checker/expand/xacro/expression/evaluation.py",
         ATTRIBUTE,
     ): "fields of a syntax tree, named there",
-    ("checker/expand/xacro/expression/methods.py", ATTRIBUTE): "methods of text, named there",
+    ("checker/expand/xacro/expression/methods.py", ATTRIBUTE): "of plain data, named there",
     (
         "checker/expand/xacro/symbols.py",
         PATTERN,
