@@ -18,7 +18,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, BinaryIO
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.launcher import Launcher, Order, launcher
@@ -33,8 +33,7 @@ _ENDS_SECONDS = 5.0
 _CODE_LIMIT = 16
 
 
-@record()
-class Limits:
+class Limits(Record):
     """What a process may use.
 
     Attributes:
@@ -53,8 +52,7 @@ class Limits:
         return 4.0 * self.seconds + _STARTUP_SECONDS
 
 
-@record()
-class Died:
+class Died(Record):
     """No answer came.
 
     Attributes:

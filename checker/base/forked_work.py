@@ -13,7 +13,7 @@ from pathlib import Path
 from time import monotonic, process_time
 from typing import BinaryIO
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox.task import end_with_parent, tighter
 
 _OUT_OF_MEMORY, _FAILED = 71, 70
@@ -29,8 +29,7 @@ _GROWN = 100_000_000
 """Bytes by which works may make their fork grow before the next one is given a new fork."""
 
 
-@record()
-class Ended:
+class Ended(Record):
     """No result came; the reason ends a sentence whose subject is the work."""
 
     reason: str

@@ -8,7 +8,7 @@ from typing import Any
 
 from checker.base.cache import Cache, code_hash, key_of
 from checker.base.child_process import Child, Died, Limits, from_json
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import version_of
 from checker.expand.xacro.expanded import expanded_document
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
@@ -62,8 +62,7 @@ _ROUNDS = 6
 _KIND = "xacro"
 
 
-@record()
-class Wanted:
+class Wanted(Record):
     """A file to expand.
 
     Attributes:
@@ -75,8 +74,7 @@ class Wanted:
     args: Mapping[str, str]
 
 
-@record()
-class Unread:
+class Unread(Record):
     """A file that could not be expanded for no fault of its own; the reason ends a sentence."""
 
     reason: str

@@ -5,15 +5,17 @@ from __future__ import annotations
 import json
 import posixpath
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
+
+from msgspec.structs import replace
 
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_process import Child, Limits
 from checker.base.disk_file import NotReadable, read_bytes
 from checker.base.progress import Stages
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox.files import from_disk
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
@@ -39,8 +41,7 @@ _UNKNOWN = MeshFault(MeshTrouble.NOT_LOOKED_AT, "is no mesh of this robot")
 _Read = Mesh | MeshFault
 
 
-@record(eq=False)
-class _Reading:
+class _Reading(Record, eq=False):
     """Meshes that are known, and a child that reads the others.
 
     Attributes:
@@ -58,8 +59,7 @@ class _Reading:
     child: Child | None
 
 
-@record(eq=False)
-class PackageMeshes:
+class PackageMeshes(Record, eq=False, dict=True):
     """Gives the meshes of a robot: a `Meshes`.
 
     Attributes:
@@ -69,7 +69,7 @@ class PackageMeshes:
         waiting: A child that was started before it was known what to read.
     """
 
-    package: Package = field(repr=False)
+    package: Package
     uris: tuple[Located[str], ...]
     cache: Cache = NO_CACHE
     waiting: Child | None = None

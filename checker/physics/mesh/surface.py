@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.mesh import MeshTrouble
 
 if TYPE_CHECKING:
@@ -12,8 +12,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@record(eq=False)
-class Surface:
+class Surface(Record, eq=False):
     """What a reader of one format finds in a file.
 
     Attributes:

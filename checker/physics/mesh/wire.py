@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from typing import Any
+
+from msgspec import to_builtins
 
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 
@@ -13,7 +14,7 @@ _POINTS = ("low", "high")
 
 def to_json(read: Mesh | MeshFault) -> dict[str, Any]:
     """Return what JSON can express; see `from_json`."""
-    return {"fault" if isinstance(read, MeshFault) else "mesh": asdict(read)}
+    return {"fault" if isinstance(read, MeshFault) else "mesh": to_builtins(read)}
 
 
 def from_json(data: Any) -> Mesh | MeshFault:

@@ -13,7 +13,7 @@ from checker.base.cache import Cache, code_hash, key_of
 from checker.base.child_process import NONSENSE, Child, Died, Limits, from_json
 from checker.base.errors import NotAtHand
 from checker.base.progress import Stages
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import version_of
 from checker.model.robot import Robot
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
@@ -105,8 +105,7 @@ ROBOTS_LIMIT = 8
 """Of one file; a world with more of them is no submission, and each takes about a second."""
 
 
-@record(eq=False)
-class Driving:
+class Driving(Record, eq=False, dict=True):
     """The trials of some robots."""
 
     robots: tuple[Robot, ...]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from checker.base.sandbox.files import NO_FILES, Files
 from checker.physics.trial.course import VERSION

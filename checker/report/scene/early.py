@@ -6,7 +6,7 @@ They load their libraries while the parent loads its own, which takes each of th
 from __future__ import annotations
 
 from checker.base.child_process import Child, Limits
-from checker.base.record import record
+from checker.base.record import Record
 from checker.physics.mesh.limits import MEMORY
 
 _DRAWS = Limits(20.0, 4_000_000_000, draws=True)
@@ -18,8 +18,7 @@ PLATFORMS = ("egl", "osmesa")
 """What draws without a window; the second where the first is missing."""
 
 
-@record()
-class EarlyChildren:
+class EarlyChildren(Record):
     """Children that wait.
 
     Attributes:

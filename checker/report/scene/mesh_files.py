@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import field
 from functools import cached_property
 
 from checker.base.cache import Cache
 from checker.base.child_process import Child
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox.files import from_disk
 from checker.model.mesh import Mesh, MeshFault
 from checker.model.robot import Robot
@@ -29,8 +28,7 @@ FOR_ALL = 150_000
 _KIND = "surfaces"
 
 
-@record(eq=False)
-class _Reading:
+class _Reading(Record, eq=False):
     """What is known already, by key, and a child that reads the rest, in this order."""
 
     known: Mapping[str, Looked]
@@ -38,8 +36,7 @@ class _Reading:
     child: Child | None
 
 
-@record(eq=False)
-class MeshFiles:
+class MeshFiles(Record, eq=False, dict=True):
     """Gives what the mesh files of a robot look like: a `Surfaces`.
 
     Attributes:
@@ -49,7 +46,7 @@ class MeshFiles:
         waiting: A child that waits for files to read.
     """
 
-    meshes: PackageMeshes = field(repr=False)
+    meshes: PackageMeshes
     uris: tuple[Located[str], ...]
     cache: Cache
     waiting: Child | None = None

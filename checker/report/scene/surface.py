@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.source.text import Located
 
@@ -54,8 +54,7 @@ Colour = tuple[float, float, float, float]
 GREY: Colour = (0.7, 0.7, 0.7, 1.0)
 
 
-@record(eq=False)
-class Surface:
+class Surface(Record, eq=False):
     """Triangles of one material.
 
     Attributes:
@@ -66,11 +65,11 @@ class Surface:
         normals: Unit vectors of smooth surfaces (n × 3, float32); None lets every triangle be flat.
     """
 
-    vertices: Array = field(repr=False)
-    faces: Array = field(repr=False)
+    vertices: Array
+    faces: Array
     colour: Colour = GREY
-    vertex_colours: Array | None = field(default=None, repr=False)
-    normals: Array | None = field(default=None, repr=False)
+    vertex_colours: Array | None = None
+    normals: Array | None = None
 
 
 class Surfaces(Protocol):
@@ -86,8 +85,7 @@ class Surfaces(Protocol):
         ...
 
 
-@record()
-class NoSurfaces:
+class NoSurfaces(Record):
     """For a robot whose mesh files nobody reads."""
 
     def of(self, uri: Located[str]) -> tuple[Surface, ...] | str:  # noqa: ARG002 - as a `Surfaces`

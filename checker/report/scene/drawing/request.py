@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.geometry.transform import Transform
 from checker.physics.trial.mjcf.names import quaternion, well_placed
 from checker.report.scene.drawing.camera import Camera
@@ -28,8 +28,7 @@ _ITEMS = 2000
 """That are drawn of a robot."""
 
 
-@record()
-class Shot:
+class Shot(Record):
     """One picture.
 
     Attributes:

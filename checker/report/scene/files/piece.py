@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.report.scene.surface import GREY, Colour
 
 if TYPE_CHECKING:
@@ -17,8 +17,7 @@ MOST = 32
 """Looks of one file; the triangles of all others get that of the most frequent of them."""
 
 
-@record()
-class Look:
+class Look(Record):
     """What a material does to its triangles.
 
     Attributes:
@@ -30,8 +29,7 @@ class Look:
     picture: str = ""
 
 
-@record(eq=False)
-class Piece:
+class Piece(Record, eq=False):
     """Triangles of one look.
 
     Attributes:

@@ -12,7 +12,7 @@ from urllib.parse import unquote
 
 from checker.base.cache import code_hash, key_of
 from checker.base.disk_file import NotReadable, read_bytes
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import version_of
 from checker.model.mesh import Mesh
 from checker.package.package import Package
@@ -26,8 +26,7 @@ _BESIDE = 40
 """Pictures, and material files, of one mesh."""
 
 
-@record(eq=False)
-class Asked:
+class Asked(Record, eq=False):
     """A file to be read.
 
     Attributes:
