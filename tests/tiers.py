@@ -50,7 +50,6 @@ BY_PLACE: Mapping[str, str] = {
     "serving/test_connection.py": "service",
     "web/test_hostile_requests.py": "service",
     "web/test_main.py": "service",
-    "web/test_turns.py": "service",
 }
 """Folders and modules, all of whose tests need the same."""
 _PROGRAMS = {"chromium": "browser", "postgres": "service"} | dict.fromkeys(
