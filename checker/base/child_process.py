@@ -11,6 +11,7 @@ import json
 import os
 import select
 import signal
+import socket
 import tempfile
 from collections.abc import Iterable
 from contextlib import suppress
@@ -18,6 +19,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, BinaryIO
 
+from checker.base.errors import WorkerFailed
 from checker.base.record import record
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content, Files
@@ -53,17 +55,6 @@ class Limits:
         return 4.0 * self.seconds + _STARTUP_SECONDS
 
 
-@record()
-class Died:
-    """No answer came.
-
-    Attributes:
-        reason: Why, as the end of a sentence whose subject is the work.
-    """
-
-    reason: str
-
-
 class Child:
     """A process that works while who asked does something else."""
 
@@ -77,6 +68,7 @@ class Child:
         *,
         works: bool = False,
         folder: Path | None = None,
+        wire: socket.socket | None = None,
     ) -> None:
         """Start it.
 
@@ -89,13 +81,17 @@ class Child:
             starter: Starts it; that of this process when None.
             works: Whether it writes into the working folder, and asks for processes itself.
             folder: On whose disk request and answer lie; that of temporary files when None.
+            wire: By which requests come, if it serves (see `checker.base.child_server`).
         """
         self.limits = limits
         self.deadline = monotonic() + limits.clock_seconds
         # No names: one that is killed leaves none, and nobody else can open them.
-        self._request: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
+        self._request: BinaryIO = (
+            wire.makefile("rb") if wire else tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
+        )
         self._answer: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
-        order = Order(module, int(limits.seconds), limits.memory, works, limits.draws)
+        serves = wire is not None
+        order = Order(module, int(limits.seconds), limits.memory, works, limits.draws, serves)
         # Kept, since all of its processes end with it.
         self._starter = starter or launcher()
         self._started = self._starter.start(order, self._request, self._answer)
@@ -122,17 +118,15 @@ class Child:
         with suppress(OSError):
             os.write(self._started.input, b"!")
 
-    def answer(self) -> bytes | Died:
+    def answer(self) -> bytes | WorkerFailed:
         """Wait for the answer."""
         try:
             if not self.ends(self.deadline - monotonic()):
-                return Died(f"took longer than {self.limits.clock_seconds:g} s and was stopped")
-            if self.code is None:
-                return Died("could not be started")
+                return overdue(self.limits)
             if self.code != 0:
-                return Died(_cause(self.code, self.limits))
+                return cause_of(self.code, self.limits)
             answer = self.answered(ANSWER_LIMIT)
-            return answer if isinstance(answer, Died) else answer[0]
+            return answer if isinstance(answer, WorkerFailed) else answer[0]
         finally:
             self.stop()
 
@@ -149,21 +143,13 @@ class Child:
             self.code = _code(said)
         return True
 
-    def answered(self, limit: int) -> tuple[bytes, Files] | Died:
+    def answered(self, limit: int) -> tuple[bytes, Files] | WorkerFailed:
         """Return what it has written; the files can be read until it is stopped.
 
         Args:
             limit: Bytes of the answer; the files have limits of their own.
         """
-        descriptor = self._answer.fileno()
-        # A library may end the process with exit code 0 before anything is said.
-        if os.fstat(descriptor).st_size == 0:
-            return Died("ended without an answer")
-        try:
-            answer, files = handed.read(descriptor, limit)
-        except handed.Damaged as damage:
-            return Died(f"left an answer that {damage}")
-        return (answer, files) if answer else Died("ended without an answer")
+        return written_in(self._answer, limit)
 
     def stop(self) -> None:
         """End the process, whatever it does; nothing happens if it has ended."""
@@ -179,7 +165,7 @@ class Child:
 
 def ask(
     module: str, request: bytes, limits: Limits, contents: Iterable[tuple[str, Content]] = ()
-) -> bytes | Died:
+) -> bytes | WorkerFailed:
     """Let a process do the work of a module and wait for the answer; see `Child`."""
     return Child(module, request, limits, contents).answer()
 
@@ -209,13 +195,33 @@ def _code(said: bytes) -> int | None:
     return code if code >= 0 or -code in {*signal.Signals} else FAILED
 
 
-def _cause(code: int, limits: Limits) -> str:
+def written_in(file: BinaryIO, limit: int) -> tuple[bytes, Files] | WorkerFailed:
+    """Return the answer in a file, and the files that came with it."""
+    # A library may end the process with exit code 0 before anything is said.
+    if os.fstat(file.fileno()).st_size == 0:
+        return WorkerFailed("ended without an answer")
+    try:
+        answer, files = handed.read(file.fileno(), limit)
+    except handed.Damaged as damage:
+        return WorkerFailed(f"left an answer that {damage}")
+    return (answer, files) if answer else WorkerFailed("ended without an answer")
+
+
+def overdue(limits: Limits) -> WorkerFailed:
+    """Return what is said of a process that was stopped."""
+    return WorkerFailed(f"took longer than {limits.clock_seconds:g} s and was stopped")
+
+
+def cause_of(code: int | None, limits: Limits) -> WorkerFailed:
+    """Return what is said of a process that ended with an exit code other than 0."""
+    if code is None:
+        return WorkerFailed("could not be started")
     if code == OUT_OF_MEMORY:
-        return f"needs more than {limits.memory / 1e6:.0f} MB of memory"
+        return WorkerFailed(f"needs more than {limits.memory / 1e6:.0f} MB of memory")
     if code == -signal.SIGXCPU:
-        return f"needs more than {limits.seconds:g} s of processor time"
+        return WorkerFailed(f"needs more than {limits.seconds:g} s of processor time")
     if code == -signal.SIGKILL:
-        return "was killed: it needs too much time or memory"
+        return WorkerFailed("was killed: it needs too much time or memory")
     if code < 0:
-        return f"ended in a crash (signal {signal.Signals(-code).name})"
-    return "failed in its process"
+        return WorkerFailed(f"ended in a crash (signal {signal.Signals(-code).name})")
+    return WorkerFailed("failed in its process")

@@ -12,16 +12,16 @@ from checker.base.cache import Cache
 from checker.base.progress import Stages
 from checker.base.record import record
 from checker.model.robot import Robot
-from checker.physics.mesh.package_meshes import TimedMeshes
+from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.trial import Trial
 from checker.report.report import Display
 from checker.report.scene.builder import scene_of
-from checker.report.scene.early import NO_CHILDREN, EarlyChildren
 from checker.report.scene.glb import glb_of
-from checker.report.scene.mesh_files import MeshFiles, surfaces_of
+from checker.report.scene.mesh_files import MeshFiles
 from checker.report.scene.pictures import Drawing
+from checker.report.scene.processes import NO_PROCESSES, EarlyProcesses
 from checker.report.scene.scene import DisplayScene, Layer
-from checker.report.scene.surface import NoSurfaces, Surfaces
+from checker.report.scene.surfaces import NoSurfaces, Surfaces
 
 if TYPE_CHECKING:
     from checker.physics.trial.trial import Trial
@@ -89,13 +89,13 @@ class Displaying:
         robots: At least one.
         cache: Where results are kept.
         stages: Told of what takes long.
-        early: Children that wait; whoever has started them ends them.
+        early: Processes that wait; whoever has started them ends them.
     """
 
     robots: tuple[Robot, ...]
     cache: Cache
     stages: Stages
-    early: EarlyChildren = NO_CHILDREN
+    early: EarlyProcesses = NO_PROCESSES
 
     def begin(self) -> None:
         """Begin to read the meshes and to load what draws, while the caller does something else."""
@@ -129,12 +129,11 @@ class Displaying:
 
     @cached_property
     def _drawing(self) -> Drawing:
-        return Drawing(self.cache, self.early.artist)
+        return Drawing(self.cache, self.early.drawing)
 
     @cached_property
     def _surfaces(self) -> MeshFiles | NoSurfaces:
-        robot = self.robots[0]
-        meshes = robot.meshes
-        if isinstance(meshes, TimedMeshes):
-            return surfaces_of(meshes.meshes, robot, self.cache, self.early.looks)
+        meshes = self.robots[0].meshes
+        if isinstance(meshes, PackageMeshes):
+            return MeshFiles(meshes)
         return NoSurfaces()

@@ -25,7 +25,7 @@ from checker.report.report import (
     PackageReport,
     ReportedFinding,
 )
-from checker.report.scene.early import NO_CHILDREN, EarlyChildren
+from checker.report.scene.processes import NO_PROCESSES, EarlyProcesses
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.profiles import Profile, profile
@@ -86,7 +86,7 @@ def judged(
     settings: Settings,
     cache: Cache,
     say: Say,
-    early: EarlyChildren = NO_CHILDREN,
+    early: EarlyProcesses = NO_PROCESSES,
 ) -> PackageReport:
     """Return the report of a package; what goes wrong with it is in it, and nothing is raised.
 
@@ -96,7 +96,7 @@ def judged(
         settings: By which rules, and how strictly.
         cache: Where results that take long are kept.
         say: Told what takes long when it begins.
-        early: Children that wait for something to do; they are stopped in the end.
+        early: Processes that wait for something to do; they are stopped in the end.
 
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from checker.base.cache import NO_CACHE, Cache
-from checker.base.child_process import Child
+from checker.base.child_server import Server
 from checker.base.disk_file import NotReadable
 from checker.base.errors import NotAtHand
 from checker.base.progress import Stages
@@ -46,11 +46,12 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.robot_mass import weigh
-from checker.physics.mesh.package_meshes import PackageMeshes, TimedMeshes, mesh_uris
+from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
+from checker.physics.mesh.process import mesh_server
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.physics.trial.run import Driving
 from checker.physics.views.sensor_views import Viewing
-from checker.report.scene.early import NO_CHILDREN, EarlyChildren
+from checker.report.scene.processes import NO_PROCESSES, EarlyProcesses
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
@@ -74,14 +75,14 @@ class Subject:
         cache: Where results that take long are kept.
         stages: Told of what takes long.
         devices: Sensor devices of which figures are known.
-        early: Children that wait for something to do.
+        early: Processes that wait for something to do.
     """
 
     package: Package
     cache: Cache = NO_CACHE
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
-    early: EarlyChildren = NO_CHILDREN
+    early: EarlyProcesses = NO_PROCESSES
     _provided: dict[type, Sequence[object]] = field(default_factory=dict, repr=False)
 
     def part(self, kind: type) -> Sequence[object] | NotAtHand:
@@ -123,15 +124,16 @@ class Subject:
 
     def _begin_meshes(self) -> None:
         meshes = self.robots[0].meshes if isinstance(self.robots, tuple) else None
-        if isinstance(meshes, TimedMeshes):
+        if isinstance(meshes, PackageMeshes):
             meshes.begin()
 
     def close(self) -> None:
         """End what was begun and nobody asked for."""
         self.early.stop()
+        self.mesh_server.stop()
         robots = self.__dict__.get("robots")
         for robot in robots if isinstance(robots, tuple) else ():
-            if isinstance(robot.meshes, TimedMeshes):
+            if isinstance(robot.meshes, PackageMeshes):
                 robot.meshes.stop()
         names = ("driving", "describing", "displaying", "viewing")
         for each in map(self.__dict__.get, names):
@@ -212,16 +214,16 @@ class Subject:
         robots = self._read_robots()
         if isinstance(robots, NotAtHand):
             return robots
-        waiting = (self.early.meshes, *(None for _ in robots))
-        return tuple(
-            replace(robot, meshes=self._meshes(robot, child))
-            for robot, child in zip(robots, waiting, strict=False)
-        )
+        return tuple(replace(robot, meshes=self._meshes(robot)) for robot in robots)
 
-    def _meshes(self, robot: Robot, waiting: Child | None) -> TimedMeshes:
+    def _meshes(self, robot: Robot) -> PackageMeshes:
         uris = mesh_uris(robot)
-        meshes = PackageMeshes(self.package, uris, self.cache, waiting)
-        return TimedMeshes(meshes, len(uris), self.stages)
+        return PackageMeshes(self.package, uris, self.cache, self.stages, self.mesh_server)
+
+    @cached_property
+    def mesh_server(self) -> Server:
+        """The process that reads mesh files; it is started when there is one to read."""
+        return self.early.meshes or mesh_server()
 
     def _read_robots(self) -> tuple[Robot, ...] | NotAtHand:
         """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
@@ -297,7 +299,7 @@ class Subject:
         """The views of the robots' sensors."""
         if isinstance(self.robots, NotAtHand):
             return self.robots
-        return Viewing(self.robots, self.cache, self.stages)
+        return Viewing(self.robots, self.cache, self.stages, self.mesh_server)
 
     @property
     def views(self) -> tuple[SensorViews, ...] | NotAtHand:

@@ -11,10 +11,8 @@ import pytest
 
 from checker.base.cache import Cache
 from checker.model.mesh import Mesh
+from checker.physics.mesh.surface import GREY, Looked, Surface
 from checker.report.scene import mesh_files
-from checker.report.scene.early import looks
-from checker.report.scene.files.wire import Looked
-from checker.report.scene.surface import GREY, Surface
 from tests.display.looking import looked, opened, picture
 from tests.mesh.files import binary_stl, box, cylinder, dae, obj
 
@@ -43,7 +41,7 @@ def test_surfaces_of_real_packages_lie_where_the_meshes_do(corpus: Path) -> None
 def _compare_boxes(package: Path) -> int:
     number = 0
     with opened(package) as (_, files):
-        for uri in files.uris:
+        for uri in files.meshes.uris:
             mesh, found = files.meshes.of(uri), files.of(uri)
             if not isinstance(mesh, Mesh):
                 assert found == mesh.reason
@@ -253,17 +251,15 @@ def test_what_was_looked_at_is_not_read_again(
         "meshes/a.png": picture({(0, 0): RED, (1, 0): BLUE}),
     }
     (first,) = surfaces(looked(files, tmp_path / "1", cache)["meshes/a.dae"])
-    started: list[object] = []
-    monkeypatch.setattr(mesh_files, "looks", lambda: (started.append(True), looks())[1])
-    (again,) = surfaces(looked(files, tmp_path / "2", cache)["meshes/a.dae"])
-    assert not started
+    with monkeypatch.context() as patch:
+        patch.setattr("checker.base.child_server.Child", None)
+        (again,) = surfaces(looked(files, tmp_path / "2", cache)["meshes/a.dae"])
     assert np.array_equal(first.vertices, again.vertices)
     assert np.array_equal(first.faces, again.faces)
     assert first.vertex_colours is not None
     assert np.array_equal(first.vertex_colours, again.vertex_colours)
     files["meshes/a.png"] = picture({(0, 0): BLUE, (1, 0): RED})
     (painted,) = surfaces(looked(files, tmp_path / "3", cache)["meshes/a.dae"])
-    assert started
     assert not np.array_equal(first.vertex_colours, painted.vertex_colours)
 
 

@@ -11,7 +11,9 @@ import signal
 import socket
 from collections.abc import Iterable
 from contextlib import suppress
+from functools import partial
 from importlib import import_module
+from types import ModuleType
 from typing import Any, BinaryIO
 
 from checker.base.sandbox.files import Content, read, write
@@ -22,6 +24,8 @@ Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
 OUT_OF_MEMORY, FAILED = 71, 70
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
 _PR_SET_PDEATHSIG = 1
+_OF_REQUEST = 3
+"""Descriptors that come with one of several requests."""
 _REQUEST_LIMIT = 500_000_000
 FAULT_LIMIT = 4_000
 """Bytes of what is told of a fault."""
@@ -58,7 +62,8 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, int, in
         if hasattr(module, "prepare"):
             module.prepare()
         if order["serves"]:
-            module.serve(socket.socket(fileno=request))
+            serve = getattr(module, "serve", partial(_answer_all, module))
+            serve(socket.socket(fileno=request))
         elif os.read(INPUT, 1):
             said, files = read(request, _REQUEST_LIMIT)
             with os.fdopen(os.dup(answer), "wb") as file:
@@ -69,6 +74,21 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, int, in
         _tell_fault(answer)
         return FAILED
     return 0
+
+
+def _answer_all(module: ModuleType, wire: socket.socket) -> None:
+    """Answer one request after the other (see `checker.base.child_server`).
+
+    Each brings the files of request and answer, and a pipe to say when that is whole.
+    """
+    while len(descriptors := socket.recv_fds(wire, 1, _OF_REQUEST)[1]) == _OF_REQUEST:
+        request, answer, done = descriptors
+        said, files = read(request, _REQUEST_LIMIT)
+        with os.fdopen(answer, "wb") as file:
+            _write(file, module.answer(said, files))
+        os.write(done, b"!")
+        os.close(done)
+        os.close(request)
 
 
 def _tell_fault(answer: int) -> None:

@@ -1,4 +1,4 @@
-"""Triangles of a mesh file that look alike, before they are painted and thinned out."""
+"""What a mesh file holds: triangles that look alike, and the names in it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from checker.base.record import record
-from checker.report.scene.surface import GREY, Colour
+from checker.model.mesh import MeshTrouble
+from checker.physics.mesh.surface import GREY, Colour
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -44,6 +45,50 @@ class Piece:
     corners: Array
     look: Look = Look()
     places: Array | None = None
+
+
+@record(eq=False)
+class MeshContent:
+    """What a file holds, before anything is measured.
+
+    Attributes:
+        pieces: Its triangles.
+        metres_per_unit: The file's own unit, which the pieces honour.
+        textures: Picture files as named inside.
+        materials: Material files as named inside.
+        defects: What is not valid for the format though loaders cope, as clauses.
+        parts: Names of the parts inside.
+    """
+
+    pieces: tuple[Piece, ...]
+    metres_per_unit: float = 1.0
+    textures: tuple[str, ...] = ()
+    materials: tuple[str, ...] = ()
+    defects: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
+
+    @property
+    def corners(self) -> Array:
+        """Of all triangles: n triangles × 3 corners × (x, y, z), metres."""
+        import numpy as np
+
+        if len(self.pieces) == 1:
+            return self.pieces[0].corners
+        return np.concatenate([np.empty((0, 3, 3)), *(piece.corners for piece in self.pieces)])
+
+
+class NoSurface(Exception):
+    """A file yields no triangles; it becomes a `MeshFault`.
+
+    Attributes:
+        reason: The end of a sentence whose subject is the file.
+    """
+
+    def __init__(self, reason: str, trouble: MeshTrouble = MeshTrouble.UNREADABLE) -> None:
+        """Make it; by default the file is at fault."""
+        super().__init__(reason)
+        self.reason = reason
+        self.trouble = trouble
 
 
 def by_look(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
