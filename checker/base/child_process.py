@@ -110,13 +110,14 @@ class Child:
         """Whether it has not ended."""
         return not self.ends(0.0)
 
-    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> None:
+    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> Child:
         """Bring the request to a process that was started without one; its time begins now."""
         self.deadline = monotonic() + self.limits.clock_seconds
         handed.write(self._request, request, contents)
         # One that has died says why when it is asked for its answer.
         with suppress(OSError):
             os.write(self._started.input, b"!")
+        return self
 
     def answer(self) -> bytes | WorkerFailed:
         """Wait for the answer."""
