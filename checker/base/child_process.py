@@ -95,6 +95,8 @@ class Child:
         # Kept, since all of its processes end with it.
         self._starter = starter or launcher()
         self._started = self._starter.start(order, self._request, self._answer)
+        if serves:  # what is on its way to a process that has died is to be lost
+            self._request.close()
         self.code: int | None = None
         """Its exit code once it has ended; of a signal, its negative number."""
         self._stopped = False
