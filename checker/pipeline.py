@@ -31,7 +31,7 @@ from checker.settings import Settings, find_settings, folders_above
 
 if TYPE_CHECKING:
     from checker.base.child_server import Server
-    from checker.report.scene.processes import EarlyProcesses
+    from checker.report.scene.processes import StartedProcesses
 
 
 def check_package(path: Path, settings: Settings | None = None) -> Report:
@@ -203,26 +203,26 @@ def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     if known is not None:
         return replace(known, timings={"recall": perf_counter() - started})
     # Readers, engines and rules are loaded only when there is something to judge.
-    early = _early_processes(package, settings, cache, task.mesh_server)
+    processes = _started_processes(package, settings, cache, task.mesh_server)
     with collection_put_off():
         from checker.engine.review import judged
 
-        report = judged(package, shown, settings, cache, task.say, early)
+        report = judged(package, shown, settings, cache, task.say, processes)
         if settings.display:
             report = _with_patch(report, package)
     remember(cache, key, report)
     return report
 
 
-def _early_processes(
+def _started_processes(
     package: Package, settings: Settings, cache: Cache, start: Callable[[], Server] | None
-) -> EarlyProcesses:
+) -> StartedProcesses:
     """Start what loads its libraries while this process loads its own."""
     from checker.physics.mesh.process import are_new, mesh_server
-    from checker.report.scene.processes import EarlyProcesses, drawing_process
+    from checker.report.scene.processes import StartedProcesses, drawing_process
 
     reads = settings.display or (not settings.select and are_new(package, cache))
-    return EarlyProcesses(
+    return StartedProcesses(
         (start or mesh_server)().start() if reads else None,
         drawing_process() if settings.display else None,
     )

@@ -19,7 +19,7 @@ from checker.report.scene.builder import scene_of
 from checker.report.scene.glb import glb_of
 from checker.report.scene.mesh_files import MeshFiles
 from checker.report.scene.pictures import Drawing
-from checker.report.scene.processes import NO_PROCESSES, EarlyProcesses
+from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.report.scene.scene import DisplayScene, Layer
 from checker.report.scene.surfaces import NoSurfaces, Surfaces
 
@@ -82,20 +82,20 @@ def without(scene: DisplayScene, layers: Collection[Layer]) -> DisplayScene:
 
 
 @record(eq=False)
-class Displaying:
+class RobotDisplay:
     """The first of some robots, to be shown.
 
     Attributes:
         robots: At least one.
         cache: Where results are kept.
         stages: Told of what takes long.
-        early: Processes that wait; whoever has started them ends them.
+        processes: Processes that wait; whoever has started them ends them.
     """
 
     robots: tuple[Robot, ...]
     cache: Cache
     stages: Stages
-    early: EarlyProcesses = NO_PROCESSES
+    processes: StartedProcesses = NO_PROCESSES
 
     def begin(self) -> None:
         """Begin to read the meshes and to load what draws, while the caller does something else."""
@@ -129,7 +129,7 @@ class Displaying:
 
     @cached_property
     def _drawing(self) -> Drawing:
-        return Drawing(self.cache, self.early.drawing)
+        return Drawing(self.cache, self.processes.drawing)
 
     @cached_property
     def _surfaces(self) -> MeshFiles | NoSurfaces:

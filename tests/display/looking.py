@@ -12,7 +12,7 @@ from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.mesh.package_meshes import PackageMeshes
-from checker.physics.mesh.surface import Looked
+from checker.physics.mesh.surface import Appearance
 from checker.report.scene.mesh_files import MeshFiles
 from tests.examples import write_example
 
@@ -48,7 +48,7 @@ def opened(path: Path, cache: Cache = NO_CACHE) -> Iterator[tuple[Robot, MeshFil
 
 def looked(
     files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_CACHE
-) -> dict[str, Looked]:
+) -> dict[str, Appearance]:
     """Return what the meshes of a package look like, by their paths.
 
     Args:

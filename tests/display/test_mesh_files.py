@@ -11,7 +11,7 @@ import pytest
 
 from checker.base.cache import Cache
 from checker.model.mesh import Mesh
-from checker.physics.mesh.surface import GREY, Looked, Surface
+from checker.physics.mesh.surface import GREY, Appearance, Surface
 from checker.report.scene import mesh_files
 from tests.display.looking import looked, opened, picture
 from tests.mesh.files import binary_stl, box, cylinder, dae, obj
@@ -19,7 +19,7 @@ from tests.mesh.files import binary_stl, box, cylinder, dae, obj
 RED, BLUE = (255, 0, 0), (0, 0, 255)
 
 
-def surfaces(found: Looked) -> tuple[Surface, ...]:
+def surfaces(found: Appearance) -> tuple[Surface, ...]:
     assert not isinstance(found, str), found
     return found
 

@@ -20,7 +20,7 @@ from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.physics.mesh import process
 from checker.physics.mesh.process import are_new, mesh_server
-from checker.report.scene.processes import EarlyProcesses
+from checker.report.scene.processes import StartedProcesses
 from tests.examples import NAME, write_example
 from tests.mesh.files import binary_stl, box, dae, obj
 
@@ -230,7 +230,7 @@ def test_a_child_that_waits_reads_what_it_is_given(
         assert are_new(opened.packages[0], cache)
         server = mesh_server().start()
         monkeypatch.setattr("checker.base.child_server.Child", None)  # no other is started
-        subject = Subject(opened.packages[0], cache, early=EarlyProcesses(server))
+        subject = Subject(opened.packages[0], cache, processes=StartedProcesses(server))
         robots = subject.robots
         assert isinstance(robots, tuple)
         (use,) = robots[0].mesh_uses
@@ -248,7 +248,7 @@ def test_a_child_that_waits_in_vain_is_ended(tmp_path: Path) -> None:
     with open_input(package) as opened:
         server = mesh_server().start()
         assert server.alive
-        Subject(opened.packages[0], early=EarlyProcesses(server)).close()
+        Subject(opened.packages[0], processes=StartedProcesses(server)).close()
     assert not server.alive
 
 

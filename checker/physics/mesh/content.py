@@ -1,4 +1,4 @@
-"""What a mesh file holds: triangles that look alike, and the names in it."""
+"""What a mesh file holds: triangles by material, and the names in it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MOST = 32
 
 
 @record()
-class Look:
+class Material:
     """What a material does to its triangles.
 
     Attributes:
@@ -33,17 +33,17 @@ class Look:
 
 @record(eq=False)
 class Piece:
-    """Triangles of one look.
+    """Triangles of one material.
 
     Attributes:
         corners: n triangles × 3 corners × (x, y, z), metres.
-        look: How.
+        material: What they look like.
         places: Where each corner lies in the picture (n × 3 × 2; u to the right, v upwards, 0 to 1
             once across); None where the file does not say.
     """
 
     corners: Array
-    look: Look = Look()
+    material: Material = Material()
     places: Array | None = None
 
 
@@ -91,18 +91,18 @@ class NoSurface(Exception):
         self.trouble = trouble
 
 
-def by_look(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
-    """Return one piece for each look, at most `MOST`, large ones first."""
-    groups: dict[tuple[Look, bool], list[Piece]] = {}
+def by_material(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
+    """Return one piece for each material, at most `MOST`, large ones first."""
+    groups: dict[tuple[Material, bool], list[Piece]] = {}
     for piece in pieces:
-        groups.setdefault((piece.look, piece.places is None), []).append(piece)
+        groups.setdefault((piece.material, piece.places is None), []).append(piece)
     merged = sorted(map(_merged, groups.values()), key=lambda piece: -len(piece.corners))
     few = merged if len(merged) <= MOST else [*merged[: MOST - 1], _merged(merged[MOST - 1 :])]
     return tuple(few)
 
 
 def _merged(pieces: list[Piece]) -> Piece:
-    """Join pieces; the first one's look holds for all."""
+    """Join pieces; the first one's material holds for all."""
     import numpy as np
 
     if len(pieces) == 1:
@@ -110,4 +110,4 @@ def _merged(pieces: list[Piece]) -> Piece:
     corners = np.concatenate([piece.corners for piece in pieces])
     places = [piece.places for piece in pieces if piece.places is not None]
     whole = len(places) == len(pieces)
-    return Piece(corners, pieces[0].look, np.concatenate(places) if whole else None)
+    return Piece(corners, pieces[0].material, np.concatenate(places) if whole else None)

@@ -32,11 +32,11 @@ def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
     metres, unit_defects = metres_per_unit(root)
     textures, parts, materials = _textures(root), _parts(root), DaeMaterials(root)
     is_skinned = next(root.iter("{*}instance_controller"), None) is not None
-    sets, faults = triangles_of_scene(without_looks(root))
+    sets, faults = triangles_of_scene(only_geometry(root))
     pieces = tuple(
         Piece(
             np.asarray(triangles.vertex, np.float64)[triangles.vertex_index] * metres,
-            materials.look_of(geometry, triangles.original.material or ""),
+            materials.material_of(geometry, triangles.original.material or ""),
             places_in_picture(triangles),
         )
         for geometry, triangles in sets
@@ -53,7 +53,7 @@ def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any]], list[str]]:
     """Return what the scene shows in the file's unit, and what could not be read.
 
     Args:
-        bare: A document without looks.
+        bare: A document that says nothing of materials.
 
     Returns:
         pycollada's bound sets of triangles, each with the id of its geometry; faults, as sentences.
@@ -137,7 +137,7 @@ def _text(element: etree._Element | None) -> str:
 _DOCTYPE = re.compile(rb"<!DOCTYPE|<!ENTITY")
 _BRACKET_IN_VALUE = re.compile(rb"""(?<==)("[^"<]*<[^"]*"|'[^'<]*<[^']*')""")
 
-_LOOKS = frozenset(
+_NO_GEOMETRY = frozenset(
     {
         *("asset", "extra", "library_animations", "library_animation_clips", "library_cameras"),
         *("library_controllers", "library_effects", "library_force_fields", "library_images"),
@@ -190,13 +190,13 @@ def _parse(data: bytes) -> etree._Element:
     return etree.fromstring(data, parser)
 
 
-def without_looks(root: etree._Element) -> bytes:
+def only_geometry(root: etree._Element) -> bytes:
     """Return the document with nothing in it but geometry and the nodes that place it.
 
     The tree is changed.
     """
     for element in list(root.iter("{*}*")):
         parent = element.getparent()
-        if parent is not None and local_name(element) in _LOOKS:
+        if parent is not None and local_name(element) in _NO_GEOMETRY:
             parent.remove(element)
     return etree.tostring(root)

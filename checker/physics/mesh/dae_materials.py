@@ -11,7 +11,7 @@ from typing import Any
 
 from lxml import etree
 
-from checker.physics.mesh.content import Look
+from checker.physics.mesh.content import Material
 from checker.physics.mesh.surface import GREY, Colour
 
 _FAINTEST = 0.02
@@ -32,21 +32,21 @@ def places_in_picture(triangles: Any) -> Any:
 
 
 class DaeMaterials:
-    """The materials of a document; read before its looks are taken out."""
+    """The materials of a document; read before they are taken out."""
 
     def __init__(self, root: etree._Element) -> None:
         """Read them."""
         self._bound = _bound(root)
         images = {_id(each): _text(each, "init_from") for each in root.iter("{*}image")}
-        effects = {_id(each): _look(each, images) for each in root.iter("{*}effect")}
+        effects = {_id(each): _material(each, images) for each in root.iter("{*}effect")}
         self._materials = {
-            _id(each): effects.get(_target(each.find("{*}instance_effect"), "url"), Look())
+            _id(each): effects.get(_target(each.find("{*}instance_effect"), "url"), Material())
             for each in root.iter("{*}material")
         }
 
-    def look_of(self, geometry: str, symbol: str) -> Look:
-        """Return the look of triangles of a geometry that name a symbol."""
-        return self._materials.get(self._bound.get((geometry, symbol), symbol), Look())
+    def material_of(self, geometry: str, symbol: str) -> Material:
+        """Return the material of triangles of a geometry that name a symbol."""
+        return self._materials.get(self._bound.get((geometry, symbol), symbol), Material())
 
 
 def _bound(root: etree._Element) -> dict[tuple[str, str], str]:
@@ -58,18 +58,18 @@ def _bound(root: etree._Element) -> dict[tuple[str, str], str]:
     }
 
 
-def _look(effect: etree._Element, images: dict[str, str]) -> Look:
+def _material(effect: etree._Element, images: dict[str, str]) -> Material:
     shading = effect.find("{*}profile_COMMON/{*}technique/*")
     for kind in ("phong", "lambert", "blinn", "constant"):
         found = effect.find(f"{{*}}profile_COMMON/{{*}}technique/{{*}}{kind}")
         shading = found if found is not None else shading
     if shading is None:
-        return Look()
+        return Material()
     shows = "emission" if local_name(shading) == "constant" else "diffuse"
     texture = shading.find(f"{{*}}{shows}/{{*}}texture")
     picture = _picture(effect, images, texture.get("texture", "")) if texture is not None else ""
     red, green, blue, _ = _colour(shading, shows) or GREY
-    return Look((red, green, blue, _alpha(shading)), picture)
+    return Material((red, green, blue, _alpha(shading)), picture)
 
 
 def _picture(effect: etree._Element, images: dict[str, str], name: str) -> str:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from checker.physics.mesh.content import Look, MeshContent, NoSurface, Piece
+from checker.physics.mesh.content import Material, MeshContent, NoSurface, Piece
 from checker.physics.mesh.surface import GREY
 
 if TYPE_CHECKING:
@@ -103,23 +103,23 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
     for line in _CONTINUED.sub(b" ", data).splitlines():
         if words := line.split():
             reading.line(words)
-    looks = {name: look for content in material_files for name, look in _looks(content)}
-    pieces = tuple(_pieces(reading, looks))
+    materials = dict(each for content in material_files for each in _materials_in(content))
+    pieces = tuple(_pieces(reading, materials))
     return MeshContent(pieces, materials=_names(_MATERIALS, data), parts=_names(_PART, data))
 
 
-def _pieces(reading: _Reading, looks: Mapping[str, Look]) -> Iterator[Piece]:
+def _pieces(reading: _Reading, materials: Mapping[str, Material]) -> Iterator[Piece]:
     import numpy as np
 
     if any(len(each) < 3 for each in reading.corners):
         raise NoSurface("holds a corner of fewer than three numbers")
     corners = np.array(reading.corners, np.float64).reshape(-1, 3)
     places = np.array(reading.places, np.float64).reshape(-1, 2)
-    for material, faces in reading.faces.items():
+    for name, faces in reading.faces.items():
         triangles = _picked(corners, faces.corners)
         if triangles is None:
             raise NoSurface("names corners that it has not")
-        yield Piece(triangles, looks.get(material, Look()), _picked(places, faces.places))
+        yield Piece(triangles, materials.get(name, Material()), _picked(places, faces.places))
 
 
 def _names(line: re.Pattern[bytes], data: bytes) -> tuple[str, ...]:
@@ -144,14 +144,14 @@ def _counted(word: bytes, known: list[Any]) -> int:
     return number - 1 if number >= 0 else len(known) + number
 
 
-def _looks(content: bytes) -> Iterator[tuple[str, Look]]:
+def _materials_in(content: bytes) -> Iterator[tuple[str, Material]]:
     """Yield the materials of a material file: Kd, d or Tr, map_Kd."""
     name, colour, alpha, picture = "", GREY[:3], 1.0, ""
     for line in [*content.splitlines(), b"newmtl"]:
         words = line.split() or [b""]
         match words[0]:
             case b"newmtl":
-                yield name, Look((*colour, alpha if alpha > _FAINTEST else 1.0), picture)
+                yield name, Material((*colour, alpha if alpha > _FAINTEST else 1.0), picture)
                 name, colour, alpha, picture = _name(words), GREY[:3], 1.0, ""
             case b"Kd" if len(numbers := _numbers(words[1:4])) == 3:
                 colour = (numbers[0], numbers[1], numbers[2])

@@ -52,7 +52,7 @@ def mesh_work(
     """Return work for the process.
 
     Args:
-        wanted: `facts`, `looks` or `views` (see `checker.physics.mesh.worker`).
+        wanted: `facts`, `appearance` or `views` (see `checker.physics.mesh.worker`).
         items: As of a `Work`; likewise the others.
         decode: Makes a result of an answer.
         lasts: Whether a result holds next time as well.

@@ -38,19 +38,19 @@ class Surface:
     normals: Array | None = field(default=None, repr=False)
 
 
-Looked = tuple[Surface, ...] | str
+Appearance = tuple[Surface, ...] | str
 """The surfaces of a file, or why there are none."""
 
 
-def looked_to_json(looked: Looked) -> dict[str, Any]:
-    """Return what JSON can express; see `looked_from_json`."""
-    if isinstance(looked, str):
-        return {"reason": looked}
-    return {"surfaces": [surface_to_json(each) for each in looked]}
+def appearance_to_json(read: Appearance) -> dict[str, Any]:
+    """Return what JSON can express; see `appearance_from_json`."""
+    if isinstance(read, str):
+        return {"reason": read}
+    return {"surfaces": [surface_to_json(each) for each in read]}
 
 
-def looked_from_json(data: Any) -> Looked:
-    """Return what `looked_to_json` was given.
+def appearance_from_json(data: Any) -> Appearance:
+    """Return what `appearance_to_json` was given.
 
     Raises:
         ValueError: It is something else.

@@ -1,7 +1,7 @@
 """Reads mesh files in a child process: the module behind `checker.physics.mesh.process`.
 
-A request says what is `wanted` of its `items`: facts and looks of files, or what sensors see of
-them. Each file is read in a fork, so that one which takes its reader down costs only itself.
+A request says what is `wanted` of its `items`: facts or the appearance of files, or what sensors
+see of them. Each file is read in a fork, so that one which takes its reader down costs only itself.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from checker.base.errors import WorkerFailed
 from checker.base.forked_work import Forks, in_forks
 from checker.base.sandbox.files import Files
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
-from checker.physics.mesh.looks import looks
+from checker.physics.mesh.appearance import appearances
 from checker.physics.mesh.reader import load_libraries, read_mesh
 from checker.physics.views.visibility import seen_of_mesh, sensors_of, views_of
 
@@ -33,8 +33,8 @@ def answer(request: bytes, files: Files) -> bytes:
     """Read files.
 
     Args:
-        request: JSON: `wanted`, one of `facts`, `looks` and `views`; `items`, of the form that this
-            asks for; `seconds` of processor time for a file, and `seconds_for_all` by the clock.
+        request: JSON: `wanted`, one of `facts`, `appearance` and `views`; `items`, of the form that
+            this asks for; `seconds` of processor time for a file, `seconds_for_all` by the clock.
         files: The files.
 
     Returns:
@@ -88,6 +88,6 @@ def _view(item: Mapping[str, Any], files: Files, forks: Forks) -> dict[str, Any]
 
 _WANTED: dict[str, Callable[[Sequence[Any], Files, Forks], list[bytes]]] = {
     "facts": _facts,
-    "looks": looks,
+    "appearance": appearances,
     "views": _views,
 }

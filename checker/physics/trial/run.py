@@ -56,7 +56,7 @@ ROBOTS_LIMIT = 8
 
 
 @record(eq=False)
-class Driving:
+class RobotTrials:
     """The trials of some robots."""
 
     robots: tuple[Robot, ...]

@@ -31,7 +31,7 @@ _Told = dict[str, Any]
 
 
 @dataclass(eq=False)
-class Viewing:
+class RobotViews:
     """The views of some robots.
 
     Attributes:

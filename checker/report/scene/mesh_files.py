@@ -21,7 +21,7 @@ from checker.package.package import Package
 from checker.physics.mesh import process
 from checker.physics.mesh.obj import MATERIAL_LIMIT
 from checker.physics.mesh.package_meshes import PackageMeshes
-from checker.physics.mesh.surface import Looked, looked_from_json
+from checker.physics.mesh.surface import Appearance, appearance_from_json
 from checker.physics.mesh.thinning import shares
 from checker.physics.mesh.uris import MeshFile
 from checker.source.text import Located
@@ -47,7 +47,7 @@ class MeshFiles:
 
     meshes: PackageMeshes = field(repr=False)
 
-    def of(self, uri: Located[str]) -> Looked:
+    def of(self, uri: Located[str]) -> Appearance:
         """Return what the file behind a URI looks like; the first call reads all files."""
         mesh, place = self.meshes.of(uri), self.meshes.content(uri)
         if isinstance(mesh, MeshFault):
@@ -57,19 +57,19 @@ class MeshFiles:
         key = self._asked[0].get(place[0].path)
         if key is None:
             return "is no mesh of this robot"
-        looked = self._looks.results()[key]
-        if isinstance(looked, WorkerFailed):
-            return f"was not read: its reader {looked.reason}"
-        return looked
+        read = self._appearances.results()[key]
+        if isinstance(read, WorkerFailed):
+            return f"was not read: its reader {read.reason}"
+        return read
 
     def begin(self) -> None:
         """Begin to read, while the caller does something else; `of` waits for it."""
-        self._looks.begin()
+        self._appearances.begin()
 
     def stop(self) -> None:
         """End the reading, if nobody has waited for it."""
-        if "_looks" in self.__dict__:
-            self._looks.stop()
+        if "_appearances" in self.__dict__:
+            self._appearances.stop()
 
     @cached_property
     def _asked(self) -> tuple[Mapping[str, str], Mapping[str, Any]]:
@@ -89,15 +89,17 @@ class MeshFiles:
         return {path: key for path, (key, _) in asked.items()}, dict(asked.values())
 
     @cached_property
-    def _looks(self) -> Background[Looked]:
-        work = process.mesh_work("looks", self._asked[1], looked_from_json, _lasts, _files_of)
+    def _appearances(self) -> Background[Appearance]:
+        work = process.mesh_work(
+            "appearance", self._asked[1], appearance_from_json, _lasts, _files_of
+        )
         return Background(work, self.meshes.cache, self.meshes.server)
 
 
 def _asked_of(
     package: Package, file: MeshFile, key: str, mesh: Mesh, most: int
 ) -> tuple[str, Mapping[str, Any]]:
-    """Return the cache's key of a file's looks, and what is asked about it.
+    """Return the cache's key of a file's appearance, and what is asked about it.
 
     Args:
         package: Whose robot names it.
@@ -125,9 +127,9 @@ def _asked_of(
     return work_key([key, str(budget), *contents], ["physics/mesh"], _LIBRARIES), request
 
 
-def _lasts(looked: Looked) -> bool:
+def _lasts(read: Appearance) -> bool:
     """Say whether a result holds: next time there may be more time or memory."""
-    return not isinstance(looked, str)
+    return not isinstance(read, str)
 
 
 def _files_of(asked: Mapping[str, Any]) -> Iterator[tuple[str, int]]:

@@ -16,7 +16,7 @@ PLATFORMS = ("egl", "osmesa")
 
 
 @record()
-class EarlyProcesses:
+class StartedProcesses:
     """Processes that wait.
 
     Attributes:
@@ -34,7 +34,7 @@ class EarlyProcesses:
                 each.stop()
 
 
-NO_PROCESSES = EarlyProcesses()
+NO_PROCESSES = StartedProcesses()
 
 
 def drawing_module(platform: str) -> str:

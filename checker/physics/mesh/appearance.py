@@ -19,9 +19,9 @@ from checker.base.disk_file import NotReadable
 from checker.base.errors import WorkerFailed
 from checker.base.forked_work import Forks
 from checker.base.sandbox.files import Files
-from checker.physics.mesh.content import NoSurface, Piece, by_look
+from checker.physics.mesh.content import NoSurface, Piece, by_material
 from checker.physics.mesh.reader import read_content
-from checker.physics.mesh.surface import Looked, Surface, looked_to_json
+from checker.physics.mesh.surface import Appearance, Surface, appearance_to_json
 from checker.physics.mesh.thinning import joined, shares, thinned
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ _SMALL = 100
 """Triangles that each material of a file keeps where there is room."""
 
 
-def looks(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> list[bytes]:
+def appearances(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> list[bytes]:
     """Return as JSON what each of some files looks like.
 
     Args:
@@ -102,23 +102,27 @@ def looks(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> lis
     if any(each["pictures"] for each in items):
         import_module("PIL.Image")
     shared = _shared_pictures(items, files, forks)
-    looked = forks([partial(_as_json, each, files, shared) for each in items])
+    read = forks([partial(_as_json, each, files, shared) for each in items])
     return [
-        json.dumps(looked_to_json(each.reason)).encode() if isinstance(each, WorkerFailed) else each
-        for each in looked
+        json.dumps(appearance_to_json(each.reason)).encode()
+        if isinstance(each, WorkerFailed)
+        else each
+        for each in read
     ]
 
 
 def _as_json(asked: Mapping[str, Any], files: Files, shared: Pictures) -> bytes:
-    return json.dumps(looked_to_json(look(asked, files, shared))).encode()
+    return json.dumps(appearance_to_json(appearance_of(asked, files, shared))).encode()
 
 
-def look(asked: Mapping[str, Any], files: Files, shared: Pictures = MappingProxyType({})) -> Looked:
+def appearance_of(
+    asked: Mapping[str, Any], files: Files, shared: Pictures = MappingProxyType({})
+) -> Appearance:
     """Return what one file looks like.
 
     Args:
-        asked: See `looks`.
-        files: See `looks`.
+        asked: See `appearances`.
+        files: See `appearances`.
         shared: Pictures that are read already, by their path.
     """
     data = files.read(asked["file"])
@@ -127,7 +131,7 @@ def look(asked: Mapping[str, Any], files: Files, shared: Pictures = MappingProxy
     materials = map(files.read, asked["materials"])
     try:
         at_hand = (each for each in materials if isinstance(each, bytes))
-        pieces = by_look(read_content(data, asked["name"], at_hand).pieces)
+        pieces = by_material(read_content(data, asked["name"], at_hand).pieces)
     except NoSurface as none:
         return none.reason
     painted = [_painted(piece, asked["pictures"], files, shared) for piece in pieces]
@@ -139,14 +143,14 @@ def look(asked: Mapping[str, Any], files: Files, shared: Pictures = MappingProxy
 
 def _painted(piece: Piece, pictures: Mapping[str, str], files: Files, shared: Pictures) -> Surface:
     """Return the triangles with the colours of their picture; without one, with their own."""
-    path = pictures.get(piece.look.picture)
+    path = pictures.get(piece.material.picture)
     pixels = None
     if path and piece.places is not None:
         pixels = shared[path] if path in shared else _picture(files, path)
     if pixels is None or piece.places is None:
-        return joined(piece.corners, piece.look.colour, None, None)
+        return joined(piece.corners, piece.material.colour, None, None)
     colours = sampled(pixels, piece.places)
-    white = (1.0, 1.0, 1.0, piece.look.colour[3])
+    white = (1.0, 1.0, 1.0, piece.material.colour[3])
     return joined(piece.corners, white, colours, piece.places)
 
 
