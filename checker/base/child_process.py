@@ -11,7 +11,6 @@ import json
 import os
 import select
 import signal
-import socket
 import tempfile
 from collections.abc import Iterable
 from contextlib import suppress
@@ -68,7 +67,7 @@ class Child:
         *,
         works: bool = False,
         folder: Path | None = None,
-        wire: socket.socket | None = None,
+        done: int | None = None,
     ) -> None:
         """Start it.
 
@@ -81,22 +80,25 @@ class Child:
             starter: Starts it; that of this process when None.
             works: Whether it writes into the working folder, and asks for processes itself.
             folder: On whose disk request and answer lie; that of temporary files when None.
-            wire: By which requests come, if it serves (see `checker.base.child_server`).
+            done: By which it says that an answer is there, if it lasts (see `child_server`).
         """
         self.limits = limits
         self.deadline = monotonic() + limits.clock_seconds
         # No names: one that is killed leaves none, and nobody else can open them.
-        self._request: BinaryIO = (
-            wire.makefile("rb") if wire else tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
-        )
+        self._request: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
         self._answer: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
-        serves = wire is not None
-        order = Order(module, int(limits.seconds), limits.memory, works, limits.draws, serves)
+        order = Order(
+            module,
+            int(limits.seconds),
+            limits.memory,
+            works,
+            limits.draws,
+            lasts=done is not None,
+        )
         # Kept, since all of its processes end with it.
         self._starter = starter or launcher()
-        self._started = self._starter.start(order, self._request, self._answer)
-        if serves:  # what is on its way to a process that has died is to be lost
-            self._request.close()
+        more = () if done is None else (done,)
+        self._started = self._starter.start(order, self._request, self._answer, *more)
         self.code: int | None = None
         """Its exit code once it has ended; of a signal, its negative number."""
         self._stopped = False
@@ -146,13 +148,27 @@ class Child:
             self.code = _code(said)
         return True
 
-    def answered(self, limit: int) -> tuple[bytes, Files] | WorkerFailed:
+    def answered(
+        self, limit: int, start: int = 0, end: int | None = None
+    ) -> tuple[bytes, Files] | WorkerFailed:
         """Return what it has written; the files can be read until it is stopped.
 
         Args:
             limit: Bytes of the answer; the files have limits of their own.
+            start: Where the answer begins.
+            end: Where it ends; None where the file does.
         """
-        return written_in(self._answer, limit)
+        size = os.fstat(self._answer.fileno()).st_size
+        # A library may end the process with exit code 0 before anything is said.
+        if size == 0:
+            return WorkerFailed("ended without an answer")
+        try:
+            if not start <= (size if end is None else end) <= size:
+                raise handed.Damaged("is cut off")
+            answer, files = handed.read(self._answer.fileno(), limit, start, end)
+        except handed.Damaged as damage:
+            return WorkerFailed(f"left an answer that {damage}")
+        return (answer, files) if answer else WorkerFailed("ended without an answer")
 
     def stop(self) -> None:
         """End the process, whatever it does; nothing happens if it has ended."""
@@ -196,18 +212,6 @@ def _code(said: bytes) -> int | None:
     except ValueError:
         return None
     return code if code >= 0 or -code in {*signal.Signals} else FAILED
-
-
-def written_in(file: BinaryIO, limit: int) -> tuple[bytes, Files] | WorkerFailed:
-    """Return the answer in a file, and the files that came with it."""
-    # A library may end the process with exit code 0 before anything is said.
-    if os.fstat(file.fileno()).st_size == 0:
-        return WorkerFailed("ended without an answer")
-    try:
-        answer, files = handed.read(file.fileno(), limit)
-    except handed.Damaged as damage:
-        return WorkerFailed(f"left an answer that {damage}")
-    return (answer, files) if answer else WorkerFailed("ended without an answer")
 
 
 def overdue(limits: Limits) -> WorkerFailed:

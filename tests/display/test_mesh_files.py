@@ -252,7 +252,7 @@ def test_what_was_looked_at_is_not_read_again(
     }
     (first,) = surfaces(looked(files, tmp_path / "1", cache)["meshes/a.dae"])
     with monkeypatch.context() as patch:
-        patch.setattr("checker.base.child_server.Child", None)
+        patch.setattr("checker.base.child_server._Process", None)
         (again,) = surfaces(looked(files, tmp_path / "2", cache)["meshes/a.dae"])
     assert np.array_equal(first.vertices, again.vertices)
     assert np.array_equal(first.faces, again.faces)

@@ -168,7 +168,7 @@ from checker.base import child_server
 from checker.base.cache import Cache
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
-child_server.Child = None
+child_server._Process = None
 with open_input(Path({str(tmp_path / NAME)!r})) as opened:
     robot, = Subject(opened.packages[0], Cache(Path({str(tmp_path / "cache")!r}))).robots
     print([use.file for use in robot.mesh_uses])
@@ -229,7 +229,7 @@ def test_a_child_that_waits_reads_what_it_is_given(
     with open_input(package) as opened:
         assert are_new(opened.packages[0], cache)
         server = mesh_server().start()
-        monkeypatch.setattr("checker.base.child_server.Child", None)  # no other is started
+        monkeypatch.setattr("checker.base.child_server._Process", None)  # no other is started
         subject = Subject(opened.packages[0], cache, processes=StartedProcesses(server))
         robots = subject.robots
         assert isinstance(robots, tuple)

@@ -96,7 +96,7 @@ def test_an_answer_is_kept_and_holds_while_nothing_changes(
 ) -> None:
     cache, files = Cache(tmp_path / "cache"), {"meshes/a.stl": PLATE}
     one = views(mesh("meshes/a.stl"), tmp_path / "one", files, cache)
-    monkeypatch.setattr("checker.base.child_server.Child", None)
+    monkeypatch.setattr("checker.base.child_server._Process", None)
     same = views(mesh("meshes/a.stl"), tmp_path / "two", files, cache)
     assert [view.filled for view in same.views] == [view.filled for view in one.views]
     with pytest.raises(TypeError):
