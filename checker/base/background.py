@@ -96,7 +96,8 @@ class Background(Generic[T]):
         if self._unknown is not None:
             return
         for key in self._work.items:
-            found = self._decoded(self._cache.get(self._work.kind, key))
+            kept = self._cache.get(self._work.kind, key)
+            found = self._decoded(kept) if kept is not None else _NONSENSE
             if not isinstance(found, WorkerFailed):
                 self._results[key] = found
         unknown = [key for key in self._work.items if key not in self._results]
