@@ -13,10 +13,12 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from time import perf_counter
+
+from msgspec.structs import astuple
 
 from bench.machine import pace, undisturbed
 from bench.static import ROOT, keep_bytecode, real_packages

@@ -7,7 +7,7 @@ import hashlib
 import re
 from collections.abc import Iterable
 
-from checker.base.record import record
+from checker.base.record import Record
 
 # Fingerprints: what tells one fault from another, wherever its lines move.
 
@@ -57,8 +57,7 @@ class Severity(enum.StrEnum):
         return list(Severity).index(self)
 
 
-@record(slots=True)
-class Place:
+class Place(Record):
     """A stretch of one file.
 
     Attributes:
@@ -94,8 +93,7 @@ class Safety(enum.StrEnum):
     UNSAFE = "unsafe"
 
 
-@record(slots=True)
-class Edit:
+class Edit(Record):
     """Replace the text at `place` by `replacement`.
 
     Attributes:
@@ -110,8 +108,7 @@ class Edit:
     original: str
 
 
-@record(slots=True)
-class Fix:
+class Fix(Record):
     """Text edits that together mend a finding."""
 
     safety: Safety

@@ -5,17 +5,19 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import field, replace
 from itertools import chain
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
+from msgspec import field
+from msgspec.structs import replace
+
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import InvalidSettings, UnreadableInput
 from checker.base.garbage_collection import collection_put_off
 from checker.base.progress import Say, say_nothing
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import versions
 from checker.base.words import shortened
 from checker.engine.report_cache import memory_key, recalled, remember
@@ -79,8 +81,7 @@ def check_paths(
     return _report([_check_or_say_why_not(task) for task in tasks])
 
 
-@record()
-class Task:
+class Task(Record):
     """What one process does at a time.
 
     Attributes:

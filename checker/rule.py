@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from functools import cached_property
 from typing import Any, Protocol, get_type_hints
 
-from checker.base.record import record
+from msgspec.structs import replace
+
+from checker.base.record import Record
 from checker.finding import Fix, Place, Safety, Severity
 from checker.source.text import Span
 
@@ -39,8 +40,7 @@ class HasSpan(Protocol):
 Where = HasSpan | Place
 
 
-@record(slots=True)
-class Finding:
+class Finding(Record):
     """What a rule says about one place; the engine adds the rule, its severity and its page.
 
     Attributes:
@@ -58,8 +58,7 @@ class Finding:
     fix: Fix | None = None
 
 
-@record(slots=True)
-class Unchecked:
+class Unchecked(Record):
     """Something that a rule should look at and cannot; the reason ends the sentence."""
 
     reason: str
@@ -106,8 +105,7 @@ def replace_text(where: HasSpan, replacement: str, safety: Safety = Safety.SAFE)
     return Fix(safety, (where.span.replaced_by(replacement),))
 
 
-@record()
-class Context:
+class Context(Record):
     """What a rule may ask about the check itself.
 
     Attributes:
@@ -124,8 +122,7 @@ class Context:
 Check = Callable[..., Findings]
 
 
-@record()
-class Rule:
+class Rule(Record, dict=True):
     """A rule of the book: one function, and what is known about it.
 
     Attributes:

@@ -9,13 +9,15 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
+from msgspec import field
+from msgspec.structs import replace
+
 from checker.base.disk_file import NotReadable
 from checker.base.errors import InvalidSettings
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
@@ -36,8 +38,7 @@ URDF_PROFILE = "urdf"
 DEVICES_LIMIT = 100
 
 
-@record()
-class Settings:
+class Settings(Record):
     """What to check and how strictly.
 
     Attributes:

@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import field
 from typing import Any, Generic, TypeVar
+
+from msgspec import field
 
 from checker.base.cache import Cache, code_hash, key_of
 from checker.base.child_process import NONSENSE, Child, Limits, from_json
 from checker.base.child_server import Asked, Server
 from checker.base.errors import WorkerFailed
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import version_of
 from checker.base.sandbox.files import from_disk
 
@@ -38,8 +39,7 @@ def _always(_: object) -> bool:
     return True
 
 
-@record(eq=False)
-class Work(Generic[T]):
+class Work(Record, Generic[T], eq=False):
     """What is to be worked out: some items, by one process.
 
     Its module's `answer` is given JSON: `items`, a list, beside what is `common`. It answers with

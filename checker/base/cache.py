@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from checker.base.private_files import make_folder
-from checker.base.record import record
+from checker.base.record import Record
 
 SIZE_LIMIT = 300_000_000
 """Bytes on disk; the entries that were used least recently go first."""
@@ -73,8 +73,7 @@ def _state(path: str) -> str:
     return f"{path} {found.st_size} {found.st_mtime_ns}"
 
 
-@record()
-class Cache:
+class Cache(Record):
     """Results by kind and key.
 
     Attributes:

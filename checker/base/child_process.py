@@ -19,7 +19,7 @@ from time import monotonic
 from typing import Any, BinaryIO
 
 from checker.base.errors import WorkerFailed
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.launcher import Launcher, Order, launcher
@@ -34,8 +34,7 @@ _ENDS_SECONDS = 5.0
 _CODE_LIMIT = 16
 
 
-@record()
-class Limits:
+class Limits(Record):
     """What a process may use.
 
     Attributes:

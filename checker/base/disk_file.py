@@ -7,11 +7,10 @@ import stat
 from pathlib import Path
 from typing import BinaryIO
 
-from checker.base.record import record
+from checker.base.record import Record
 
 
-@record(slots=True)
-class NotReadable:
+class NotReadable(Record):
     """A file that cannot be read, and why.
 
     Attributes:

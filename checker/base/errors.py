@@ -10,13 +10,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Protocol
 
-from checker.base.record import record
+from checker.base.record import Record
 
 # What a package has to offer to a rule, or why it cannot.
 
 
-@record()
-class NotAtHand:
+class NotAtHand(Record):
     """A part of a package that a rule asks for and that cannot be had.
 
     Attributes:
@@ -28,8 +27,7 @@ class NotAtHand:
     applicable: bool = True
 
 
-@record()
-class WorkerFailed:
+class WorkerFailed(Record):
     """No result came of a process: it died, ran out of what it may use, or answered with nonsense.
 
     Attributes:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import field
 from time import perf_counter
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 
 Say = Callable[[str], None]
 """Told in a few words what begins."""
@@ -17,8 +18,7 @@ def say_nothing(_: str) -> None:
     """Keep progress to oneself, as where nobody looks on."""
 
 
-@record(eq=False)
-class Stages:
+class Stages(Record, eq=False):
     """The stages of one check.
 
     Attributes:

@@ -10,7 +10,7 @@ from pathlib import Path
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import CheckerError, NotAtHand
 from checker.base.output import EXIT_CLEAN, say_progress, show, write
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.convert.mjcf_files import meshes_apart, mjcf_of, scene_of_trial
 from checker.convert.sdf_to_urdf import converted_to_urdf
@@ -25,8 +25,7 @@ _MODEL = re.compile(r"(?:model|package)://")
 _SUFFIXES = {"urdf": ".urdf", "mjcf": ".xml"}
 
 
-@record()
-class Exported:
+class Exported(Record):
     """The robot in another format.
 
     Attributes:

@@ -10,7 +10,7 @@ from typing import Any
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import UnreadableInput
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, say_progress, show, write
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, listed, plain
 from checker.engine.review import findings_of
 from checker.finding import Safety
@@ -27,8 +27,7 @@ from checker.settings import Settings
 _ARCHIVES_STAY = "unpack it first; --diff shows what would change"
 
 
-@record()
-class FixedPackage:
+class FixedPackage(Record):
     """A package and what fixing it comes to; `shown` is its path as the user would write it."""
 
     name: str

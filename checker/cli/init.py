@@ -15,7 +15,7 @@ from typing import Any
 
 from checker.base.disk_file import NotReadable, read_bytes
 from checker.base.errors import CheckerError, UnreadableInput
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import templates
 from checker.base.words import plain
 from checker.package.inputs import open_input
@@ -113,8 +113,7 @@ _HARMONIC = re.compile(r"\b(?:lib)?gz-sim-|\bgz::sim::")
 """Plugins by the names that they have since Gazebo Garden."""
 
 
-@record()
-class Guess:
+class Guess(Record):
     """A profile, and what speaks for it.
 
     Attributes:

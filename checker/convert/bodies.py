@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.convert.conversion import Notes
 from checker.model.components import Link
 from checker.model.geometry.transform import Transform, Vector
@@ -16,8 +17,7 @@ from checker.model.urdf.lumping import Lumping
 from checker.physics.mass.hanging import hang
 
 
-@record(eq=False)
-class PartOfBody:
+class PartOfBody(Record, eq=False):
     """A link of the source within a body.
 
     Attributes:
@@ -28,8 +28,7 @@ class PartOfBody:
     pose: Transform
 
 
-@record(eq=False)
-class Body:
+class Body(Record, eq=False):
     """A link of the result.
 
     Attributes:
@@ -51,8 +50,7 @@ class Body:
         return sum(part.link.mass for part in self.parts)
 
 
-@record(eq=False)
-class Bodies:
+class Bodies(Record, eq=False):
     """The bodies of a robot.
 
     Attributes:
@@ -125,8 +123,7 @@ def _drop_massless(found: Bodies, notes: Notes) -> None:
 _PLACES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 
-@record()
-class JoinedInertial:
+class JoinedInertial(Record):
     """What a body weighs.
 
     Attributes:

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import msgspec
 from lxml import etree
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Plugin
 from checker.model.geometry.transform import Transform
 from checker.source.text import Span
@@ -42,8 +43,7 @@ class Notes:
         return tuple(self._said)
 
 
-@record(eq=False)
-class CarriedPlugin:
+class CarriedPlugin(Record, eq=False):
     """A plugin of the source that stands in the result, for the caller to judge.
 
     Attributes:
@@ -58,7 +58,7 @@ class CarriedPlugin:
     link: str
     sensor: str
     reference: str
-    node: etree._Element = field(repr=False)
+    node: etree._Element
 
     def remove(self) -> None:
         """Take the plugin out of the result."""
@@ -67,8 +67,7 @@ class CarriedPlugin:
             parent.remove(self.node)
 
 
-@record(eq=False)
-class Lumped:
+class Lumped(Record, eq=False):
     """Where a link of the source is to be found in the result.
 
     Attributes:
@@ -80,8 +79,7 @@ class Lumped:
     pose: Transform
 
 
-@record(eq=False)
-class Conversion:
+class Conversion(Record, eq=False):
     """A converted robot.
 
     Attributes:
@@ -91,7 +89,7 @@ class Conversion:
         lumped: Links of the source by their name without prefix; one that was dropped is missing.
     """
 
-    tree: etree._Element = field(repr=False)
+    tree: etree._Element
     notes: tuple[str, ...] = ()
     plugins: tuple[CarriedPlugin, ...] = ()
-    lumped: Mapping[str, Lumped] = field(default_factory=dict)
+    lumped: Mapping[str, Lumped] = msgspec.field(default_factory=dict)

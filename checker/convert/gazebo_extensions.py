@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from lxml import etree
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.conversion import CarriedPlugin, Notes
 from checker.convert.gazebo_tags import COPIED
 from checker.convert.names import Naming
@@ -23,8 +23,7 @@ _NAMED = frozenset({"sensor", "light"})
 _POSED = COPIED - {"plugin", "audio_sink"}
 
 
-@record()
-class CarriedFrom:
+class CarriedFrom(Record):
     """What `CarriedPlugin` says of the place of a plugin."""
 
     link: str

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.conversion import Notes
 from checker.model.robot import Robot
 from checker.model.urdf.description import UrdfDescription
@@ -53,8 +53,7 @@ _EVERY_SHAPE = frozenset({"visual", "collision"})
 _FALSE = ("0", "false")
 
 
-@record(eq=False)
-class Setting:
+class Setting(Record, eq=False):
     """A value to be written at a path below an element of the result.
 
     Attributes:

@@ -6,14 +6,13 @@ from collections.abc import Iterable
 
 from lxml import etree
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.robot import Robot
 
 _BLANKS = " \t\r\n"
 
 
-@record()
-class Naming:
+class Naming(Record):
     """What goes in front of names in the source.
 
     Attributes:

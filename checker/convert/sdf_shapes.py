@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from lxml import etree
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.bodies import Body, PartOfBody
 from checker.convert.conversion import Notes
 from checker.convert.gazebo_tags import Said, Setting
@@ -31,8 +31,7 @@ _TYPES = {
 }
 
 
-@record()
-class Ends:
+class Ends(Record):
     """The links that a joint ties, by their names in the result."""
 
     parent: str

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from lxml import etree
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.urdf_shapes import add_origin
 from checker.convert.xml_writer import add, exact, numbers
 from checker.model.components import UNLIMITED, Axis, Joint
@@ -22,8 +22,7 @@ _AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _ENDLESS = (-math.inf, math.inf)
 
 
-@record()
-class Step:
+class Step(Record):
     """One joint of URDF.
 
     Attributes:
@@ -83,8 +82,7 @@ def _steps(joint: Joint, motion: Motion, place: Transform) -> Sequence[Step]:
     return [Step("continuous" if endless else "revolute", place, axis, limits)]
 
 
-@record()
-class Named:
+class Named(Record):
     """A joint of URDF and the links that it ties, by name."""
 
     name: str

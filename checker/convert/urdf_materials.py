@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from lxml import etree
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 from checker.convert.conversion import Notes
 from checker.convert.gazebo_tags import value_of
@@ -22,8 +22,7 @@ _BYTE = 255.0
 _COLOURS = ("ambient", "diffuse", "specular", "emissive")
 
 
-@record()
-class Paint:
+class Paint(Record):
     """How a visual looks.
 
     Attributes:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 
+import msgspec
 from lxml import etree
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.conversion import Notes
 from checker.convert.xml_writer import (
     add,
@@ -27,8 +28,7 @@ from checker.source.text import Located
 # Shapes in the words of a format that lacks some of them.
 
 
-@record(eq=False)
-class Shape:
+class Shape(Record, eq=False):
     """One shape of what replaces a geometry.
 
     Attributes:
@@ -38,8 +38,8 @@ class Shape:
     """
 
     kind: str
-    sizes: Mapping[str, tuple[Located[float], ...]] = field(default_factory=dict)
-    pose: Transform = field(default_factory=Transform)
+    sizes: Mapping[str, tuple[Located[float], ...]] = msgspec.field(default_factory=dict)
+    pose: Transform = msgspec.field(default_factory=Transform)
 
 
 def shapes_of(geometry: Geometry, primitives: Collection[str]) -> tuple[Shape, ...]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from checker.base.cache import Cache
 from checker.base.progress import Stages
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.robot import Robot
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.trial import Trial
@@ -81,8 +82,7 @@ def without(scene: DisplayScene, layers: Collection[Layer]) -> DisplayScene:
     return replace(scene, links=tuple(links))
 
 
-@record(eq=False)
-class RobotDisplay:
+class RobotDisplay(Record, eq=False, dict=True):
     """The first of some robots, to be shown.
 
     Attributes:

@@ -12,12 +12,14 @@ import stat
 from base64 import b64encode
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import asdict, replace
 from functools import cache as once
 from importlib.metadata import entry_points
 from itertools import islice
 from pathlib import Path
 from typing import Any
+
+from msgspec import to_builtins
+from msgspec.structs import replace
 
 from checker.base.cache import Cache, code_hash, key_of
 from checker.base.resources import version_of
@@ -35,8 +37,8 @@ def to_stored(report: PackageReport) -> dict[str, Any]:
     """Return what `from_stored` makes the same report of."""
     display = report.display
     return {
-        **asdict(replace(report, display=None)),
-        "display": None if display is None else _to_text(asdict(display)),
+        **to_builtins(replace(report, display=None)),
+        "display": None if display is None else _to_text(to_builtins(display)),
     }
 
 

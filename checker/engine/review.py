@@ -9,7 +9,7 @@ from checker.base.cache import Cache
 from checker.base.errors import NotAtHand, Parts
 from checker.base.garbage_collection import collection_put_off
 from checker.base.progress import Say, Stages
-from checker.base.record import record
+from checker.base.record import Record
 from checker.engine.facts import facts_of, measured
 from checker.engine.options import check_against_rules
 from checker.engine.run import Outcome, crashed, joined, needed_parts, run_rules
@@ -37,8 +37,7 @@ from checker.settings import Settings
 # its entries nothing was found of.
 
 
-@record()
-class _With:
+class _With(Record):
     """The parts of a package, and one that is known only at the end."""
 
     parts: Parts

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
 from functools import partial
 from itertools import product
 from typing import Any
 
+from msgspec import field
+from msgspec.structs import replace
+
 from checker.base.errors import NotAtHand, Parts
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import shortened
 from checker.engine.options import options_of
 from checker.finding import (
@@ -34,8 +36,7 @@ TEXT_LIMIT = 1000
 """Characters of a message, note or reason; names in a package may be longer than any of them."""
 
 
-@record()
-class Outcome:
+class Outcome(Record):
     """What the rules said, and which of them could not look.
 
     Attributes:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
-from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
+
+from msgspec import field
+from msgspec.structs import replace
 
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_server import Server
 from checker.base.disk_file import NotReadable
 from checker.base.errors import NotAtHand
 from checker.base.progress import Stages
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.launch.package_launch import LaunchEntries, launch_entries, launch_graph
 from checker.expand.spawner.emitted_xml import (
@@ -66,8 +68,7 @@ _WITHOUT_ROBOT = {
 }
 
 
-@record(eq=False)
-class Subject:
+class Subject(Record, eq=False, dict=True):
     """One package under review.
 
     Attributes:
@@ -83,7 +84,7 @@ class Subject:
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
     processes: StartedProcesses = NO_PROCESSES
-    _provided: dict[type, Sequence[object]] = field(default_factory=dict, repr=False)
+    _provided: dict[type, Sequence[object]] = field(default_factory=dict)
 
     def part(self, kind: type) -> Sequence[object] | NotAtHand:
         """Return the part that is an instance of `kind`; a file may hold several robots.

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from difflib import unified_diff
 from itertools import pairwise
 
-from checker.base.record import record
+from msgspec.structs import replace
+
+from checker.base.record import Record
 from checker.base.words import plain
 from checker.finding import Edit, Fix, Safety
 from checker.package.package import Package
@@ -103,8 +105,7 @@ Judge = Callable[[Package], tuple[ReportedFinding, ...]]
 """Checks a package and returns its findings."""
 
 
-@record()
-class FixedFile:
+class FixedFile(Record):
     """A file of the package before and after."""
 
     path: str
@@ -112,8 +113,7 @@ class FixedFile:
     after: str
 
 
-@record()
-class Fixed:
+class Fixed(Record):
     """What fixing comes to.
 
     Attributes:

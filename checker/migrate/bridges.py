@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, sensor_channels
@@ -20,8 +20,7 @@ _NARROW = math.radians(30)
 """Greatest angle of a lidar that measures one distance."""
 
 
-@record()
-class Bridge:
+class Bridge(Record):
     """A node that passes one topic on.
 
     Attributes:
@@ -53,8 +52,7 @@ class Bridge:
         return _optical(self.info_topic)
 
 
-@record()
-class SensorBridges:
+class SensorBridges(Record):
     """What is passed on of one sensor.
 
     Attributes:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from statistics import fmean
 
 from lxml import etree
+from msgspec.structs import replace
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 from checker.convert.xml_writer import number
 from checker.migrate.options import NotMigrated, Wishes
@@ -28,8 +28,7 @@ LATERAL_COMPLIANCE = 0.172
 _WHEELS_THAT_SLIP = 4
 
 
-@record(eq=False)
-class Drive:
+class Drive(Record, eq=False):
     """A DiffDrive or AckermannSteering.
 
     Attributes:

@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import placed, union
@@ -21,8 +21,7 @@ _DIGITS = 4
 _NARROW = math.radians(30)
 
 
-@record()
-class Facts:
+class Facts(Record):
     """Figures as texts write them.
 
     Attributes:

@@ -11,7 +11,7 @@ from lxml import etree
 
 from checker.base.cache import NO_CACHE
 from checker.base.errors import NotAtHand
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.conversion import Conversion
 from checker.convert.sdf_to_urdf import xacro_of
 from checker.convert.urdf_to_sdf import sdf_of
@@ -76,8 +76,7 @@ def _notes(findings: tuple[ReportedFinding, ...]) -> Iterator[str]:
 _SHEET_POINTS = "everything that says TODO in specifications.md: devices, cost, rights, validation"
 
 
-@record()
-class Migrated:
+class Migrated(Record):
     """A package that was made.
 
     Attributes:

@@ -6,7 +6,7 @@ import re
 
 from lxml import etree
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.conversion import Conversion
 from checker.convert.xml_writer import numbers
 from checker.migrate.options import NotMigrated, Wishes
@@ -109,8 +109,7 @@ _UNFIT = re.compile(r"[^a-z0-9]+")
 _ENDING = re.compile(r"(?:_(?:description|gazebo|urdf|model|sensor_config_\d+))+$", re.IGNORECASE)
 
 
-@record()
-class Names:
+class Names(Record):
     """What things are called in the new package.
 
     Attributes:

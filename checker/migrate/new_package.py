@@ -8,12 +8,13 @@ import shutil
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from msgspec.structs import fields
+
+from checker.base.record import Record
 from checker.base.resources import templates
 from checker.convert.xml_writer import exact
 from checker.migrate.bridges import SensorBridges
@@ -47,8 +48,7 @@ _PLAIN = (".rb.j2", ".md.j2", ".txt.j2")
 _LIMITS = ("min_velocity", "max_velocity", "min_acceleration", "max_acceleration", "power_load")
 
 
-@record(eq=False)
-class Known:
+class Known(Record, eq=False):
     """What the files are written from.
 
     Attributes:
@@ -137,8 +137,7 @@ def _environment() -> Environment:
 _PREFIX = ".subt-check-migrate-"
 
 
-@record()
-class Staging:
+class Staging(Record):
     """A package that is being written.
 
     Attributes:

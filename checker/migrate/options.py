@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+
+from msgspec import field
 
 from checker.base.errors import CheckerError
-from checker.base.record import record
+from checker.base.record import Record
 
 
 class NotMigrated(CheckerError):
     """A description that cannot be migrated; its text is one sentence and says what to do."""
 
 
-@record()
-class Wishes:
+class Wishes(Record):
     """What the author asks for; what is empty is found out.
 
     Attributes:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 from checker.base.cache import NO_CACHE
-from checker.base.record import record
+from checker.base.record import Record
 from checker.engine.subject import Subject
 from checker.migrate.source import Source
 from checker.model.control.controllers import Controller, ControlSystem
@@ -17,8 +17,7 @@ _KIND = "JointPositionController"
 _UNFIT = re.compile(r"\W+", re.ASCII)
 
 
-@record()
-class Servo:
+class Servo(Record):
     """A JointPositionController.
 
     Attributes:

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from checker.base.cache import NO_CACHE
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.xml_writer import document_text
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.migrate.options import NotMigrated
@@ -26,8 +26,7 @@ _NAMED_LIMIT = 8
 _GIVE_ARGUMENT = "; give it by --args name:=value"
 
 
-@record(eq=False)
-class Source:
+class Source(Record, eq=False):
     """A description to migrate.
 
     Attributes:
@@ -161,8 +160,7 @@ def original_text(source: Source, new_uris: Mapping[str, str]) -> bytes:
 NO_NAME, NO_EMAIL, NO_LICENSE = "TODO", "todo@example.org", "TODO"
 
 
-@record()
-class Papers:
+class Papers(Record):
     """Who made the robot, and under which terms.
 
     Attributes:

@@ -6,13 +6,14 @@ import base64
 import json
 import posixpath
 from collections.abc import Iterator, Mapping
-from dataclasses import field
 from pathlib import Path
 from typing import Any
 
+from msgspec import field
+
 from checker.base.child_process import NONSENSE, Limits, ask, from_json
 from checker.base.errors import WorkerFailed
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox.files import from_disk
 from checker.model.components import Visual
 from checker.model.robot import Robot
@@ -27,8 +28,7 @@ _SECONDS, _MEMORY = 60.0, 16_000_000_000
 """Of processor time, and bytes of address space: software renderers map far more than they use."""
 
 
-@record()
-class Thumbnails:
+class Thumbnails(Record):
     """Pictures, or why there are none.
 
     Attributes:

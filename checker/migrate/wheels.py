@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.convert.conversion import CarriedPlugin
 from checker.migrate.options import NotMigrated, Wishes
 from checker.model.components import Joint
@@ -26,8 +26,7 @@ _SEVERAL = 24
 """Wheels; a robot with more is not guessed at."""
 
 
-@record(eq=False)
-class Wheels:
+class Wheels(Record, eq=False):
     """The wheels that turn to drive the robot.
 
     Attributes:

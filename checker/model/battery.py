@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 from checker.model.components import Plugin
 from checker.source.text import Located, Span
@@ -38,8 +38,7 @@ _TRUE = ("1", "true")
 _MINUTES = 60.0 / 100.0
 
 
-@record(eq=False)
-class Battery:
+class Battery(Record, eq=False):
     """A LinearBatteryPlugin.
 
     Attributes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Plugin
 from checker.model.geometry.transform import Vector
 from checker.model.values import parse_number
@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 BREADCRUMBS_CLASS = "Breadcrumbs"
 
 
-@record(eq=False)
-class Breadcrumbs:
+class Breadcrumbs(Record, eq=False):
     """A Breadcrumbs plugin.
 
     Attributes:

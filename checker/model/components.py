@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.geometry.shapes import Geometry, Material
 from checker.model.geometry.transform import Transform
 from checker.model.lights import Attenuation, read_attenuation
@@ -25,8 +25,7 @@ _WITH_ALPHA = 4
 """Numbers of a colour that says how opaque it is."""
 
 
-@record(eq=False)
-class Part:
+class Part(Record, eq=False):
     """Anything of a robot that has a name and an element.
 
     Attributes:
@@ -43,8 +42,7 @@ class Part:
         return self.element.span
 
 
-@record(eq=False)
-class Pose:
+class Pose(Record, eq=False):
     """A pose as written.
 
     Attributes:
@@ -63,8 +61,7 @@ class Pose:
     in_radians: bool = True
 
 
-@record(eq=False)
-class Inertial:
+class Inertial(Record, eq=False):
     """Mass and inertia of a link.
 
     Attributes:
@@ -80,7 +77,6 @@ class Inertial:
     span: Span
 
 
-@record(eq=False)
 class Collision(Part):
     """A shape that touches things, posed in its link's frame."""
 
@@ -88,8 +84,7 @@ class Collision(Part):
     geometry: Geometry
 
 
-@record(eq=False)
-class Visual(Part):
+class Visual(Part, dict=True):
     """A shape that is seen, posed in its link's frame."""
 
     pose: Pose
@@ -104,7 +99,6 @@ class Visual(Part):
         return clear or ValueReader().number(self.element, "transparency", 0.0).value > 0.0
 
 
-@record(eq=False)
 class Plugin(Part):
     """A plugin and its parameters (below `element`).
 
@@ -148,8 +142,7 @@ class Plugin(Part):
         return None
 
 
-@record(eq=False)
-class Sensor(Part):
+class Sensor(Part, dict=True):
     """A sensor.
 
     Attributes:
@@ -191,8 +184,7 @@ class Sensor(Part):
         return ValueReader().number(self.element, "update_rate", 0.0)
 
 
-@record(eq=False)
-class Light(Part):
+class Light(Part, dict=True):
     """A light and the link that carries it."""
 
     type: str
@@ -210,7 +202,6 @@ class Light(Part):
         return ValueReader().boolean(self.element, "cast_shadows", False).value
 
 
-@record(eq=False)
 class Link(Part):
     """A rigid body.
 
@@ -239,8 +230,7 @@ class Link(Part):
         return self.inertial.mass.value if self.inertial is not None else self.default_mass
 
 
-@record(eq=False)
-class Axis:
+class Axis(Record, eq=False):
     """One axis of a joint.
 
     Attributes:
@@ -269,7 +259,6 @@ class Axis:
     span: Span
 
 
-@record(eq=False)
 class Joint(Part):
     """A joint.
 
@@ -296,7 +285,6 @@ class Joint(Part):
         return [named for mimic in mimics if (named := mimic.attribute("joint")) is not None]
 
 
-@record(eq=False)
 class Frame(Part):
     """A named frame (SDF 1.7 and later)."""
 
@@ -305,7 +293,6 @@ class Frame(Part):
     pose: Pose
 
 
-@record(eq=False)
 class Model(Part):
     """A nested model, or an include that was read.
 

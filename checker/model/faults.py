@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Span
 
 
@@ -16,8 +16,7 @@ class FaultKind(enum.Enum):
     INCLUDE = "an included model cannot be read"
 
 
-@record(eq=False)
-class Fault:
+class Fault(Record, eq=False):
     """One fault in a user's file."""
 
     kind: FaultKind

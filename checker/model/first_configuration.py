@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.robot import Robot
 
 
-@record(eq=False)
-class FirstConfiguration:
+class FirstConfiguration(Record, eq=False):
     """The configuration of lowest number at hand, for those of higher numbers; without meshes.
 
     Attributes:

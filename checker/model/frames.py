@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.faults import Fault, FaultKind
 from checker.model.geometry.transform import Transform
 from checker.source.text import Span
@@ -12,8 +12,7 @@ from checker.source.text import Span
 MODEL_FRAME = "__model__"
 
 
-@record(eq=False)
-class FrameNode:
+class FrameNode(Record, eq=False):
     """A frame: its pose in another one.
 
     Attributes:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.values import ValueReader
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@record(eq=False)
-class Attenuation:
+class Attenuation(Record, eq=False):
     """An `<attenuation>`: at distance d, light is divided by constant + linear·d + quadratic·d².
 
     Attributes:

@@ -6,7 +6,7 @@ import enum
 import itertools
 from typing import TYPE_CHECKING, Protocol
 
-from checker.base.record import record
+from checker.base.record import Record
 
 # Readers of mesh files, which run in children, load this module and no robot.
 if TYPE_CHECKING:
@@ -29,8 +29,7 @@ class MeshTrouble(enum.StrEnum):
     """The checker gave up (limits of time, memory, size), or its place is beyond the workspace."""
 
 
-@record()
-class MeshFault:
+class MeshFault(Record):
     """A mesh that is not known.
 
     Attributes:
@@ -41,8 +40,7 @@ class MeshFault:
     reason: str
 
 
-@record()
-class Mesh:
+class Mesh(Record):
     """What a mesh file holds, in metres: its own unit is honoured, the model's `<scale>` is not.
 
     Attributes:
@@ -95,8 +93,7 @@ class Meshes(Protocol):
         ...
 
 
-@record()
-class NoMeshes:
+class NoMeshes(Record):
     """For a robot that was read without its package."""
 
     def of(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002 - as a `Meshes` has it
@@ -126,8 +123,7 @@ def _as_used(geometry: Geometry, file: Mesh | MeshFault) -> Mesh | MeshFault:
     return MeshFault(MeshTrouble.NOT_LOOKED_AT, "is used in part only (<submesh>)")
 
 
-@record(eq=False)
-class MeshUse:
+class MeshUse(Record, eq=False):
     """A collision or visual that names a mesh file.
 
     Attributes:

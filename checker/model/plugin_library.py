@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 
 SUBT_RELEASE = "dome"
@@ -17,8 +17,7 @@ _CLASSIC = re.compile(r"(?:gazebo_ros|hector_gazebo)_.*")
 _INLINE_NAMESPACE = re.compile(r"::v\d+::")
 
 
-@record()
-class PluginLibrary:
+class PluginLibrary(Record):
     """A shared library and the plugin classes in it.
 
     Attributes:

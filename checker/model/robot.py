@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 import posixpath
 from collections.abc import Iterator
-from dataclasses import field
 from functools import cached_property
 
-from checker.base.record import record
 from checker.model.components import (
     Axis,
     Collision,
@@ -42,8 +40,7 @@ _FRAMES_TOO = (1, 7)
 """SDF version from which on joints tie frames of any kind; before, links alone."""
 
 
-@record(eq=False)
-class Robot(Part):
+class Robot(Part, dict=True):
     """A whole robot; the parts of nested models stand in the same tuples, with scoped names.
 
     Attributes:
@@ -67,11 +64,11 @@ class Robot(Part):
     frames: tuple[Frame, ...]
     models: tuple[Model, ...]
     plugins: tuple[Plugin, ...]
-    frame_graph: FrameGraph = field(repr=False)
+    frame_graph: FrameGraph
     faults: tuple[Fault, ...] = ()
     unresolved_includes: tuple[Located[str], ...] = ()
     unread_plugins: str = ""
-    meshes: Meshes = field(default=NoMeshes(), repr=False)
+    meshes: Meshes = NoMeshes()
 
     @cached_property
     def links_by_name(self) -> dict[str, Link]:

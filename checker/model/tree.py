@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Joint, Link
 from checker.model.frames import MODEL_FRAME
 from checker.source.text import Located
@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 WORLD = "world"
 
 
-@record(eq=False)
-class Tie:
+class Tie(Record, eq=False):
     """A joint both ends of which are known.
 
     Attributes:
@@ -32,8 +31,7 @@ class Tie:
     child: str
 
 
-@record(eq=False)
-class BrokenTie:
+class BrokenTie(Record, eq=False):
     """A joint one end of which, or both, is no link.
 
     Attributes:
@@ -46,8 +44,7 @@ class BrokenTie:
     known: str | None
 
 
-@record(eq=False)
-class LinkTree:
+class LinkTree(Record, eq=False, dict=True):
     """The links of a robot and what ties them; in a sound robot, one tree.
 
     Nothing here recurses, and all of it takes time linear in links and joints.
@@ -183,8 +180,7 @@ def _first_links(robot: Robot) -> dict[str, str]:
 # Links that fixed joints make one rigid body.
 
 
-@record(eq=False)
-class RigidBodies:
+class RigidBodies(Record, eq=False, dict=True):
     """The rigid bodies of a robot, each named for its first link.
 
     Attributes:

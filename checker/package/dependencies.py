@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Place
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
@@ -24,8 +24,7 @@ if TYPE_CHECKING:
 _OUTPUT_NAME = "OUTPUT_NAME"
 
 
-@record()
-class Lenders:
+class Lenders(Record):
     """The packages whose libraries a package can load.
 
     Attributes:
@@ -88,8 +87,7 @@ _MODEL = re.compile(r"(?:model|package)://([a-z][a-z0-9_]{0,199}_sensor_config_\
 """Submissions alone: other models, and those on Fuel in upper case, come from elsewhere."""
 
 
-@record(slots=True)
-class Use:
+class Use(Record):
     """One place at which a package is used; `how` is the text that uses it."""
 
     package_name: str

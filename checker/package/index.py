@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import posixpath
-from dataclasses import field
 from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
 
-from checker.base.record import record
+from checker.base.record import Record
 
 
 class EntryKind(StrEnum):
@@ -34,8 +33,7 @@ class LinkState(StrEnum):
     LOOP = "loop"
 
 
-@record(slots=True)
-class FileEntry:
+class FileEntry(Record):
     """A file, folder or link.
 
     Attributes:
@@ -52,7 +50,7 @@ class FileEntry:
     path: str
     kind: EntryKind
     size: int
-    location: Path = field(repr=False)
+    location: Path
     content: EntryKind
     target_state: LinkState | None = None
     target: str = ""
@@ -68,16 +66,14 @@ class FileEntry:
         return self.content is EntryKind.FOLDER
 
 
-@record(slots=True)
-class IndexFault:
+class IndexFault(Record):
     """What of a folder could not be indexed or read, and why."""
 
     path: str
     reason: str
 
 
-@record(eq=False)
-class FileIndex:
+class FileIndex(Record, eq=False, dict=True):
     """What a folder holds.
 
     Attributes:
@@ -85,7 +81,7 @@ class FileIndex:
         faults: What could not be looked at: unreadable files and folders, limits exceeded.
     """
 
-    entries: dict[str, FileEntry] = field(repr=False)
+    entries: dict[str, FileEntry]
     faults: tuple[IndexFault, ...] = ()
 
     def find(self, path: str) -> FileEntry | None:

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import field
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Place
 from checker.package.model_file import own_model
 from checker.package.references import Reference, ReferenceKind
@@ -36,8 +35,7 @@ class Part(StrEnum):
     SPECIFICATION = "specifications.md"
 
 
-@record(slots=True)
-class Found:
+class Found(Record):
     """Where a part is.
 
     Attributes:
@@ -45,7 +43,7 @@ class Found:
         path: From the package that asked: `model.sdf`, or `../<sibling>/model.sdf`.
     """
 
-    package: Package = field(repr=False)
+    package: Package
     path: str
 
     @property
@@ -54,8 +52,7 @@ class Found:
         return self.path.startswith("../")
 
 
-@record(slots=True)
-class Missing:
+class Missing(Record):
     """A part that is not there.
 
     Attributes:
@@ -70,8 +67,7 @@ class Missing:
     package_not_at_hand: str | None = None
 
 
-@record(slots=True)
-class Inherited:
+class Inherited(Record):
     """A part that comes from a sibling.
 
     Attributes:

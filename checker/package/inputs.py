@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from checker.base.errors import UnreadableInput
-from checker.base.record import record
+from checker.base.record import Record
 from checker.package.archives.archive import ARCHIVE_SUFFIXES, unpack_archive
 from checker.package.archives.index import ArchiveLimits
 from checker.package.kind import (
@@ -27,16 +27,14 @@ MAX_WRAPPERS = 3
 _WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
 
 
-@record()
-class Skipped:
+class Skipped(Record):
     """A subfolder that was not looked at, and why."""
 
     name: str
     reason: str
 
 
-@record()
-class Opened:
+class Opened(Record):
     """What the user gave, ready to be checked.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from checker.base.disk_file import NotReadable
-from checker.base.record import record
+from checker.base.record import Record
 from checker.package.package import Package
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.text import Located, SourceText, Span
@@ -21,8 +21,7 @@ DEPENDENCY_TAGS = (
 )
 
 
-@record(eq=False)
-class Person:
+class Person(Record, eq=False):
     """A maintainer or author; what is not stated is empty and placed at the person's tag."""
 
     name: Located[str]
@@ -30,8 +29,7 @@ class Person:
     span: Span
 
 
-@record(eq=False)
-class Dependency:
+class Dependency(Record, eq=False):
     """A dependency; `kind` is the name of its tag: `exec_depend`."""
 
     kind: str
@@ -43,8 +41,7 @@ class Dependency:
         return self.kind in {"depend", "exec_depend", "run_depend"}
 
 
-@record(eq=False)
-class PackageManifest:
+class PackageManifest(Record, eq=False):
     """A package.xml. A text whose tag is missing is empty, not stated, and placed at the root.
 
     Attributes:
@@ -76,8 +73,7 @@ class PackageManifest:
         return any(each.package.value == package for each in self.dependencies)
 
 
-@record(eq=False)
-class SdfEntry:
+class SdfEntry(Record, eq=False):
     """An `<sdf>` of model.config: the file, and the SDF version it is said to have.
 
     `version` is not stated when the attribute is missing.
@@ -87,8 +83,7 @@ class SdfEntry:
     version: Located[str]
 
 
-@record(eq=False)
-class ModelConfig:
+class ModelConfig(Record, eq=False):
     """A model.config. A text whose tag is missing is empty, not stated, and placed at the root.
 
     Attributes:
@@ -179,8 +174,7 @@ def _description(root: Element) -> Located[str]:
     return Located(words, Span(child.source, start, start + len(raw.strip()), child))
 
 
-@record(eq=False)
-class Paperwork:
+class Paperwork(Record, eq=False, dict=True):
     """What a package's own paperwork says; nothing here is inherited."""
 
     package: Package

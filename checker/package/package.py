@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from msgspec import field
+from msgspec.structs import replace
+
 from checker.base.disk_file import NotReadable, read_bytes
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Place
 from checker.package.index import (
     EntryKind,
@@ -43,8 +45,7 @@ XML_SUFFIXES = (".sdf", ".world", ".config", ".launch", ".xml", ".urdf", ".xacro
 BYTES_LIMIT = 200_000_000
 
 
-@record(eq=False)
-class Package:
+class Package(Record, eq=False, dict=True):
     """A robot package.
 
     Paths are relative to its folder, with `/`; a sibling's file is `../<sibling>/…`.
@@ -57,7 +58,7 @@ class Package:
     """
 
     root: Path
-    workspace: Workspace = field(repr=False)
+    workspace: Workspace
     only: str = ""
     _texts: dict[str, SourceText | NotReadable] = field(
         default_factory=dict, init=False, repr=False

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from enum import StrEnum
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Place
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -67,8 +67,7 @@ class ReferenceKind(StrEnum):
     DEPENDENCY = "dependency"
 
 
-@record(slots=True)
-class Reference:
+class Reference(Record):
     """One mention of a package.
 
     Attributes:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import os
-from dataclasses import field
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
 
 from lxml import etree
+from msgspec import field
 
 from checker.base.disk_file import NotReadable
-from checker.base.record import record
+from checker.base.record import Record
 from checker.package.kind import looks_like_package
 from checker.package.package import Package
 from checker.package.walk import build_index
@@ -22,8 +22,7 @@ MANIFEST_LIMIT = 1_000_000
 THUMBNAILS = "thumbnails"
 
 
-@record(eq=False)
-class Workspace:
+class Workspace(Record, eq=False, dict=True):
     """Folders whose direct subfolders are packages; nothing above them is ever looked at.
 
     Attributes:
@@ -32,8 +31,8 @@ class Workspace:
     """
 
     directories: tuple[Path, ...]
-    _packages: dict[Path, Package] = field(default_factory=dict, init=False, repr=False)
-    _found: dict[str, Package | None] = field(default_factory=dict, init=False, repr=False)
+    _packages: dict[Path, Package] = field(default_factory=dict, init=False)
+    _found: dict[str, Package | None] = field(default_factory=dict, init=False)
 
     def package(self, name: str) -> Package | None:
         """Return the package of a folder name, else of a `package.xml` name, else None."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count
 from checker.finding import Severity
 
@@ -27,8 +27,7 @@ _SEVERITIES = tuple(map(str, Severity))
 _GRAVITY = (*_SEVERITIES, "ok", "not judged")
 
 
-@record()
-class Row:
+class Row(Record):
     """The figures of one name.
 
     Attributes:
@@ -101,8 +100,7 @@ UNITS = {"kg": "kg", "m": "m", "deg": "°", "s": "s"}
 """Units by the ends of the names of facts: `mass_kg`."""
 
 
-@record()
-class Fact:
+class Fact(Record):
     """Something known.
 
     Attributes:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
 from typing import Any
+
+from msgspec import to_builtins
 
 from checker.finding import Edit, Place
 from checker.report.report import (
@@ -27,7 +28,7 @@ def to_dict(report: Report) -> dict[str, Any]:
         "schema_version": SCHEMA_VERSION,
         "tool": {"name": "subt-check", "versions": dict(report.versions)},
         "packages": [_package(package) for package in report.packages],
-        "not_opened": [asdict(each) for each in report.not_opened],
+        "not_opened": [to_builtins(each) for each in report.not_opened],
     }
 
 
@@ -40,7 +41,7 @@ def _package(package: PackageReport) -> dict[str, Any]:
         "settings": package.settings,
         "fail_on": str(package.fail_on),
         "verdict": str(package.verdict),
-        "inherited": [asdict(part) for part in package.inherited],
+        "inherited": [to_builtins(part) for part in package.inherited],
         "findings": [_finding(each) for each in package.findings],
         "suppressed": [_suppressed(each) for each in package.suppressed],
         "not_checked": [
@@ -79,7 +80,7 @@ def _suppressed(each: Suppressed) -> dict[str, Any]:
 
 
 def _place(place: Place) -> dict[str, Any]:
-    return asdict(place)
+    return to_builtins(place)
 
 
 def _edit(edit: Edit) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, TypedDict
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Safety, Severity
 from checker.report.report import Cause, InheritedPart, SuppressedBy
 
@@ -20,8 +20,7 @@ Count = Annotated[int, range(1, 10**9)]
 """A line or a column."""
 
 
-@record()
-class PlaceJson:
+class PlaceJson(Record):
     """A stretch of a file."""
 
     file: str
@@ -34,8 +33,7 @@ class PlaceJson:
     snippet: str = ""
 
 
-@record()
-class EditJson:
+class EditJson(Record):
     """An edit and its stretch in one."""
 
     file: str
@@ -46,16 +44,14 @@ class EditJson:
     replacement: str
 
 
-@record()
-class FixJson:
+class FixJson(Record):
     """Edits that belong together."""
 
     safety: Safety
     edits: tuple[EditJson, ...]
 
 
-@record()
-class FindingJson:
+class FindingJson(Record):
     """A finding without what its rule's page says."""
 
     rule: Word
@@ -67,8 +63,7 @@ class FindingJson:
     fix: FixJson | None = None
 
 
-@record()
-class SuppressedJson:
+class SuppressedJson(Record):
     """A finding that does not count."""
 
     finding: FindingJson
@@ -77,8 +72,7 @@ class SuppressedJson:
     place: PlaceJson | None
 
 
-@record()
-class NotCheckedJson:
+class NotCheckedJson(Record):
     """A rule that did not look."""
 
     rule: Word
@@ -133,8 +127,7 @@ class TrialJson(TypedDict):
     series: Mapping[str, list[float | None]]
 
 
-@record()
-class PackageJson:
+class PackageJson(Record):
     """A package; its verdict follows from the rest."""
 
     name: str
@@ -152,8 +145,7 @@ class PackageJson:
     fail_on: Severity = Severity.ERROR
 
 
-@record()
-class NotOpenedJson:
+class NotOpenedJson(Record):
     """What was not checked at all."""
 
     path: str
@@ -161,15 +153,13 @@ class NotOpenedJson:
     failed: bool = False
 
 
-@record()
-class ToolJson:
+class ToolJson(Record):
     """What wrote the report."""
 
     versions: Mapping[str, str]
 
 
-@record()
-class ReportJson:
+class ReportJson(Record):
     """The whole report."""
 
     schema_version: Word

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Place
 from checker.report.finding_text import path_of
 from checker.report.report import PackageReport, Report, ReportedFinding
@@ -34,8 +34,7 @@ def owners(report: Report) -> Mapping[Identity, str]:
     }
 
 
-@record()
-class Share:
+class Share(Record):
     """What is said about one package.
 
     Attributes:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from typing import TextIO
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Severity
 from checker.report.report import VerdictKind
 
@@ -18,8 +18,7 @@ _VERDICT = {
 }
 
 
-@record()
-class Palette:
+class Palette(Record):
     """Colours text, or leaves it as it is."""
 
     enabled: bool

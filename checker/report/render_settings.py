@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.report.palette import Palette
 
 
-@record()
-class Manner:
+class Manner(Record):
     """How a report is to be rendered.
 
     Attributes:

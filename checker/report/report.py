@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Mapping
-from dataclasses import field
 from typing import Any
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.finding import Fix, Place, Severity
 
 SCHEMA_VERSION = "1"
@@ -40,8 +41,7 @@ class Cause(enum.StrEnum):
     CRASHED = "crashed"
 
 
-@record()
-class NotChecked:
+class NotChecked(Record):
     """A rule that did not look, and why."""
 
     rule: str
@@ -49,8 +49,7 @@ class NotChecked:
     cause: Cause
 
 
-@record()
-class ReportedFinding:
+class ReportedFinding(Record):
     """A fault, with all its places.
 
     Attributes:
@@ -83,8 +82,7 @@ class ReportedFinding:
         return f"subt-check rule {self.rule}"
 
 
-@record()
-class InheritedPart:
+class InheritedPart(Record):
     """A part that a package takes from another one."""
 
     part: str
@@ -104,8 +102,7 @@ IN_BASELINE = "in the baseline"
 """The reason for what the baseline sets aside and nobody gave one for."""
 
 
-@record()
-class Suppressed:
+class Suppressed(Record):
     """A finding that the user has seen and set aside.
 
     Attributes:
@@ -120,8 +117,7 @@ class Suppressed:
     place: Place | None = None
 
 
-@record()
-class Picture:
+class Picture(Record):
     """The robot at one moment.
 
     Attributes:
@@ -132,13 +128,12 @@ class Picture:
     """
 
     caption: str
-    jpeg: bytes = field(repr=False)
+    jpeg: bytes
     width: int
     height: int
 
 
-@record()
-class Display:
+class Display(Record):
     """The robot in 3D, for those who look.
 
     Attributes:
@@ -147,13 +142,12 @@ class Display:
         notes: What is not shown, or coarser than it is, as sentences.
     """
 
-    glb: bytes = field(repr=False)
+    glb: bytes
     pictures: tuple[Picture, ...] = ()
     notes: tuple[str, ...] = ()
 
 
-@record()
-class PackageReport:
+class PackageReport(Record):
     """All that was found out about one package.
 
     Attributes:
@@ -217,8 +211,7 @@ class PackageReport:
         return sum(finding.severity is severity for finding in self.findings)
 
 
-@record()
-class NotOpened:
+class NotOpened(Record):
     """An argument, or a folder below one, that was not checked at all, and why.
 
     Attributes:
@@ -232,8 +225,7 @@ class NotOpened:
     failed: bool
 
 
-@record()
-class Report:
+class Report(Record):
     """The reports of all packages of one run, sorted by name."""
 
     packages: tuple[PackageReport, ...]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, plain
 from checker.finding import Place, Severity
 from checker.report.ownership import each_once
@@ -29,8 +29,7 @@ RELATED_LIMIT = 100
 LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
-@record()
-class Said:
+class Said(Record):
     """A finding, of which package, and what set it aside."""
 
     package: PackageReport
@@ -48,8 +47,7 @@ class Said:
         return self.suppressed is not None and not self.in_baseline
 
 
-@record()
-class Marks:
+class Marks(Record):
     """Which marks all results of a run carry as soon as one does, as SARIF asks."""
 
     baseline: bool

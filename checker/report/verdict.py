@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, listed, plain, shortened
 from checker.finding import Severity
 from checker.report.report import NO_TRIAL, Cause, PackageReport, VerdictKind
@@ -10,8 +10,7 @@ from checker.report.report import NO_TRIAL, Cause, PackageReport, VerdictKind
 _REASON_LIMIT = 600
 
 
-@record()
-class Sentence:
+class Sentence(Record):
     """A verdict in words.
 
     Attributes:

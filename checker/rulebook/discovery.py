@@ -10,11 +10,12 @@ import gc
 import importlib
 import pkgutil
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import cache
 from importlib.metadata import entry_points
 from itertools import chain
 from types import ModuleType
+
+from msgspec.structs import replace
 
 from checker.base.errors import CheckerError
 from checker.rule import Rule

@@ -6,7 +6,7 @@ import inspect
 import re
 from collections.abc import Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.rule import Rule
 
 _HEADING = re.compile(r"^Options:\n", re.MULTILINE)
@@ -14,8 +14,7 @@ _ENTRY = re.compile(r"^ {4}(\w+): (.*(?:\n {5,}.*)*)", re.MULTILINE)
 """A name, and what stands behind it on its own line and on those below that are further in."""
 
 
-@record()
-class Option:
+class Option(Record):
     """An option of a rule.
 
     Attributes:

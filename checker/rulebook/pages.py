@@ -11,7 +11,7 @@ from pathlib import PurePosixPath
 from textwrap import dedent
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.rule import Rule
 from checker.rulebook.options import told_options, work_of
 from checker.rulebook.profiles import profile, profile_names
@@ -22,8 +22,7 @@ from checker.rulebook.profiles import profile, profile_names
 # paragraphs: `Fix:` and `Source:`.
 
 
-@record()
-class Page:
+class Page(Record):
     """The parts of a rule's page.
 
     Attributes:

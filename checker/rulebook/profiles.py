@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 from checker.finding import Severity
 from checker.rule import Context, Rule
 
 
-@record()
-class Profile:
+class Profile(Record):
     """What is judged, for which target.
 
     Attributes:

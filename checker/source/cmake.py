@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.cmake_calls import Call, evaluate
 from checker.source.cmake_tokens import CMakeFault, read_commands
 from checker.source.text import Located, SourceText, Span
@@ -18,8 +18,7 @@ _KEYWORDS = {
 }
 
 
-@record(eq=False)
-class Install:
+class Install(Record, eq=False):
     """An `install()`.
 
     Attributes:
@@ -45,8 +44,7 @@ class Install:
         return same and inside and item.span.source is self.span.source
 
 
-@record(eq=False)
-class Library:
+class Library(Record, eq=False):
     """An `add_library()`: the target builds `lib<name>.so`."""
 
     name: Located[str]
@@ -54,8 +52,7 @@ class Library:
     conditional: bool
 
 
-@record(eq=False)
-class CMakeFile:
+class CMakeFile(Record, eq=False):
     """A CMakeLists.txt.
 
     Attributes:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.cmake_tokens import Argument, ArgumentKind, CMakeFault, Command
 from checker.source.text import Located, Span
 
@@ -29,8 +29,7 @@ _BLOCKS = {
 }
 
 
-@record(eq=False)
-class Call:
+class Call(Record, eq=False):
     """A command with its variables put in.
 
     Attributes:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator
 from itertools import islice
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Located, SourceText, Span
 
 MAX_TOKENS = 200_000
@@ -39,16 +39,14 @@ class ArgumentKind(enum.Enum):
     PAREN = "parenthesis"
 
 
-@record(eq=False)
-class CMakeFault:
+class CMakeFault(Record, eq=False):
     """One fault of a CMake file."""
 
     span: Span
     message: str
 
 
-@record(eq=False)
-class Argument:
+class Argument(Record, eq=False):
     """One argument as written, escapes read; `${…}` stands in it unchanged.
 
     The span has no quotes around it.
@@ -58,8 +56,7 @@ class Argument:
     text: Located[str]
 
 
-@record(eq=False)
-class Command:
+class Command(Record, eq=False):
     """One call, `name(arguments)`; the name in lower case, as CMake reads it."""
 
     name: Located[str]

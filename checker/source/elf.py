@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 
-from checker.base.record import record
+from checker.base.record import Record
 
 BUDGET = 1_000_000
 """Bytes that may be read of one file; real libraries need a few thousand."""
@@ -16,8 +16,7 @@ _COST = 32
 """What every single read costs beside its bytes, so that empty reads end, too."""
 
 
-@record()
-class SharedLibrary:
+class SharedLibrary(Record):
     """What the headers of an ELF file say.
 
     Attributes:

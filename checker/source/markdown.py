@@ -9,10 +9,9 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Iterable
-from dataclasses import field
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import SourceText, Span
 
 if TYPE_CHECKING:
@@ -36,8 +35,7 @@ class PassageKind(enum.Enum):
     ITEM = "item"
 
 
-@record(eq=False)
-class Passage:
+class Passage(Record, eq=False):
     """One block of visible text.
 
     Attributes:
@@ -49,8 +47,8 @@ class Passage:
 
     kind: PassageKind
     level: int
-    text: str = field(repr=False)
-    span: Span = field(repr=False)
+    text: str
+    span: Span
 
     @property
     def words(self) -> str:
@@ -62,8 +60,7 @@ class Passage:
         return Span(self.span.source, self.span.start + start, self.span.start + end)
 
 
-@record(eq=False)
-class Markdown:
+class Markdown(Record, eq=False):
     """A Markdown file as its passages, in order.
 
     Attributes:
@@ -75,7 +72,7 @@ class Markdown:
 
     source: SourceText
     passages: tuple[Passage, ...]
-    text: str = field(default="", repr=False)
+    text: str = ""
     fences: tuple[Span, ...] = ()
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import field, replace
 from functools import cached_property
 from typing import ClassVar, Generic, Protocol, TypeVar
 
-from checker.base.record import record
+from msgspec.structs import replace
+
+from checker.base.record import Record
 from checker.finding import SNIPPET_LIMIT, Edit, Place
 
 # The characters between two tags that are no text: comments, instructions, CDATA brackets.
@@ -43,8 +44,7 @@ def blank_markup(text: str) -> str:
 T = TypeVar("T")
 
 
-@record(eq=False)
-class SourceText:
+class SourceText(Record, eq=False, dict=True):
     """The decoded text of one file.
 
     Attributes:
@@ -57,8 +57,8 @@ class SourceText:
     wrapper: ClassVar[str] = ""
 
     file: str
-    text: str = field(repr=False)
-    encoding: str = field(default="utf-8", kw_only=True, repr=False)
+    text: str
+    encoding: str = "utf-8"
 
     @cached_property
     def _line_starts(self) -> list[int]:
@@ -120,8 +120,7 @@ class HasPath(Protocol):
         ...
 
 
-@record(eq=False, slots=True)
-class Span:
+class Span(Record, eq=False):
     """A stretch of a source: from `start` up to, not including, `end`.
 
     Attributes:
@@ -163,8 +162,7 @@ class Span:
         return replace(place, element=self.element, note=note)
 
 
-@record(slots=True)
-class Located(Generic[T]):
+class Located(Record, Generic[T]):
     """A value and the place it was read from.
 
     Attributes:
@@ -181,8 +179,7 @@ class Located(Generic[T]):
 # A stretch of a file read as a text of its own, with the places of the file.
 
 
-@record(eq=False)
-class Excerpt(SourceText):
+class Excerpt(SourceText, kw_only=True):
     """A text inside another one; places are those of the outer text.
 
     Attributes:
@@ -190,7 +187,7 @@ class Excerpt(SourceText):
         offset: Characters in front of the excerpt.
     """
 
-    outer: SourceText = field(repr=False)
+    outer: SourceText
     offset: int
 
     def place(self, start: int, end: int) -> Place:

@@ -8,12 +8,13 @@ Entities, document types and network access are off in both.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field, replace
 from functools import cached_property
 
 from lxml import etree
+from msgspec import field
+from msgspec.structs import replace
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Located, SourceText, Span, blank_markup
 from checker.source.xml_positions import TagPosition, XmlFault
 from checker.source.xml_tags import AttributeSpans, locate_tags, namespace_faults, scan_start_tag
@@ -25,8 +26,7 @@ _BLANKS = " \t\r\n"
 """XML's own; a no-break space is none of them."""
 
 
-@record(eq=False)
-class XmlDocument:
+class XmlDocument(Record, eq=False, dict=True):
     """A well-formed XML text.
 
     Attributes:
@@ -36,8 +36,8 @@ class XmlDocument:
     """
 
     source: SourceText
-    tree: etree._Element = field(repr=False)
-    positions: list[TagPosition] = field(repr=False)
+    tree: etree._Element
+    positions: list[TagPosition]
     tolerated: tuple[XmlFault, ...] = ()
 
     @cached_property
@@ -111,8 +111,7 @@ def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
     return replace(document, tolerated=(*located.tolerated, *namespace_faults(document)))
 
 
-@record(eq=False)
-class Element:
+class Element(Record, eq=False, dict=True):
     """One element of an XML document, with the places of its parts.
 
     Attributes:

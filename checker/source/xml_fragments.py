@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from typing import ClassVar
 
-from checker.base.record import record
 from checker.finding import Place
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument, parse_xml
@@ -15,8 +14,7 @@ ROOT = "emitted"
 _DECLARATION = re.compile(r"\A\s*<\?xml\s[^>]*\?>")
 
 
-@record(eq=False)
-class WrappedText(SourceText):
+class WrappedText(SourceText, kw_only=True):
     """A text inside an element that only the parser sees; places are those of the inner text.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Span
 
 
@@ -30,8 +30,7 @@ class TagPosition:
     end: int
 
 
-@record(eq=False)
-class XmlFault:
+class XmlFault(Record, eq=False):
     """Why and where a text is not well-formed XML."""
 
     span: Span
@@ -39,8 +38,7 @@ class XmlFault:
     hint: str = ""
 
 
-@record()
-class LocatedTags:
+class LocatedTags(Record):
     """All tags of a text in document order, and the text as the parsers are to read it."""
 
     text: str

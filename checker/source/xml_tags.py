@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 from xml.parsers import expat
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import SourceText, Span
 from checker.source.xml_errors import explain, mend_comments, mend_declaration
 from checker.source.xml_positions import LocatedTags, TagPosition, XmlFault
@@ -72,8 +72,7 @@ _NAME = re.compile(r"<\s*([^\s/>]+)")
 Range = tuple[int, int]
 
 
-@record()
-class AttributeSpans:
+class AttributeSpans(Record):
     """Character ranges of a start tag's name and of each attribute's name and value."""
 
     tag: Range

@@ -25,7 +25,7 @@ from yaml.constructor import SafeConstructor
 from yaml.events import CollectionStartEvent, DocumentEndEvent, Event, NodeEvent
 from yaml.resolver import Resolver
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import SourceText, Span
 
 MAX_LENGTH = 1_000_000
@@ -38,16 +38,14 @@ Plain = str | int | float | bool | None
 _PLAIN_TAGS = {f"tag:yaml.org,2002:{name}" for name in ("null", "bool", "int", "float")}
 
 
-@record(eq=False)
-class YamlFault:
+class YamlFault(Record, eq=False):
     """One fault of a YAML file."""
 
     span: Span
     message: str
 
 
-@record(eq=False)
-class YamlNode:
+class YamlNode(Record, eq=False):
     """A value of a YAML file.
 
     Exactly one of `scalar`, `items` and `entries` holds it, as `kind` says.
@@ -87,8 +85,7 @@ class YamlNode:
         return {name.scalar: value.plain() for name, value in self.entries if name.kind == "scalar"}
 
 
-@record(eq=False)
-class YamlDocument:
+class YamlDocument(Record, eq=False):
     """The first document of a YAML file; `root` is None when it is empty or not readable."""
 
     source: SourceText

@@ -10,7 +10,7 @@ Source: contacts come from `<collision>` elements alone, SDFormat specification.
 
 from collections.abc import Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Link, Plugin
 from checker.model.robot import Robot
 from checker.model.tree import rigid_bodies
@@ -57,8 +57,7 @@ def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:
             )
 
 
-@record(eq=False)
-class _Part:
+class _Part(Record, eq=False):
     kind: str
     links: tuple[Link, ...]
     by: Plugin | Located[str]

@@ -11,7 +11,7 @@ Source: geometry; Gazebo honours the unit of a COLLADA file and takes STL and OB
 import math
 from collections.abc import Iterable, Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.placed_shapes import placed, union
 from checker.model.geometry.transform import Vector
@@ -67,8 +67,7 @@ def check(
             )
 
 
-@record()
-class _Extent:
+class _Extent(Record):
     """Diagonals of the boxes around a link's shapes, metres; 0 where one is not known.
 
     Attributes:

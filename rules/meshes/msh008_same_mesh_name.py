@@ -8,7 +8,8 @@ Source: MuJoCo, XML reference: a mesh is named for its file without the folder u
 """
 
 import posixpath
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from checker.model.mesh import Mesh, MeshUse
 from checker.model.robot import Robot

@@ -12,7 +12,7 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.robot import Robot
 from checker.model.specification.sensor_kinds import SUBSTITUTES, TYPES, SensorKind, kinds_in
 from checker.model.specification.sensors import stated_count
@@ -27,8 +27,7 @@ _POINT = re.compile(r"\b(?:ceiling|cliff|distance|floor|point|range) sensors?\b"
 _LIST_MARK = re.compile(r"[\s,;:.-]*(?:(?:and|with|has|having|plus)\s+)?", re.IGNORECASE)
 
 
-@record()
-class _Told:
+class _Told(Record):
     """A kind of sensor that a clause names, and how many of it; None when it does not say."""
 
     kind: SensorKind

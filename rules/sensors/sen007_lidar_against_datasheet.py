@@ -13,7 +13,7 @@ Source: reviews of SubT models; `devices.json` names others, figure by figure.
 
 from collections.abc import Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import either
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevice, SensorDevices
@@ -33,8 +33,7 @@ _SPOKEN_OF = {
 """What "Diversions" would say of a figure."""
 
 
-@record(eq=False)
-class _Difference:
+class _Difference(Record, eq=False):
     """A figure that is off: where it stands, which one, what is said, what was expected."""
 
     where: HasSpan

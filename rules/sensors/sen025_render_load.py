@@ -12,7 +12,7 @@ million pixels a second.
 import math
 from collections.abc import Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
@@ -21,8 +21,7 @@ _NAMED = 5
 """Sensors that the finding points at."""
 
 
-@record(eq=False)
-class _Load:
+class _Load(Record, eq=False):
     """What a sensor renders: so many pixels or rays, so often a second."""
 
     sensor: Sensor

@@ -6,11 +6,11 @@ import json
 import os
 import shutil
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from checker.base.cache import Cache
 from checker.engine.report_cache import from_stored, memory_key, recalled, remember, to_stored

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from checker.base.errors import InvalidSettings
 from checker.engine.options import check_against_rules, no_such_rule, options_of

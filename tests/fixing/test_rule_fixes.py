@@ -6,11 +6,11 @@ import inspect
 import sys
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from checker.base.cache import NO_CACHE
 from checker.engine.review import findings_of

@@ -5,12 +5,12 @@ from __future__ import annotations
 import ctypes
 import signal
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from time import sleep
 
 import pytest
 import sqlalchemy as sa
+from msgspec.structs import replace
 
 from checker.service.jobs.checking import result_key
 from checker.service.jobs.durable.keys import key_of_check

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import pytest
+from msgspec.structs import replace
 
 from checker.model.geometry.interpenetration import interpenetrations
 from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import jsonschema
 import pytest
 from hypothesis import given
+from msgspec.structs import replace
 
 from checker import cli
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 from hypothesis import given
+from msgspec.structs import replace
 
 from checker.finding import Place, Severity
 from checker.report.github import LINES_LIMIT, to_github

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from hypothesis import given
 from junitparser import JUnitXml, TestCase, TestSuite
 from lxml import etree
+from msgspec.structs import replace
 
 from checker.finding import Place, Severity
 from checker.report.junit import FINDINGS_LIMIT, to_junit

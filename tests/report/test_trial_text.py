@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from checker.report.palette import Palette
 from checker.report.report import NO_TRIAL, Cause, NotChecked, PackageReport, Report

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from checker.physics.trial.measures.figures import MEASURES
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble

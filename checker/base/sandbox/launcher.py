@@ -14,13 +14,14 @@ import subprocess
 import sys
 import threading
 from collections.abc import Sequence
-from dataclasses import asdict
 from functools import cache as once
 from functools import cached_property
 from pathlib import Path
 from typing import BinaryIO
 
-from checker.base.record import record
+from msgspec import to_builtins
+
+from checker.base.record import Record
 from checker.base.sandbox import layers, namespaces
 from checker.base.sandbox.account import free_account
 from checker.base.sandbox.layers import Layer, Sandbox
@@ -34,8 +35,7 @@ _FAMILIES = ("EGL_", "GALLIUM_", "LC_", "LIBGL_", "LP_", "MESA_", "PYTHON", "__E
 _OWN_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-@record()
-class Order:
+class Order(Record):
     """What process to start.
 
     Attributes:
@@ -57,8 +57,7 @@ class Order:
     lasts: bool = False
 
 
-@record()
-class Started:
+class Started(Record):
     """A process that was started.
 
     Attributes:
@@ -96,7 +95,7 @@ class Launcher:
         handed = (input, request.fileno(), answer.fileno(), theirs, *more)
         try:
             with self._lock:
-                message = json.dumps(asdict(order)).encode()
+                message = json.dumps(to_builtins(order)).encode()
                 socket.send_fds(self._control, [message], handed)
         except OSError:
             os.close(ours)
@@ -221,7 +220,7 @@ def _command(
 ) -> list[str]:
     # `-P` keeps the folder that it runs in out of the search for modules.
     module = "checker.base.sandbox.launcher_process"
-    arguments = (str(control), json.dumps(asdict(sandbox)), *given)
+    arguments = (str(control), json.dumps(to_builtins(sandbox)), *given)
     own = [sys.executable, "-P", "-m", module, *arguments]
     folder = "" if work is None else str(work)
     return namespaces.wrapped(own, sandbox.read, folder) if sandbox.wrapped else own

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextlib import suppress
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox import account, landlock, namespaces, program_files, seccomp
 from checker.base.sandbox.seccomp import NotHeld
 
@@ -16,8 +16,7 @@ NAMESPACES, ACCOUNT, LANDLOCK, SECCOMP = "namespaces", "account", "landlock", "s
 ALL = (NAMESPACES, ACCOUNT, LANDLOCK, SECCOMP)
 
 
-@record()
-class Layer:
+class Layer(Record):
     """One layer of the sandbox.
 
     Attributes:
@@ -33,8 +32,7 @@ class Layer:
     hides: bool = False
 
 
-@record()
-class Sandbox:
+class Sandbox(Record):
     """What to put up around a process.
 
     Attributes:

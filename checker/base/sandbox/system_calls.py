@@ -9,11 +9,10 @@ import platform
 import sys
 from collections.abc import Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 
 
-@record()
-class Architecture:
+class Architecture(Record):
     """How one kind of processor calls the kernel.
 
     Attributes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from checker.base.record import record
+from checker.base.record import Record
 
 INSTALL_AGAIN = "install subt-check again, with its libraries"
 
@@ -17,8 +17,7 @@ class State(StrEnum):
     PROBLEM = "problem"
 
 
-@record()
-class Result:
+class Result(Record):
     """What was found.
 
     Attributes:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from functools import cache
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 from checker.expand.launch.graph import LaunchFault, LaunchFaultKind
 from checker.expand.launch.scope import Scope
@@ -22,8 +22,7 @@ _LEFT_OUTSIDE = re.compile(
 )
 
 
-@record()
-class LaunchTag:
+class LaunchTag(Record):
     """What roslaunch knows of one tag.
 
     Attributes:

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Located, Span
 
 if TYPE_CHECKING:
@@ -50,8 +50,7 @@ _DIRECTIONS = {"[": Direction.TO_ROS, "]": Direction.TO_IGN, "@": Direction.BOTH
 _PARAMETER = re.compile(r"([^@\[\]]+)@([^@\[\]]+)([@\[\]])([^@\[\]]+)\Z")
 
 
-@record(eq=False)
-class Bridge:
+class Bridge(Record, eq=False):
     """One topic that a node passes between Gazebo and ROS.
 
     Attributes:
@@ -80,8 +79,7 @@ class Bridge:
         return SensorTopic.parse(self.ign_topic)
 
 
-@record()
-class SensorTopic:
+class SensorTopic(Record):
     """Parts of a sensor's default topic in Gazebo.
 
     `suffix` is what stands behind the sensor's name: `scan/points`, or empty.

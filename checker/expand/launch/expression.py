@@ -10,7 +10,7 @@ import ast
 import operator
 from collections.abc import Callable, Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 
 Value = str | int | float | bool
 
@@ -19,13 +19,11 @@ MAX_DEPTH = 40
 _LARGEST = 10**100
 
 
-@record()
-class Unknown:
+class Unknown(Record):
     """The expression asks for something that this reader does not evaluate."""
 
 
-@record()
-class ExpressionFault:
+class ExpressionFault(Record):
     """The expression is wrong: roslaunch stops at it.
 
     `undeclared` names the arg that is not declared, else it is empty.

@@ -9,10 +9,11 @@ from __future__ import annotations
 import enum
 import posixpath
 from collections.abc import Mapping
-from dataclasses import field
 from functools import cached_property
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.expand.launch.bridge import PASSES_NOTHING, Bridge
 from checker.source.text import Located, Span
 
@@ -58,8 +59,7 @@ class LaunchFaultKind(enum.Enum):
     LIMIT = "the launch file is larger than this reader follows"
 
 
-@record(eq=False)
-class LaunchFault:
+class LaunchFault(Record, eq=False):
     """One fault of a launch file."""
 
     kind: LaunchFaultKind
@@ -67,8 +67,7 @@ class LaunchFault:
     message: str
 
 
-@record(eq=False)
-class Remap:
+class Remap(Record, eq=False):
     """A `<remap>` that is in force for a node.
 
     Attributes:
@@ -84,8 +83,7 @@ class Remap:
     inherited: bool = False
 
 
-@record(eq=False)
-class Node:
+class Node(Record, eq=False):
     """A node that the launch file starts; those that a condition leaves out are not here.
 
     Attributes:
@@ -130,8 +128,7 @@ class Node:
         return wanted
 
 
-@record(eq=False)
-class Param:
+class Param(Record, eq=False):
     """A parameter that the launch file sets.
 
     Attributes:
@@ -149,8 +146,7 @@ class Param:
     text: Span | None = None
 
 
-@record(eq=False)
-class EnvironmentVariable:
+class EnvironmentVariable(Record, eq=False):
     """An `<env>` tag."""
 
     name: str
@@ -158,8 +154,7 @@ class EnvironmentVariable:
     span: Span
 
 
-@record(eq=False)
-class Include:
+class Include(Record, eq=False):
     """An `<include>` that was followed: its file by the path the reader knows it under."""
 
     file: str
@@ -167,8 +162,7 @@ class Include:
     span: Span
 
 
-@record(eq=False)
-class UnresolvedInclude:
+class UnresolvedInclude(Record, eq=False):
     """An `<include>` of a file that is not at hand.
 
     Attributes:
@@ -188,8 +182,7 @@ class UnresolvedInclude:
     span: Span
 
 
-@record(eq=False)
-class LaunchGraph:
+class LaunchGraph(Record, eq=False, dict=True):
     """All that a launch file starts, files that it includes among it.
 
     Attributes:

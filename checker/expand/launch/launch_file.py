@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Protocol
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.attributes import Reader, truth_of
 from checker.expand.launch.graph import UnresolvedInclude
 from checker.expand.launch.scope import HERE, Scope
@@ -19,8 +19,7 @@ from checker.source.xml import Element, XmlDocument
 # The command line that starts a launch file, as a spawner writes it.
 
 
-@record()
-class LaunchCommand:
+class LaunchCommand(Record):
     """`roslaunch --wait P vehicle_topics.launch world_name:=w name:=n`, taken apart.
 
     Attributes:
@@ -92,8 +91,7 @@ class ReadLaunch(Protocol):
         ...
 
 
-@record(eq=False)
-class Inclusion:
+class Inclusion(Record, eq=False):
     """An `<include>` as written, substitutions made.
 
     Attributes:

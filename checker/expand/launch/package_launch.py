@@ -9,7 +9,7 @@ from itertools import chain
 from types import MappingProxyType
 
 from checker.base.errors import NotAtHand
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.expansion import expand_launch
 from checker.expand.launch.graph import LaunchFaultKind, LaunchGraph, UnresolvedInclude
 from checker.expand.launch.launch_file import LaunchCommand, MissingLaunchFile, target_of
@@ -111,8 +111,7 @@ def _reason(include: UnresolvedInclude) -> str:
     return f"{include.file} is not read: {include.reason}"
 
 
-@record()
-class LaunchFiles:
+class LaunchFiles(Record):
     """Finds launch files, and what they name, in the package and its siblings."""
 
     package: Package
@@ -172,16 +171,14 @@ MAX_PARTS = 20_000
 """Nodes, parameters and includes of all launch files together."""
 
 
-@record(eq=False)
-class LaunchEntry:
+class LaunchEntry(Record, eq=False):
     """A launch file that no other one of the package starts, with what it starts."""
 
     file: str
     graph: LaunchGraph
 
 
-@record(eq=False)
-class LaunchEntries:
+class LaunchEntries(Record, eq=False):
     """What a package can be started with.
 
     Attributes:

@@ -7,7 +7,9 @@ from collections import ChainMap
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from checker.base.record import record
+import msgspec
+
+from checker.base.record import Record
 from checker.expand.launch.graph import Remap, resolve_name
 from checker.source.text import Located, Span
 from checker.source.xml import XmlDocument
@@ -16,8 +18,7 @@ HERE = "./"
 Chain = tuple[tuple[str, frozenset[tuple[str, str]]], ...]
 
 
-@record(eq=False)
-class LaunchFile:
+class LaunchFile(Record, eq=False):
     """One file being expanded.
 
     Attributes:
@@ -34,7 +35,7 @@ class LaunchFile:
     included_at: Span | None
     overrides_constants: bool
     chain: Chain
-    declared: dict[str, Located[str]] = field(default_factory=dict)
+    declared: dict[str, Located[str]] = msgspec.field(default_factory=dict)
 
     @property
     def name(self) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.expression import ExpressionFault, Unknown, evaluate
 from checker.expand.launch.graph import LaunchFaultKind
 
@@ -18,8 +18,7 @@ _MACHINE = {"find", "env", "optenv", "anon"}
 _EVAL = "$(eval "
 
 
-@record()
-class SubstitutionFault:
+class SubstitutionFault(Record):
     """What is wrong with `text[start:end]`."""
 
     kind: LaunchFaultKind
@@ -28,8 +27,7 @@ class SubstitutionFault:
     message: str
 
 
-@record()
-class Substituted:
+class Substituted(Record):
     """A text with its substitutions made, and the faults met."""
 
     text: str

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import field
 from functools import cached_property
 from itertools import accumulate
 
-from checker.base.record import record
 from checker.expand.spawner.traced import NO_PARAMETERS, Piece, TracedString
 from checker.finding import Place
 from checker.source.text import SourceText, Span
 
 
-@record(eq=False)
-class EmittedText(SourceText):
+class EmittedText(SourceText, dict=True, kw_only=True):
     """A source whose places lie in the Ruby files that made it.
 
     Offsets, lines (`line`, `position`) count in the emitted text; `place` and hence every span
@@ -25,8 +22,8 @@ class EmittedText(SourceText):
         pieces: The text in pieces, each with its origin.
     """
 
-    origin: Span = field(repr=False)
-    pieces: tuple[Piece, ...] = field(repr=False)
+    origin: Span
+    pieces: tuple[Piece, ...]
 
     @classmethod
     def of(cls, traced: TracedString, origin: Span) -> EmittedText:

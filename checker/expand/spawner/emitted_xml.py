@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from checker.base.disk_file import NotReadable
 from checker.base.errors import NotAtHand
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.spawner.emitted import EmittedText
 from checker.expand.spawner.signals import Unread
 from checker.package.inheritance import SPAWNER
@@ -20,8 +20,7 @@ from checker.source.xml_fragments import parse_fragments, unwrapped
 from checker.source.xml_positions import XmlFault
 
 
-@record()
-class WorkspaceFiles:
+class WorkspaceFiles(Record):
     """Gives the spawner reader the texts of a package and of its siblings."""
 
     package: Package
@@ -52,8 +51,7 @@ class WorkspaceFiles:
         return found.root.name if found is not None else None
 
 
-@record(eq=False)
-class EmittedXml:
+class EmittedXml(Record, eq=False):
     """What a function of the spawner emits, as XML.
 
     Attributes:
@@ -75,8 +73,7 @@ class EmittedXml:
         return [Span(span.source, span.start + w.start(), span.start + w.end()) for w in words]
 
 
-@record(eq=False)
-class SpawnedXml(EmittedXml):
+class SpawnedXml(EmittedXml, dict=True):
     """What `spawner` emits: the robot and the plugins that it gets."""
 
     @cached_property
@@ -96,8 +93,7 @@ class SpawnedXml(EmittedXml):
         return self.document.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
 
 
-@record(eq=False)
-class StartedXml(EmittedXml):
+class StartedXml(EmittedXml, dict=True):
     """What `rosExecutables` emits: the commands that start the robot's ROS nodes."""
 
     @cached_property

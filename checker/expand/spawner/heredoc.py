@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.ruby import RubyNode
 
 Range = tuple[int, int]
@@ -14,8 +14,7 @@ _TAB = 8
 """Ruby counts a tab up to the next multiple of 8 columns."""
 
 
-@record(eq=False)
-class HeredocBody:
+class HeredocBody(Record, eq=False):
     """The body of a heredoc.
 
     Attributes:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.spawner.emitted import EmittedText
 from checker.expand.spawner.evaluator.calls import entry_call
 from checker.expand.spawner.evaluator.interpreter import Interpreter
@@ -44,8 +44,7 @@ EXECUTABLES_ARGUMENTS: tuple[Argument, ...] = (SAMPLE_NAME, SAMPLE_WORLD)
 """`_name _worldName`."""
 
 
-@record(eq=False)
-class Spawner:
+class Spawner(Record, eq=False):
     """A `launch/spawner.rb`.
 
     Attributes:
@@ -65,7 +64,7 @@ class Spawner:
     sources: tuple[SourceText, ...]
     unread: tuple[Unread, ...]
     syntax_faults: tuple[SyntaxFault, ...]
-    _program: _Program = field(repr=False)
+    _program: _Program
 
     @property
     def trees(self) -> tuple[RubyNode, ...]:

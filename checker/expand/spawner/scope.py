@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.spawner.values import Block, Value
 from checker.source.ruby import RubyNode
 from checker.source.text import Span
 
 
-@record(eq=False)
-class Parameter:
+class Parameter(Record, eq=False):
     """A parameter of a Ruby function.
 
     Attributes:
@@ -27,8 +26,7 @@ class Parameter:
     span: Span
 
 
-@record(eq=False)
-class Function:
+class Function(Record, eq=False):
     """A function that a spawner defines.
 
     Attributes:
@@ -42,7 +40,7 @@ class Function:
     name: str
     parameters: tuple[Parameter, ...]
     span: Span
-    node: RubyNode = field(repr=False)
+    node: RubyNode
     path: str = ""
 
     @property

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Span
 
 if TYPE_CHECKING:
     from checker.expand.spawner.values import Block, Value
 
 
-@record(eq=False)
-class Unread:
+class Unread(Record, eq=False):
     """A construct that cannot be read without running Ruby, or that is not at hand.
 
     Attributes:

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from functools import cached_property
 
-from checker.base.record import record
+from msgspec.structs import replace
+
+from checker.base.record import Record
 from checker.source.text import Span
 
 NO_PARAMETERS: frozenset[str] = frozenset()
 
 
-@record(slots=True)
-class Piece:
+class Piece(Record):
     r"""A stretch of text with one origin.
 
     Attributes:
@@ -66,8 +66,7 @@ def _holds(outer: Span, inner: Span) -> bool:
     return outer.source is inner.source and outer.start <= inner.start and inner.end <= outer.end
 
 
-@record(eq=False)
-class TracedString:
+class TracedString(Record, eq=False, dict=True):
     """Text made of pieces; it never changes."""
 
     pieces: tuple[Piece, ...] = ()

@@ -9,7 +9,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.spawner.limits import CHARACTERS_PER_STEP, Budget
 from checker.expand.spawner.traced import NO_PARAMETERS, TracedString
 from checker.source.ruby import RubyNode
@@ -31,8 +31,7 @@ class RubyString:
         return self.content.text
 
 
-@record(slots=True)
-class Symbol:
+class Symbol(Record):
     """`:name`."""
 
     name: str
@@ -55,8 +54,7 @@ class RubyHash:
     frozen: bool = False
 
 
-@record(slots=True)
-class RubyRange:
+class RubyRange(Record):
     """`first..last`, or `first...last` without its last number."""
 
     first: int
@@ -74,23 +72,20 @@ class RubyRange:
         return max(0, self.numbers.stop - self.first)
 
 
-@record(slots=True)
-class Constant:
+class Constant(Record):
     """A class or module of Ruby: `File`, `Math`, `StandardError`."""
 
     name: str
 
 
-@record(slots=True)
-class ErrorValue:
+class ErrorValue(Record):
     """What `rescue => error` gives."""
 
     kind: str
     message: str
 
 
-@record(eq=False, slots=True)
-class Block:
+class Block(Record, eq=False):
     """`{ |x| … }` with the variables around it, or `&:method`."""
 
     node: RubyNode
@@ -113,8 +108,7 @@ Data: TypeAlias = (
 )
 
 
-@record(eq=False, slots=True)
-class Value:
+class Value(Record, eq=False):
     """A value, and the parameters and globals that influenced which one it is.
 
     A string's pieces carry their own parameters besides.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import field
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.expand.xacro.description_loads import Load
 from checker.expand.xacro.paths import local_path
 from checker.package.kind import PackageKind
@@ -20,8 +21,7 @@ FOLDER_BESIDE_SDF = "urdf/"
 CANDIDATES_LIMIT = 50
 
 
-@record()
-class Candidate:
+class Candidate(Record):
     """A file that ought to hold a robot.
 
     Attributes:

@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.launch.substitution import is_known
 from checker.expand.xacro.paths import ROOT
@@ -18,8 +18,7 @@ _COMMAND_LIMIT = 4_000
 """Characters of a command that is read."""
 
 
-@record()
-class Load:
+class Load(Record):
     """A file that a launch file loads.
 
     Attributes:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
 from functools import cached_property
 from typing import Any
 
-from checker.base.record import record
 from checker.expand.spawner.emitted import EmittedText
 from checker.expand.spawner.traced import Piece
 from checker.expand.xacro.included_texts import Gathered
@@ -20,8 +18,7 @@ from checker.source.xml_positions import XmlFault
 _BLANKS = " \t\r\n"
 
 
-@record(eq=False)
-class ExpandedText(SourceText):
+class ExpandedText(SourceText, dict=True, kw_only=True):
     """What xacro made of a file: offsets and lines count in it, places lie in what was written.
 
     Attributes:
@@ -31,10 +28,10 @@ class ExpandedText(SourceText):
         written: The file that was expanded.
     """
 
-    plain: XmlDocument = field(repr=False)
-    answer: Mapping[str, Any] = field(repr=False)
-    gathered: Gathered = field(repr=False)
-    written: SourceText = field(repr=False)
+    plain: XmlDocument
+    answer: Mapping[str, Any]
+    gathered: Gathered
+    written: SourceText
 
     @cached_property
     def _emitted(self) -> EmittedText:

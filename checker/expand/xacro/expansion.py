@@ -10,7 +10,7 @@ from checker.base.background import Background, Work, work_key
 from checker.base.cache import Cache, key_of
 from checker.base.child_process import Limits
 from checker.base.errors import WorkerFailed
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.xacro.expanded import expanded_document
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.expand.xacro.included_texts import Gathered
@@ -62,8 +62,7 @@ _ROUNDS = 6
 """How often the child may ask for a file whose name is computed."""
 
 
-@record()
-class Wanted:
+class Wanted(Record):
     """A file to expand.
 
     Attributes:
@@ -75,8 +74,7 @@ class Wanted:
     args: Mapping[str, str]
 
 
-@record()
-class Unread:
+class Unread(Record):
     """A file that could not be expanded for no fault of its own; the reason ends a sentence."""
 
     reason: str

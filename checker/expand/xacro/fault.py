@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Span
 
 
@@ -24,8 +24,7 @@ class XacroFaultKind(enum.StrEnum):
     LIMIT = "limit"
 
 
-@record(eq=False)
-class XacroFault:
+class XacroFault(Record, eq=False):
     """Why and where a file does not expand.
 
     Attributes:

@@ -9,7 +9,7 @@ import posixpath
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Edit
 from checker.fix.flattening import frames, poses
 from checker.fix.flattening.draft import Draft
@@ -70,8 +70,7 @@ _FRAMES_TOO = (1, 7)
 """SDF version from which on poses can name the frame that they are written in."""
 
 
-@record()
-class Flattening:
+class Flattening(Record, dict=True):
     """A robot, and what its parts are to be called; `obstacle` must find nothing in the way."""
 
     robot: Robot

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.fix.flattening.draft import Draft
 from checker.fix.flattening.names import FlatNames
 from checker.model.frames import MODEL_FRAME
@@ -24,8 +24,7 @@ _NAMED = ("parent", "child", "gearbox_reference_body", "gripper_link", "palm_lin
 """Elements whose text names a part."""
 
 
-@record()
-class Holder:
+class Holder(Record):
     """A model whose parts are being moved.
 
     Attributes:

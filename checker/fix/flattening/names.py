@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Frame, Joint, Link, Model
 from checker.model.frames import MODEL_FRAME
 from checker.model.robot import Robot
@@ -14,8 +14,7 @@ SEPARATOR = "__"
 _SCOPE = "::"
 
 
-@record()
-class FlatNames:
+class FlatNames(Record):
     """New names by scoped names; what stands in the outermost model keeps its own."""
 
     changed: Mapping[str, str]

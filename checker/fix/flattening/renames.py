@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Edit
 from checker.fix.flattening.draft import Draft
 from checker.fix.flattening.holder import Holder
@@ -15,8 +15,7 @@ from checker.model.robot import Robot
 _PARTS = ("link", "joint", "frame", "gripper")
 
 
-@record()
-class Renaming:
+class Renaming(Record):
     """A robot and the new names of its parts."""
 
     robot: Robot

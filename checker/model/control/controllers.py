@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.graph import resolve_name
 from checker.model.components import Joint, Plugin
 from checker.model.control.nodes import Spawned, SpawnedModel, StateListener
@@ -17,8 +17,7 @@ STATE_CONTROLLER = "JointStateController"
 _PREFIX = "hardware_interface/"
 
 
-@record(eq=False)
-class Gain:
+class Gain(Record, eq=False):
     """A gain of a PID loop.
 
     Attributes:
@@ -31,8 +30,7 @@ class Gain:
     span: Span
 
 
-@record(eq=False)
-class Controller:
+class Controller(Record, eq=False):
     """A controller that a YAML text configures.
 
     Attributes:
@@ -69,8 +67,7 @@ class Controller:
         return self.type.value.partition("/")[2] if self.type else ""
 
 
-@record(eq=False)
-class ControlPlugin:
+class ControlPlugin(Record, eq=False):
     """The plugin `gazebo_ros_control`.
 
     Attributes:
@@ -88,8 +85,7 @@ class ControlPlugin:
         return self.plugin.span
 
 
-@record(eq=False)
-class SimulatorGains:
+class SimulatorGains(Record, eq=False):
     """Gains that `gazebo_ros_control` uses itself, by `pid_gains` in its namespace."""
 
     joint: str
@@ -97,8 +93,7 @@ class SimulatorGains:
     span: Span
 
 
-@record(eq=False)
-class ParameterFault:
+class ParameterFault(Record, eq=False):
     """A file that a launch file names, and that is not there or cannot be read.
 
     Attributes:
@@ -112,8 +107,7 @@ class ParameterFault:
     hides: bool = False
 
 
-@record(eq=False)
-class ControlLaunch:
+class ControlLaunch(Record, eq=False):
     """What one launch file, with all that it includes, does for control.
 
     Attributes:
@@ -135,8 +129,7 @@ class ControlLaunch:
     missing: tuple[ParameterFault, ...] = ()
 
 
-@record(eq=False)
-class ControlSystem:
+class ControlSystem(Record, eq=False, dict=True):
     """What controls the joints of a URDF package.
 
     Attributes:

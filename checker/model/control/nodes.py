@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.graph import Node, resolve_name
 from checker.expand.launch.substitution import is_known
 from checker.source.text import Located, Span
@@ -32,8 +32,7 @@ _SPAWN_MODEL: Mapping[str, int] = MappingProxyType(
 """Options of gazebo_ros's spawn_model, each with the number of words behind it."""
 
 
-@record(eq=False)
-class Spawned:
+class Spawned(Record, eq=False):
     """A controller that a spawner node of a launch file is told to start.
 
     Attributes:
@@ -54,8 +53,7 @@ class Spawned:
         return resolve_name(self.name, self.namespace)
 
 
-@record(eq=False)
-class StateListener:
+class StateListener(Record, eq=False):
     """A node that turns joint states into transforms.
 
     Attributes:
@@ -69,8 +67,7 @@ class StateListener:
     span: Span
 
 
-@record(eq=False)
-class SpawnedModel:
+class SpawnedModel(Record, eq=False):
     """A model that gazebo_ros's `spawn_model` puts into Gazebo.
 
     Attributes:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.devices.form import expression
 from checker.source.text import Located
@@ -23,8 +23,7 @@ _WORDS = {
 """Words for devices by their kind."""
 
 
-@record(eq=False)
-class Device:
+class Device(Record, eq=False):
     """A device, as `devices.json` or the user's settings describe it.
 
     Attributes:
@@ -64,8 +63,7 @@ class Device:
         return self.source_of(field).startswith("general knowledge")
 
 
-@record(eq=False)
-class SensorDevice:
+class SensorDevice(Record, eq=False):
     """A sensor and the device that it stands for.
 
     Attributes:
@@ -88,8 +86,7 @@ class SensorDevice:
         return self.device.model in text
 
 
-@record(eq=False)
-class SensorDevices:
+class SensorDevices(Record, eq=False, dict=True):
     """The devices that a robot's sensors stand for, as far as sheet and names tell.
 
     Attributes:

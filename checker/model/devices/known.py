@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 from checker.model.devices.devices import Device
 from checker.model.devices.form import expression
@@ -17,8 +17,7 @@ TEXT_LIMIT = 500
 _JOINTS = re.compile(r"[_/:.]+")
 
 
-@record(eq=False)
-class KnownDevices:
+class KnownDevices(Record, eq=False):
     """Devices of which figures are known.
 
     Attributes:

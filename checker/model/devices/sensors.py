@@ -12,7 +12,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence, Set
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.devices.known import KnownDevices
@@ -78,8 +78,7 @@ _WORDS = {
 """Words for where a sensor is or looks, and what they have in common."""
 
 
-@record(eq=False)
-class _Item:
+class _Item(Record, eq=False):
     """What one item of the sheet says of one kind of sensors."""
 
     listed: ListedSensor
@@ -89,8 +88,7 @@ class _Item:
     places: frozenset[str]
 
 
-@record(eq=False)
-class _Named:
+class _Named(Record, eq=False):
     """What the model itself says of a sensor."""
 
     sensor: Sensor

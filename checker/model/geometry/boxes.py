@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.geometry.convex import own_extent
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
@@ -14,8 +14,7 @@ from checker.model.mesh import Meshes, NoMeshes
 _NO_MESHES = NoMeshes()
 
 
-@record()
-class Box:
+class Box(Record):
     """A box along the axes of a frame.
 
     Attributes:

@@ -8,7 +8,7 @@ from functools import partial
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.geometry.boxes import close_pairs
 from checker.model.geometry.convex import face_directions, overlap_depth
 from checker.model.geometry.placed_shapes import Placed, placed
@@ -24,8 +24,7 @@ DEEP_PAIRS = 60
 """After so many findings no more are looked for: each takes some ms."""
 
 
-@record(eq=False)
-class Inside:
+class Inside(Record, eq=False):
     """Two collisions of different parts.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.transform import Transform, Vector
@@ -14,8 +14,7 @@ if TYPE_CHECKING:
     from checker.model.robot import Robot
 
 
-@record(eq=False)
-class Placed:
+class Placed(Record, eq=False):
     """A shape of a link in the robot's frame.
 
     Attributes:

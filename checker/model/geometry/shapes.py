@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@record(eq=False)
-class Geometry:
+class Geometry(Record, eq=False):
     """The shape of a collision or visual.
 
     Attributes:
@@ -30,8 +29,7 @@ class Geometry:
         return self.element.span
 
 
-@record(eq=False)
-class Material:
+class Material(Record, eq=False):
     """Colours and textures.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 
 Vector = tuple[float, float, float]
 Rotation = tuple[Vector, Vector, Vector]
@@ -42,8 +42,7 @@ def rotation_from_quaternion(w: float, x: float, y: float, z: float) -> Rotation
     )
 
 
-@record()
-class Transform:
+class Transform(Record, dict=True):
     """The pose of a frame B in a frame A: p_A = rotation · p_B + translation.
 
     Attributes:

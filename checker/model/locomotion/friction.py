@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Collision, Link, Plugin
 from checker.model.robot import Robot
 from checker.model.urdf.extensions import extension_number
@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 # What WheelSlip plugins say about the wheels of a robot.
 
 
-@record(eq=False)
-class SlippingWheel:
+class SlippingWheel(Record, eq=False):
     """One `<wheel>` of a WheelSlip plugin.
 
     Attributes:
@@ -59,8 +58,7 @@ def slipping_wheels(robot: Robot) -> Iterator[SlippingWheel]:
             )
 
 
-@record(eq=False)
-class Friction:
+class Friction(Record, eq=False):
     """Coefficients of sliding friction; None where they are left to the physics engine.
 
     Attributes:

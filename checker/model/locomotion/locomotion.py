@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Joint, Link, Plugin
 from checker.model.geometry.transform import Vector
 from checker.source.text import Located, Span
@@ -31,8 +30,7 @@ class Side(enum.StrEnum):
     RIGHT = "right"
 
 
-@record(eq=False)
-class MotionLimits:
+class MotionLimits(Record, eq=False):
     """Limits of one kind of motion of a plugin; None where it states none.
 
     Velocities in m/s or rad/s, accelerations in m/s² or rad/s². A multicopter's limits are the
@@ -60,8 +58,7 @@ class MotionLimits:
         return None not in four
 
 
-@record(eq=False)
-class Wheel:
+class Wheel(Record, eq=False):
     """A wheel that a plugin turns.
 
     Attributes:
@@ -90,8 +87,7 @@ class Wheel:
     steering: Joint | None = None
 
 
-@record(eq=False)
-class WheelDrive:
+class WheelDrive(Record, eq=False):
     """One DiffDrive, AckermannSteering or MecanumDrive plugin.
 
     Attributes:
@@ -121,8 +117,7 @@ class WheelDrive:
         return tuple(wheel for wheel in self.wheels if wheel.side is side)
 
 
-@record(eq=False)
-class Track:
+class Track(Record, eq=False):
     """A link whose surface a TrackController moves.
 
     Attributes:
@@ -136,8 +131,7 @@ class Track:
     limits: MotionLimits
 
 
-@record(eq=False)
-class TrackedDrive:
+class TrackedDrive(Record, eq=False):
     """One TrackedVehicle plugin.
 
     Attributes:
@@ -154,8 +148,7 @@ class TrackedDrive:
     angular: MotionLimits
 
 
-@record(eq=False)
-class Rotor:
+class Rotor(Record, eq=False):
     """A rotor of a multicopter: one MulticopterMotorModel.
 
     Attributes:
@@ -185,8 +178,7 @@ class Rotor:
     axis: Vector | None
 
 
-@record(eq=False)
-class RotorEntry:
+class RotorEntry(Record, eq=False):
     """One `<rotor>` of the controller's `<rotorConfiguration>`.
 
     Attributes:
@@ -204,8 +196,7 @@ class RotorEntry:
     span: Span
 
 
-@record(eq=False)
-class CopterControl:
+class CopterControl(Record, eq=False):
     """One MulticopterVelocityControl plugin.
 
     Attributes:
@@ -219,8 +210,7 @@ class CopterControl:
     angular: tuple[MotionLimits, ...]
 
 
-@record(eq=False)
-class Locomotion:
+class Locomotion(Record, eq=False):
     """All that moves a robot."""
 
     kind: DriveKind
@@ -229,7 +219,7 @@ class Locomotion:
     tracks: tuple[Track, ...] = ()
     rotors: tuple[Rotor, ...] = ()
     copters: tuple[CopterControl, ...] = ()
-    leg_joints: tuple[Joint, ...] = field(default=())
+    leg_joints: tuple[Joint, ...] = ()
 
     @property
     def wheels(self) -> tuple[Wheel, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import UNLIMITED, Plugin
 from checker.model.locomotion.locomotion import (
     Locomotion,
@@ -19,8 +19,7 @@ Kind = Literal["linear", "angular"]
 Ends = tuple[Located[float] | None, Located[float] | None]
 
 
-@record(eq=False)
-class BoundedMotion:
+class BoundedMotion(Record, eq=False):
     """One motion of a robot and its limits.
 
     Attributes:

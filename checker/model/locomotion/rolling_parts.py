@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Link
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import placed, union
@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 _TURNING = ("continuous", "revolute")
 
 
-@record(eq=False)
-class RollingPart:
+class RollingPart(Record, eq=False):
     """A wheel or a track.
 
     Attributes:

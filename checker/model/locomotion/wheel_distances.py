@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Plugin
 from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, TrackedDrive, WheelDrive
@@ -20,8 +20,7 @@ _FORWARD: Vector = (1.0, 0.0, 0.0)
 _LEFT: Vector = (0.0, 1.0, 0.0)
 
 
-@record(eq=False)
-class CountedDistance:
+class CountedDistance(Record, eq=False):
     """A distance that a plugin counts on.
 
     Attributes:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from msgspec.structs import replace
+
+from checker.base.record import Record
 from checker.model.geometry.transform import Vector
 from checker.model.locomotion.rolling_parts import RollingPart, rolling_parts
 from checker.model.locomotion.wheels import stands_askew
@@ -21,8 +22,7 @@ _FARTHEST = 1e6
 """Metres; numbers beyond are no places."""
 
 
-@record(eq=False)
-class Foot:
+class Foot(Record, eq=False):
     """The lowest point of a wheel or track.
 
     Attributes:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Joint, Link, Plugin
 from checker.model.geometry.placed_shapes import Placed, placed
 from checker.model.geometry.shapes import Geometry
@@ -186,8 +186,7 @@ class WheelReader:
         return reach if abs(reach) < _FARTHEST else None
 
 
-@record(eq=False)
-class _Measured:
+class _Measured(Record, eq=False):
     body: tuple[Link, ...]
     centre: Vector | None
     axis: Vector | None

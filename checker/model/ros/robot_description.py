@@ -6,7 +6,7 @@ import posixpath
 import re
 from collections.abc import Iterator, Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.graph import LaunchGraph, Param
 from checker.expand.launch.launch_file import target_of
 from checker.source.text import Span
@@ -18,8 +18,7 @@ _COMPUTED = re.compile(r"\$\([^()]*\)/?|\$\{[^{}]*\}/")
 """What a name may begin with: `$(arg prefix)`, `${name}/`; `${side}_wheel` is worked out whole."""
 
 
-@record()
-class DescriptionFile:
+class DescriptionFile(Record):
     """A file that the command names.
 
     Attributes:
@@ -31,8 +30,7 @@ class DescriptionFile:
     path: str
 
 
-@record(eq=False)
-class RobotDescription:
+class RobotDescription(Record, eq=False):
     """A parameter that holds the robot's description.
 
     Attributes:

@@ -12,7 +12,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 from checker.expand.launch.bridge import Bridge, Direction
 from checker.model.components import Plugin, Sensor
@@ -30,8 +30,7 @@ class Need(enum.StrEnum):
     OPTIONAL = "optional"
 
 
-@record(eq=False)
-class Channel:
+class Channel(Record, eq=False):
     """A topic of a sensor or plugin.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.launch.bridge import Bridge
 from checker.expand.launch.graph import LaunchGraph, Node, resolve_name
 
@@ -21,8 +21,7 @@ IMAGES = ("input/image", "output/image")
 INFOS = ("input/camera_info", "output/camera_info")
 
 
-@record(eq=False)
-class OpticalFrame:
+class OpticalFrame(Record, eq=False):
     """One optical_frame_publisher.
 
     Attributes:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.sdf.schema import ElementType, walk
 from checker.source.xml import Element, XmlDocument
 
@@ -30,8 +30,7 @@ def parse_version(text: str) -> tuple[int, int] | None:
     return (int(match[1]), int(match[2])) if match else None
 
 
-@record(eq=False)
-class SdfDocument:
+class SdfDocument(Record, eq=False, dict=True):
     """A well-formed SDF file.
 
     Attributes:

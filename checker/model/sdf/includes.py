@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.sdf.document import parse_version
 from checker.package.manifests import SdfEntry, read_model_config
 from checker.package.package import Package
@@ -12,8 +12,7 @@ from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
 
-@record()
-class ModelIncludes:
+class ModelIncludes(Record):
     """Finds the model file behind the URI of an `<include>`: an `IncludeReader`."""
 
     package: Package

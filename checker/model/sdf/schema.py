@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from functools import cache, cached_property
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 from checker.source.xml import Element
 
@@ -19,8 +19,7 @@ NO_DEFAULT = "__default__"
 VERSIONS = ("1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12")
 
 
-@record()
-class ElementType:
+class ElementType(Record, dict=True):
     """What the specification says of one element at one place.
 
     Attributes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Pose
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
@@ -15,8 +15,7 @@ from checker.source.xml import Element
 _ZEROS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-@record()
-class Scope:
+class Scope(Record):
     """A model whose inside is being read.
 
     Attributes:

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.values import ValueReader, numbers_of_words
 from checker.source.text import Located, Span
 
@@ -22,8 +22,7 @@ _MOST = 3
 """Words of one value that are reported: a value may be as long as a file."""
 
 
-@record()
-class Misread:
+class Misread(Record):
     """A text that does not read as its type.
 
     Attributes:

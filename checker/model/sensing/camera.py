@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@record()
-class Pinhole:
+class Pinhole(Record):
     """How a pinhole camera projects: focal lengths and principal point, pixels."""
 
     fx: float
@@ -34,8 +33,7 @@ DEFAULT_PINHOLE = Pinhole(277.0, 277.0, 160.0, 120.0)
 """SDFormat's own: right for 320 × 240 pixels and a horizontal field of view of 60°."""
 
 
-@record(eq=False)
-class Intrinsics:
+class Intrinsics(Record, eq=False):
     """A `<lens><intrinsics>`: focal lengths, principal point and skew, pixels."""
 
     fx: Located[float]
@@ -56,8 +54,7 @@ class Intrinsics:
         return any(math.isfinite(c.value) and 2.0 * c.value % 1.0 for c in (self.cx, self.cy))
 
 
-@record(eq=False)
-class Clip:
+class Clip(Record, eq=False):
     """Metres from which, and up to which, a camera sees; `span` is the start tag."""
 
     near: Located[float]
@@ -65,8 +62,7 @@ class Clip:
     span: Span
 
 
-@record(eq=False)
-class Camera:
+class Camera(Record, eq=False):
     """A `<camera>`.
 
     Attributes:

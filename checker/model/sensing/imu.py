@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
 from checker.source.text import Located, Span
@@ -13,8 +13,7 @@ from checker.source.xml import Element
 QUANTITIES = ("angular_velocity", "linear_acceleration")
 
 
-@record(eq=False)
-class Imu:
+class Imu(Record, eq=False):
     """An `<imu>`.
 
     Attributes:

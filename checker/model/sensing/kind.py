@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 from functools import cache
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import table
 
 # Which types of sensors a release of Gazebo knows, and which of them it simulates.
@@ -15,8 +15,7 @@ _ELSEWHERE = frozenset({"lidar", "custom"})
 """Left out of the lost ones: a lidar of the CPU has its twin on the GPU, custom ones a plugin."""
 
 
-@record()
-class SensorTypes:
+class SensorTypes(Record):
     """Types of sensors as they are written.
 
     Attributes:

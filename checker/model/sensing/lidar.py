@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.sensing.noise import Noise, read_noise
 from checker.model.values import ValueReader
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@record(eq=False)
-class Scan:
+class Scan(Record, eq=False):
     """Rays of one direction, horizontal or vertical.
 
     Attributes:
@@ -38,8 +37,7 @@ class Scan:
         return (self.lower.value + self.upper.value) / 2.0
 
 
-@record(eq=False)
-class Lidar:
+class Lidar(Record, eq=False):
     """A `<lidar>` or `<ray>`.
 
     Attributes:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.geometry.transform import Transform, Vector
 
 if TYPE_CHECKING:
@@ -16,8 +16,7 @@ if TYPE_CHECKING:
     from checker.model.robot import Robot
 
 
-@record(eq=False)
-class Mounted:
+class Mounted(Record, eq=False):
     """A sensor in the robot's frame, with all joints where they start.
 
     Attributes:
@@ -99,8 +98,7 @@ _LONGEST = 200
 """Characters of a name that are looked at."""
 
 
-@record()
-class CalledDirections:
+class CalledDirections(Record):
     """What a name says about where a sensor looks.
 
     Attributes:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.values import ValueReader
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
 
-@record(eq=False)
-class Noise:
+class Noise(Record, eq=False):
     """A `<noise>`; all figures in the unit of what it is added to.
 
     Attributes:

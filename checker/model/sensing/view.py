@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Link, Visual
 from checker.model.robot import Robot
 from checker.model.sensing.mounting import Mounted
 
 
-@record(eq=False)
-class View:
+class View(Record, eq=False):
     """What a camera or lidar sees of the robot that carries it, with all joints where they start.
 
     Simulators draw the outer side of a surface only, and only beyond the near clip: a sensor inside
@@ -36,8 +35,7 @@ class View:
         return sum(share for share, metres in self.filled if metres < distance)
 
 
-@record(eq=False)
-class SensorViews:
+class SensorViews(Record, eq=False):
     """A robot and the views of its cameras and lidars.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.markdown import Markdown
 from checker.source.text import Span
 
@@ -27,8 +27,7 @@ _STRUCK = re.compile(
 )
 
 
-@record(eq=False)
-class Leftover:
+class Leftover(Record, eq=False):
     """Something that was to be replaced or removed.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.source.markdown import Passage
 from checker.source.text import Located, Span
 
@@ -18,8 +18,7 @@ CLAIM_LENGTH = 300
 _RANGE = re.compile(r"(\d+)(?:\s*(?:-|–|to)\s*(\d+))?", re.IGNORECASE)
 
 
-@record(eq=False)
-class LineReference:
+class LineReference(Record, eq=False):
     """A claim about lines of a file.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.specification.quantities import (
     NUMBER,
     Quantity,
@@ -44,8 +44,7 @@ _ITEM = re.compile(
 _CELL = re.compile(r"\s*+\|.{0,300}\|\s*+(?:~|about)?\s*+$", re.IGNORECASE)
 
 
-@record(eq=False)
-class Price:
+class Price(Record, eq=False):
     """A price.
 
     Attributes:

@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.specification.quantities import (
     NUMBER,
     Quantity,
@@ -37,8 +37,7 @@ class MotionQuantity(enum.Enum):
         return self.name.endswith("ACCELERATION")
 
 
-@record(eq=False)
-class Limit:
+class Limit(Record, eq=False):
     """A motion limit of the sheet.
 
     Attributes:

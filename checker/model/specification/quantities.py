@@ -5,9 +5,10 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 
-from checker.base.record import record
+from msgspec.structs import replace
+
+from checker.base.record import Record
 from checker.source.markdown import Passage
 from checker.source.text import Span
 
@@ -37,8 +38,7 @@ class QuantityKind(enum.Enum):
     TURNING_RADIUS = "turning radius, m"
 
 
-@record(eq=False)
-class Quantity:
+class Quantity(Record, eq=False):
     """A number of the sheet.
 
     Attributes:
@@ -60,8 +60,7 @@ class Quantity:
     span: Span
 
 
-@record()
-class Sentence:
+class Sentence(Record):
     """A sentence of a passage: `text` stands at `start` of the passage's text."""
 
     passage: Passage

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.specification.quantities import WORDS, configurations_in, number_of
 from checker.model.specification.sensor_kinds import SensorKind, kinds_in
 from checker.source.markdown import Passage, PassageKind
@@ -30,8 +30,7 @@ _BREADCRUMBS = re.compile(rf"\b{_NUMBER}\s+(?:communications?\s+)?breadcrumbs\b"
 _VAGUE = re.compile(r"\b(?:dual|stereo|quad|triple|pairs?|several|multiple|set|array|head)\b", re.I)
 
 
-@record(eq=False)
-class ListedSensor:
+class ListedSensor(Record, eq=False):
     """One kind of sensor of one item of the list.
 
     Attributes:

@@ -7,7 +7,7 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.specification.endurance import durations, endurance
 from checker.model.specification.line_references import LineReference, line_references
 from checker.model.specification.links import validation_links
@@ -27,8 +27,7 @@ from checker.source.text import SourceText, Span
 _OTHER_SHEET = re.compile(r"\]\(([^()\s#]{1,200}\.md)[)#]", re.IGNORECASE)
 
 
-@record(eq=False)
-class Section:
+class Section(Record, eq=False):
     """A heading and what stands below it.
 
     Attributes:
@@ -54,8 +53,7 @@ class Section:
         return all(passage.kind is PassageKind.HEADING for passage in self.passages)
 
 
-@record(eq=False)
-class Specification:
+class Specification(Record, eq=False, dict=True):
     """A specification sheet.
 
     Attributes:

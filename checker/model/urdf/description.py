@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.robot import Robot
 from checker.model.urdf.reader import read_urdf
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
 
-@record(eq=False)
-class TransmissionEnd:
+class TransmissionEnd(Record, eq=False):
     """A `<joint>` or `<actuator>` of a transmission.
 
     Attributes:
@@ -26,8 +25,7 @@ class TransmissionEnd:
     span: Span
 
 
-@record(eq=False)
-class Transmission:
+class Transmission(Record, eq=False):
     """A `<transmission>`."""
 
     name: Located[str]
@@ -42,8 +40,7 @@ class Transmission:
         return self.element.span
 
 
-@record(eq=False)
-class GazeboTag:
+class GazeboTag(Record, eq=False):
     """A `<gazebo>` tag; `reference` is empty for one that is meant for the whole robot."""
 
     reference: Located[str]
@@ -55,8 +52,7 @@ class GazeboTag:
         return self.element.span
 
 
-@record(eq=False)
-class UrdfDescription:
+class UrdfDescription(Record, eq=False, dict=True):
     """One URDF file, after xacro where it is one.
 
     Attributes:

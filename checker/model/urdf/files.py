@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.xacro.fault import XacroFault
 from checker.model.urdf.description import UrdfDescription
 
 
-@record(eq=False)
-class UrdfFiles:
+class UrdfFiles(Record, eq=False):
     """What became of the URDF files of a package.
 
     Attributes:

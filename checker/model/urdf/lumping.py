@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Joint, Link
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.extensions import extension_flag
@@ -13,8 +13,7 @@ _KEEPING = ("preserveFixedJoint", "disableFixedJointLumping")
 """Tags below `<gazebo reference="joint">` that keep a fixed joint, or the link below it."""
 
 
-@record(eq=False)
-class Lumping:
+class Lumping(Record, eq=False, dict=True):
     """The links of a description as Gazebo Classic merges them.
 
     Attributes:

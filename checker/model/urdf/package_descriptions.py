@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
+
+from msgspec.structs import replace
 
 from checker.base.cache import Cache
 from checker.base.disk_file import NotReadable

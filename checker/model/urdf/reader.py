@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from checker.model.components import Axis, Joint, Link, Plugin, Pose, Sensor
 from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from checker.base.errors import RefusedArchive
-from checker.base.record import record
+from checker.base.record import Record
 
 _DRIVE = re.compile(r"[A-Za-z]:")
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
@@ -16,8 +16,7 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
 _MAX_SHOWN = 80
 
 
-@record()
-class ArchiveLimits:
+class ArchiveLimits(Record):
     """What an archive may hold.
 
     Attributes:
@@ -53,8 +52,7 @@ def plain_path(name: str) -> str:
     return "/".join(part for part in name.split("/") if part not in ("", "."))
 
 
-@record(slots=True)
-class Member:
+class Member(Record):
     """An entry that passed: its path (normal, relative, with `/`) and size in bytes."""
 
     path: str

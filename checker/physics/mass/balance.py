@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise, product
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Collision, Link
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
@@ -159,8 +159,7 @@ are not drawn more precisely."""
 _DOWN: Vector = (0.0, 0.0, -1.0)
 
 
-@record()
-class Stand:
+class Stand(Record):
     """What a robot stands on.
 
     Attributes:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
 
 
-@record(eq=False)
-class Hanging:
+class Hanging(Record, eq=False):
     """The links of a robot, parents before children.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 import math
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Joint
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
@@ -37,8 +37,7 @@ AXES = {
 """How many axes the joints need that move, by their type."""
 
 
-@record()
-class Motion:
+class Motion(Record):
     """One way in which a joint moves.
 
     Attributes:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Joint, Link
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.source.text import Span
 
 
-@record(eq=False)
-class LinkInertia:
+class LinkInertia(Record, eq=False):
     """The inertia of one link.
 
     Attributes:
@@ -41,8 +40,7 @@ class LinkInertia:
         return (inertia or inertial or self.link.element).span
 
 
-@record(eq=False)
-class MassProperties:
+class MassProperties(Record, eq=False):
     """A robot in the pose that it starts in.
 
     Attributes:

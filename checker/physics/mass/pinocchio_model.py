@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Link
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
@@ -22,8 +22,7 @@ if TYPE_CHECKING:
     Matrix = NDArray[np.float64]
 
 
-@record()
-class Degree:
+class Degree(Record):
     """One degree of freedom.
 
     Attributes:
@@ -38,8 +37,7 @@ class Degree:
     free: bool = False
 
 
-@record(eq=False)
-class PinModel:
+class PinModel(Record, eq=False):
     """A robot in Pinocchio's words; its configuration `neutral` is the pose that it starts in.
 
     Each joint's frame stands at the joint, along the axes of its child link.

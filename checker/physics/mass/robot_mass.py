@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from msgspec import to_builtins
+
 from checker.base.cache import NO_CACHE, Cache, code_hash, key_of
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import version_of
 from checker.model.components import Link
 from checker.model.geometry.transform import Transform, Vector
@@ -40,8 +41,7 @@ _KIND = "weights"
 _LIBRARIES = ("numpy", "pin")
 
 
-@record()
-class Body:
+class Body(Record):
     """What is put on the scales.
 
     Attributes:
@@ -60,16 +60,14 @@ class Body:
         return [self.mass, self.moments, pose]
 
 
-@record()
-class Weight:
+class Weight(Record):
     """What the scales say of one body; see `LinkInertia`."""
 
     principal: Vector
     pseudo_eigenvalue: float
 
 
-@record()
-class Weights:
+class Weights(Record):
     """What they say of some bodies.
 
     Attributes:
@@ -92,7 +90,7 @@ def weights_of(bodies: Sequence[Body], cache: Cache) -> Weights:
     if known is not None:
         return known
     weights = _weighed(bodies)
-    cache.put(_KIND, key, asdict(weights))
+    cache.put(_KIND, key, to_builtins(weights))
     return weights
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.mesh import MeshTrouble
 from checker.physics.mesh.surface import GREY, Colour
 
@@ -18,8 +18,7 @@ MOST = 32
 """Looks of one file; the triangles of all others get that of the most frequent of them."""
 
 
-@record()
-class Material:
+class Material(Record):
     """What a material does to its triangles.
 
     Attributes:
@@ -31,8 +30,7 @@ class Material:
     picture: str = ""
 
 
-@record(eq=False)
-class Piece:
+class Piece(Record, eq=False):
     """Triangles of one material.
 
     Attributes:
@@ -47,8 +45,7 @@ class Piece:
     places: Array | None = None
 
 
-@record(eq=False)
-class MeshContent:
+class MeshContent(Record, eq=False):
     """What a file holds, before anything is measured.
 
     Attributes:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from msgspec.structs import replace
+
+from checker.base.record import Record
 from checker.model.geometry.transform import Vector
 from checker.model.mesh import Mesh
 from checker.physics.mesh.content import MeshContent, NoSurface
@@ -25,8 +26,7 @@ _PER_METRE = 1e8
 """Corners that are one when rounded to 10 nm, as in trimesh, are the same."""
 
 
-@record(eq=False)
-class Joined:
+class Joined(Record, eq=False):
     """Corners, and triangles that name them.
 
     Attributes:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Mapping
-from dataclasses import field, replace
 from functools import cached_property
 from itertools import islice
 from typing import Any
+
+from msgspec import field
+from msgspec.structs import replace
 
 from checker.base.background import Background
 from checker.base.cache import NO_CACHE, Cache
@@ -15,7 +17,7 @@ from checker.base.child_server import Server
 from checker.base.disk_file import NotReadable, read_bytes
 from checker.base.errors import WorkerFailed
 from checker.base.progress import Stages
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.package.package import Package
@@ -33,8 +35,7 @@ _Address = tuple[str, str]
 """Folder, and URI as written."""
 
 
-@record(eq=False)
-class PackageMeshes:
+class PackageMeshes(Record, eq=False, dict=True):
     """Gives the meshes of a robot: a `Meshes`. To read them is a stage of the check.
 
     Attributes:
@@ -45,11 +46,11 @@ class PackageMeshes:
         server: Reads them; None starts a process for them alone.
     """
 
-    package: Package = field(repr=False)
+    package: Package
     uris: tuple[Located[str], ...]
     cache: Cache = NO_CACHE
-    stages: Stages = field(default_factory=Stages, repr=False)
-    server: Server | None = field(default=None, repr=False)
+    stages: Stages = field(default_factory=Stages)
+    server: Server | None = None
 
     @property
     def read(self) -> bool:

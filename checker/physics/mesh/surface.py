@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import base64
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,8 +18,7 @@ Colour = tuple[float, float, float, float]
 GREY: Colour = (0.7, 0.7, 0.7, 1.0)
 
 
-@record(eq=False)
-class Surface:
+class Surface(Record, eq=False):
     """Triangles of one material.
 
     Attributes:
@@ -31,11 +29,11 @@ class Surface:
         normals: Unit vectors of smooth surfaces (n × 3, float32); None lets every triangle be flat.
     """
 
-    vertices: Array = field(repr=False)
-    faces: Array = field(repr=False)
+    vertices: Array
+    faces: Array
     colour: Colour = GREY
-    vertex_colours: Array | None = field(default=None, repr=False)
-    normals: Array | None = field(default=None, repr=False)
+    vertex_colours: Array | None = None
+    normals: Array | None = None
 
 
 Appearance = tuple[Surface, ...] | str

@@ -6,7 +6,7 @@ import posixpath
 import re
 from pathlib import Path
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.package.package import Package
 
@@ -14,8 +14,7 @@ _SCHEME = re.compile(r"(?:model|package)://([^/]+)/(.*)", re.DOTALL)
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
-@record()
-class MeshFile:
+class MeshFile(Record):
     """A file within the workspace.
 
     Attributes:

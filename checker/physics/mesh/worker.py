@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
 from functools import partial
 from importlib import import_module
 from time import monotonic
 from typing import Any
+
+from msgspec import to_builtins
 
 from checker.base.disk_file import NotReadable
 from checker.base.errors import WorkerFailed
@@ -67,7 +68,7 @@ def _failed(failed: WorkerFailed) -> bytes:
 
 def _as_json(read: Mesh | MeshFault) -> bytes:
     kind = "fault" if isinstance(read, MeshFault) else "mesh"
-    return json.dumps({kind: asdict(read)}).encode()
+    return json.dumps({kind: to_builtins(read)}).encode()
 
 
 def _views(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> list[bytes]:

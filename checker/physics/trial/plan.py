@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, field
 from typing import Any
 
-from checker.base.record import record
+from msgspec import field, to_builtins
+
+from checker.base.record import Record
 from checker.model.geometry.transform import Vector
 from checker.physics.trial.profile import Knots
 from checker.physics.trial.trial import Leg
 
 
-@record()
-class DrivenWheel:
+class DrivenWheel(Record):
     """A wheel that a servo turns.
 
     Attributes:
@@ -27,8 +27,7 @@ class DrivenWheel:
     radius: float
 
 
-@record()
-class Belt:
+class Belt(Record):
     """A link whose surface moves.
 
     Attributes:
@@ -42,8 +41,7 @@ class Belt:
     speed: Knots
 
 
-@record()
-class PlannedRotor:
+class PlannedRotor(Record):
     """A rotor.
 
     Attributes:
@@ -65,8 +63,7 @@ class PlannedRotor:
     moment: float
 
 
-@record()
-class Plan:
+class Plan(Record):
     """The commands of a trial.
 
     Attributes:
@@ -114,7 +111,7 @@ class Plan:
 
     def as_json(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return asdict(self)
+        return to_builtins(self)
 
     @classmethod
     def from_json(cls, said: Mapping[str, Any]) -> Plan:

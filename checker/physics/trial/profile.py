@@ -6,7 +6,7 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.locomotion.locomotion import MotionLimits
 from checker.source.text import Located
 
@@ -17,8 +17,7 @@ _FASTEST = 1e4
 """rad/s or m/s at most, of whatever turns or slides: beyond it, numbers overflow in a step."""
 
 
-@record()
-class Limits:
+class Limits(Record):
     """What a velocity limiter lets through, as gz-math's SpeedLimiter.
 
     Attributes:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Joint, Link, Part
 from checker.model.robot import Robot
 from checker.physics.trial.trial import Leg, Trial
 
 
-@record(eq=False)
-class RobotTrial:
+class RobotTrial(Record, eq=False, dict=True):
     """A robot that was driven, and what was measured."""
 
     robot: Robot
@@ -66,7 +65,6 @@ _CREEP = 0.05
 """Share of the command below which no direction can be told."""
 
 
-@record(eq=False)
 class RepeatedTrial(RobotTrial):
     """A robot that was driven twice.
 

@@ -12,7 +12,7 @@ from checker.base.cache import Cache
 from checker.base.child_process import Limits
 from checker.base.errors import NotAtHand, WorkerFailed
 from checker.base.progress import Stages
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.robot import Robot
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.physics.trial.trial import Trial
@@ -55,8 +55,7 @@ ROBOTS_LIMIT = 8
 """Of one file; a world with more of them is no submission, and each takes about a second."""
 
 
-@record(eq=False)
-class RobotTrials:
+class RobotTrials(Record, eq=False, dict=True):
     """The trials of some robots."""
 
     robots: tuple[Robot, ...]

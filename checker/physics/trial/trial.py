@@ -6,14 +6,15 @@ import sys
 from array import array
 from base64 import b64decode, b64encode
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, field, replace
 from typing import Any
 
-from checker.base.record import record
+from msgspec import field, to_builtins
+from msgspec.structs import replace
+
+from checker.base.record import Record
 
 
-@record()
-class Repair:
+class Repair(Record):
     """A change that was needed so that the trial could go on.
 
     Attributes:
@@ -27,8 +28,7 @@ class Repair:
     serious: bool = False
 
 
-@record()
-class Leg:
+class Leg(Record):
     """A stretch of the course.
 
     Attributes:
@@ -47,8 +47,7 @@ class Leg:
     angular: float = 0.0
 
 
-@record()
-class Measurement:
+class Measurement(Record):
     """One figure.
 
     Attributes:
@@ -64,8 +63,7 @@ class Measurement:
     other: str = ""
 
 
-@record()
-class Replay:
+class Replay(Record):
     """How the robot moved, to be looked at.
 
     Attributes:
@@ -121,8 +119,7 @@ POSE_NUMBERS = 7
 """Of a pose in a replay: x, y, z, and the quaternion w, x, y, z."""
 
 
-@record()
-class Trial:
+class Trial(Record):
     """The outcome of a trial.
 
     Attributes:
@@ -169,7 +166,7 @@ class Trial:
     def as_json(self) -> dict[str, Any]:
         """Return what JSON can express."""
         replay = self.replay.as_json() if self.replay is not None else None
-        return {**asdict(replace(self, replay=None)), "replay": replay}
+        return {**to_builtins(replace(self, replay=None)), "replay": replay}
 
     @classmethod
     def from_json(cls, said: Mapping[str, Any]) -> Trial:

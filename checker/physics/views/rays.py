@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from msgspec import to_builtins
+
+from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.sensing.camera import Camera
 from checker.model.sensing.lidar import Lidar, Scan
@@ -26,8 +27,7 @@ _LEAST_STEP = 1e-9
 _ENDLESS = 1e9
 
 
-@record()
-class Steps:
+class Steps(Record):
     """Angles in the middle of equal steps, radians."""
 
     lower: float
@@ -55,8 +55,7 @@ class Steps:
         return self.middle - (self.number - 1) / 2.0 * self.step
 
 
-@record()
-class Grid:
+class Grid(Record, dict=True):
     """Rays from a sensor, in its own frame: x ahead, y to the left, z up.
 
     Attributes:
@@ -75,7 +74,7 @@ class Grid:
 
     def as_json(self) -> dict[str, Any]:
         """Return what `grid_from_json` takes."""
-        return asdict(self)
+        return to_builtins(self)
 
     @cached_property
     def directions(self) -> NDArray[float64]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Link, Visual
 from checker.model.geometry.transform import Transform
 from checker.model.mesh import MeshFault
@@ -24,8 +24,7 @@ Content = Callable[[Located[str]], tuple[MeshFile, str] | MeshFault]
 """Finds the file behind a URI, and a hash of what is in it."""
 
 
-@record(eq=False)
-class Asked:
+class Asked(Record, eq=False):
     """A request, and what its numbers stand for.
 
     Attributes:
@@ -77,8 +76,7 @@ def asked_of(robot: Robot, content: Content) -> Asked:
     return Asked(request, contents, seen, tuple(visuals), tuple(dict.fromkeys(scene.unseen)))
 
 
-@record(eq=False)
-class _Scene:
+class _Scene(Record, eq=False):
     """The visuals of a request, as they are collected.
 
     Attributes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.finding import SNIPPET_LIMIT, Edit, Fix, Place, Severity
 from checker.report.report import ReportedFinding
@@ -20,8 +20,7 @@ _EDITS_SHOWN = 20
 _LINES_SHOWN = 20
 
 
-@record()
-class Frame:
+class Frame(Record):
     """A line of source in three parts; the middle one is what the finding is about."""
 
     line: int
@@ -30,8 +29,7 @@ class Frame:
     after: str
 
 
-@record()
-class Change:
+class Change(Record):
     """What one edit does, line by line."""
 
     file: str
@@ -89,8 +87,7 @@ _PLACES_SHOWN = 8
 _TEXT_LIMIT = 600
 
 
-@record()
-class Spot:
+class Spot(Record):
     """A place, ready to be shown.
 
     Attributes:
@@ -103,8 +100,7 @@ class Spot:
     element: str
 
 
-@record()
-class ShownFinding:
+class ShownFinding(Record):
     """One finding.
 
     Attributes:
@@ -124,8 +120,7 @@ class ShownFinding:
     changes: tuple[Change, ...]
 
 
-@record()
-class RuleGroup:
+class RuleGroup(Record):
     """The findings of one rule and severity.
 
     Attributes:

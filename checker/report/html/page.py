@@ -10,7 +10,7 @@ from functools import cache
 from itertools import chain, repeat
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.resources import templates
 from checker.base.words import count, plain, shortened
 from checker.finding import Severity
@@ -44,8 +44,7 @@ _CAUSES = {
 """In words, what keeps a package from being ready first."""
 
 
-@record()
-class Reason:
+class Reason(Record):
     """A reason and the rules that did not look because of it."""
 
     cause: str
@@ -53,8 +52,7 @@ class Reason:
     rules: tuple[str, ...]
 
 
-@record()
-class SetAside:
+class SetAside(Record):
     """A finding that does not count: what it says, where, and why it does not."""
 
     rule: str

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 
 WIDTH, HEIGHT = 1000.0, 100.0
@@ -21,8 +21,7 @@ _MARGIN = 0.08
 Values = Sequence[float | None]
 
 
-@record()
-class Line:
+class Line(Record):
     """One curve: its name and its points, as SVG's `points` has them, piece by piece."""
 
     name: str
@@ -30,16 +29,14 @@ class Line:
     pieces: tuple[str, ...]
 
 
-@record()
-class Tick:
+class Tick(Record):
     """A value on the axis, and how far down it stands, in per cent."""
 
     value: str
     top: float
 
 
-@record()
-class Plot:
+class Plot(Record):
     """Curves of one unit over the time of a trial.
 
     Attributes:
@@ -55,8 +52,7 @@ class Plot:
     more: int
 
 
-@record()
-class Span:
+class Span(Record):
     """A leg of the course: its name, where it starts and how long it is, in per cent."""
 
     name: str

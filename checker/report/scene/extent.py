@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.geometry.transform import Transform, Vector
 from checker.physics.mesh.surface import Surface
 from checker.report.scene.scene import DisplayScene, Item, Layer
@@ -23,8 +23,7 @@ _UNSEEN = 0.5
 """Metres: at least the size of a robot of which nothing is to see."""
 
 
-@record()
-class Sphere:
+class Sphere(Record):
     """A sphere around something, metres."""
 
     centre: Vector

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import posixpath
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import field
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -15,7 +14,7 @@ from urllib.parse import unquote
 from checker.base.background import Background, work_key
 from checker.base.disk_file import NotReadable, read_bytes
 from checker.base.errors import WorkerFailed
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.mesh import Mesh, MeshFault
 from checker.package.package import Package
 from checker.physics.mesh import process
@@ -37,15 +36,14 @@ _BESIDE = 40
 _LIBRARIES = ("fast-simplification", "lxml", "numpy", "pillow", "pycollada")
 
 
-@record(eq=False)
-class MeshFiles:
+class MeshFiles(Record, eq=False, dict=True):
     """Gives what the mesh files of a robot look like: a `Surfaces`.
 
     Attributes:
         meshes: Where they are found, what is in them, and what reads them.
     """
 
-    meshes: PackageMeshes = field(repr=False)
+    meshes: PackageMeshes
 
     def of(self, uri: Located[str]) -> Appearance:
         """Return what the file behind a URI looks like; the first call reads all files."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from checker.base.child_process import Child, Limits
 from checker.base.child_server import Server
-from checker.base.record import record
+from checker.base.record import Record
 
 DRAWING_LIMITS = Limits(20.0, 4_000_000_000, draws=True)
 """OpenGL takes 0.9 GB of address space for an empty scene, drivers of graphics cards more."""
@@ -15,8 +15,7 @@ PLATFORMS = ("egl", "osmesa")
 """What draws without a window; the second where the first is missing."""
 
 
-@record()
-class StartedProcesses:
+class StartedProcesses(Record):
     """Processes that wait.
 
     Attributes:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Mapping
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.geometry.transform import Transform, Vector, rotation_from_quaternion
 from checker.physics.mesh.surface import Surface
 
@@ -29,8 +28,7 @@ class Layer(enum.StrEnum):
     VIEW = "view"
 
 
-@record(eq=False)
-class Item:
+class Item(Record, eq=False):
     """One thing to see.
 
     Attributes:
@@ -50,8 +48,7 @@ class Item:
     scale: Vector = (1.0, 1.0, 1.0)
 
 
-@record(eq=False)
-class LinkNode:
+class LinkNode(Record, eq=False):
     """A link with what hangs on it.
 
     Attributes:
@@ -70,8 +67,7 @@ class LinkNode:
     carrier: str = ""
 
 
-@record(eq=False)
-class Tracks:
+class Tracks(Record, eq=False):
     """How links move in the world (z up, the ground at z = 0).
 
     Attributes:
@@ -79,12 +75,11 @@ class Tracks:
         poses: By the link's name: x, y, z (metres) and quaternion w, x, y, z (n × 7).
     """
 
-    time: Array = field(repr=False)
-    poses: Mapping[str, Array] = field(repr=False)
+    time: Array
+    poses: Mapping[str, Array]
 
 
-@record(eq=False)
-class DisplayScene:
+class DisplayScene(Record, eq=False):
     """All there is to see of a robot.
 
     Attributes:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import posixpath
-from dataclasses import field
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.model.components import Collision, Visual
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Rotation, Transform, Vector
@@ -26,8 +27,7 @@ from checker.report.scene.surfaces import short
 _NOTHING = ("", "empty")
 
 
-@record(eq=False)
-class Drawn:
+class Drawn(Record, eq=False):
     """A shape as triangles.
 
     Attributes:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field
 from functools import cached_property
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.model.components import Link, Part, Pose
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
@@ -18,8 +19,7 @@ Hung = Iterator[tuple[str, Item]]
 """Items, each with the scoped name of the link that it hangs on."""
 
 
-@record(eq=False)
-class Showing:
+class Showing(Record, eq=False, dict=True):
     """A robot to be shown.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.physics.mesh.surface import Surface
 from checker.source.text import Located
@@ -56,8 +56,7 @@ class Surfaces(Protocol):
         ...
 
 
-@record()
-class NoSurfaces:
+class NoSurfaces(Record):
     """For a robot whose mesh files nobody reads."""
 
     def of(self, uri: Located[str]) -> tuple[Surface, ...] | str:  # noqa: ARG002 - as a `Surfaces`

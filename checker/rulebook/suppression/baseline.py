@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, field
 from pathlib import Path
 from typing import Any
 
+from msgspec import field, to_builtins
+
 from checker.base.disk_file import NotReadable, read_bytes
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import shortened
 from checker.finding import Severity, fingerprint
 from checker.rulebook.suppression.entries import REASON_LIMIT
@@ -20,8 +21,7 @@ SIZE_LIMIT = 5_000_000
 ENTRIES_LIMIT = 20_000
 
 
-@record()
-class BaselineEntry:
+class BaselineEntry(Record):
     """One finding as it was.
 
     Attributes:
@@ -39,8 +39,7 @@ class BaselineEntry:
     reason: str = ""
 
 
-@record()
-class Baseline:
+class Baseline(Record):
     """The content of a baseline's file.
 
     Attributes:
@@ -54,7 +53,7 @@ class Baseline:
     path: Path | None = None
     fault: str = ""
     digest: str = ""
-    packages: Mapping[str, tuple[BaselineEntry, ...]] = field(default_factory=dict, repr=False)
+    packages: Mapping[str, tuple[BaselineEntry, ...]] = field(default_factory=dict)
     missing: bool = False
 
 
@@ -128,7 +127,8 @@ def baseline_text(packages: Mapping[str, Iterable[BaselineEntry]]) -> str:
     """
     entries = {
         name: [
-            {key: said for key, said in asdict(entry).items() if said} for entry in packages[name]
+            {key: said for key, said in to_builtins(entry).items() if said}
+            for entry in packages[name]
         ]
         for name in sorted(packages)
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Sequence
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Severity
 from checker.rulebook.suppression.baseline import BaselineEntry
 from checker.rulebook.suppression.parts import StaleEntries
@@ -16,8 +16,7 @@ _TELLS: tuple[_Tell, ...] = (by_words, by_element)
 """What makes a place of now and one of an entry the same fault, the surer first."""
 
 
-@record()
-class Matched:
+class Matched(Record):
     """What a baseline comes to.
 
     Attributes:

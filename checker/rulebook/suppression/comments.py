@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from itertools import islice
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import shortened
 from checker.finding import Place
 from checker.rulebook.suppression.entries import REASON_LIMIT
@@ -39,8 +39,7 @@ _START = re.compile(
 _CONTENT = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?(.*)", re.DOTALL)
 
 
-@record()
-class Comment:
+class Comment(Record):
     """A comment that wants findings set aside.
 
     Attributes:

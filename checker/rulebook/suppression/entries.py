@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fnmatch import fnmatchcase
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Place
 
 ENTRIES_LIMIT = 200
@@ -16,8 +16,7 @@ _KEYS = ("rule", "file", "element", "reason")
 _LIMITS = {"file": PATTERN_LIMIT, "element": PATTERN_LIMIT, "reason": REASON_LIMIT}
 
 
-@record()
-class SettingsEntry:
+class SettingsEntry(Record):
     """Findings of a rule that shall not count.
 
     Attributes:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Place
 from checker.rulebook.suppression.comments import Comment
 from checker.rulebook.suppression.entries import SettingsEntry
 
 
-@record()
-class UnknownName:
+class UnknownName(Record):
     """A word of a comment that names no rule; the hint says which one may be meant."""
 
     comment: Comment
@@ -17,16 +16,14 @@ class UnknownName:
     hint: str
 
 
-@record()
-class UnusedComment:
+class UnusedComment(Record):
     """A comment, and the id of a rule that looked and found nothing for it to set aside."""
 
     comment: Comment
     rule: str
 
 
-@record()
-class UnusedEntries:
+class UnusedEntries(Record):
     """Entries of a settings file that set nothing aside.
 
     Attributes:
@@ -41,8 +38,7 @@ class UnusedEntries:
     own: bool
 
 
-@record()
-class Suppressions:
+class Suppressions(Record):
     """What the package's comments and the settings want set aside, and what of it has no effect.
 
     Attributes:
@@ -55,8 +51,7 @@ class Suppressions:
     unused_entries: UnusedEntries
 
 
-@record()
-class StaleEntries:
+class StaleEntries(Record):
     """Findings of one rule that the baseline holds and that are gone.
 
     Attributes:
@@ -72,8 +67,7 @@ class StaleEntries:
     known: bool = True
 
 
-@record()
-class BaselineUse:
+class BaselineUse(Record):
     """What of the baseline is stale, rule by rule."""
 
     stale: tuple[StaleEntries, ...]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from checker.base.disk_file import NotReadable
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.finding import Place
 from checker.package.package import Package
@@ -40,8 +40,7 @@ _Line = tuple[str, int, str]
 """A file, a line of it, and the id of a rule that is not to count there."""
 
 
-@record()
-class Silence:
+class Silence(Record):
     """Why a finding does not count.
 
     Attributes:

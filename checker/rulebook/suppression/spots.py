@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Hashable, Iterator
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.finding import Place, Severity, fingerprint, without_line_numbers
 from checker.report.report import ReportedFinding
 
@@ -17,8 +17,7 @@ _COMPARED = 900
 """Characters; reports shorten longer messages."""
 
 
-@record()
-class Spot:
+class Spot(Record):
     """One main place of a finding.
 
     Attributes:

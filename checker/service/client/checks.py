@@ -11,7 +11,7 @@ from urllib.parse import quote, unquote
 
 from checker.base.errors import CheckerError
 from checker.base.progress import Say
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, plain, shortened
 from checker.report.files import ARTEFACT_NAME, INDEX
 from checker.report.from_json import SIZE_LIMIT
@@ -36,15 +36,13 @@ class End(enum.StrEnum):
     CANCELLED = "cancelled"
 
 
-@record()
-class Given:
+class Given(Record):
     """What the service answers to an upload."""
 
     id: Annotated[str, re.compile(r"[A-Za-z0-9_-]{16,100}")]
 
 
-@record()
-class Standing:
+class Standing(Record):
     """How a check stands, as far as it matters here; the members are those of the API."""
 
     stage: str
@@ -64,8 +62,7 @@ class Standing:
         return said + before
 
 
-@record()
-class Check:
+class Check(Record):
     """One check on a service."""
 
     connection: Connection

@@ -8,13 +8,12 @@ import socket
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import field
 from time import monotonic, sleep
 from typing import TYPE_CHECKING
 
 from checker.base.errors import CheckerError
 from checker.base.progress import Say, say_nothing
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.service.client.form import Form
 from checker.service.client.server import Server
@@ -29,8 +28,7 @@ _BUSY = (408, 429, 502, 503, 504)
 _SHOWN = 300
 
 
-@record()
-class Patience:
+class Patience(Record):
     """How long something is waited for.
 
     Attributes:
@@ -48,8 +46,7 @@ class Patience:
     longest_pause: float = 30.0
 
 
-@record()
-class Answer:
+class Answer(Record):
     """What a service answers.
 
     Attributes:
@@ -78,8 +75,7 @@ class NoAnswer(Exception):
     """A request came to nothing; the text says why."""
 
 
-@record()
-class Connection:
+class Connection(Record):
     """Speaks with one service, and with no other: it follows no redirect.
 
     Attributes:
@@ -88,7 +84,7 @@ class Connection:
     """
 
     server: Server
-    token: str = field(default="", repr=False)
+    token: str = ""
     patience: Patience = Patience()
     say: Say = say_nothing
 

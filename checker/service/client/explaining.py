@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from checker.report.report import Report, ReportedFinding
 from checker.rulebook.discovery import all_rules

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field
 from pathlib import Path
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 
 _PIECE = 1 << 16
 
 
-@record()
-class Form:
+class Form(Record):
     """A form with some fields and one file behind them.
 
     Attributes:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
+
+from msgspec.structs import replace
 
 from checker.package.inputs import SINGLE_FILE_SUFFIXES
 from checker.report.report import Report

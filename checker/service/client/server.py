@@ -6,7 +6,7 @@ import re
 from urllib.parse import urlsplit
 
 from checker.base.errors import CheckerError
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.service.loopback import is_loopback
 
@@ -14,8 +14,7 @@ _PORTS = {"http": 80, "https": 443}
 _HOST = re.compile(r"[A-Za-z0-9._:-]+")
 
 
-@record()
-class Server:
+class Server(Record):
     """Where a service is reached.
 
     Attributes:

@@ -11,10 +11,11 @@ import logging
 import secrets
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import asdict
 from itertools import chain
 from pathlib import Path
 from typing import Any
+
+from msgspec import to_builtins
 
 from checker.base.cache import key_of
 from checker.base.child_process import from_json
@@ -96,7 +97,7 @@ def _checked(
         "name": order.name,
         "profile": order.profile,
         "stage": stage,
-        "limits": asdict(limits),
+        "limits": to_builtins(limits),
     }
     let_pass(store, cancelled)
     content = read_bytes(upload, order.name, UPLOAD_LIMIT)

@@ -11,7 +11,7 @@ from contextlib import ExitStack, closing, contextmanager, suppress
 from time import monotonic
 
 from checker.base.child_process import Child, Limits
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox.files import NO_FILES, Content, Files
 from checker.base.sandbox.launcher import OwnLauncher
 from checker.service.jobs.limits import NICENESS, StageLimits
@@ -24,8 +24,7 @@ _LOOK = 0.2
 """Seconds between questions whether a check is still wanted."""
 
 
-@record()
-class Ended:
+class Ended(Record):
     """How a check ended.
 
     Attributes:

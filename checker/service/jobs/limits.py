@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox.task import hold_files_to, tighten
 
 NICENESS = 10
 """Below that of the processes of the service, as `nice` counts it."""
 
 
-@record()
-class StageLimits:
+class StageLimits(Record):
     """What the check of an upload may use.
 
     Attributes:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
+
+from msgspec.structs import replace
 
 from checker.report.report import Report
 from checker.service.jobs.layout import GIVEN, TEMPORARY

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 
 
-@record()
-class Checked:
+class Checked(Record):
     """A report is in the store.
 
     Attributes:
@@ -23,8 +22,7 @@ class Checked:
     words: str
 
 
-@record()
-class Refused:
+class Refused(Record):
     """The upload cannot be checked, and its sender can mend that.
 
     Attributes:
@@ -34,8 +32,7 @@ class Refused:
     reason: str
 
 
-@record()
-class Died:
+class Died(Record):
     """The checker could not finish: it ran into a limit, or into a fault of its own.
 
     Attributes:
@@ -45,8 +42,7 @@ class Died:
     reason: str
 
 
-@record()
-class Cancelled:
+class Cancelled(Record):
     """Somebody wanted it to end."""
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Mapping, Sequence
-from dataclasses import field
 from typing import Any, Protocol
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.base.sandbox.layers import Layer
 
 
@@ -32,8 +33,7 @@ class Stage(enum.StrEnum):
         return self in (Stage.DONE, Stage.REFUSED, Stage.FAILED, Stage.CANCELLED)
 
 
-@record()
-class Order:
+class Order(Record):
     """A check that somebody asks for.
 
     Attributes:
@@ -47,8 +47,7 @@ class Order:
     profile: str = ""
 
 
-@record()
-class State:
+class State(Record):
     """Where a check stands.
 
     Attributes:
@@ -75,8 +74,7 @@ class State:
     expires: float = 0.0
 
 
-@record()
-class Event:
+class Event(Record):
     """Something that happened to a check; numbers go up by one from 1."""
 
     number: int
@@ -96,8 +94,7 @@ class JobsUnreachable(Exception):
     """The database does not answer; any of the calls may raise it."""
 
 
-@record()
-class Alive:
+class Alive(Record):
     """What is known of the engine.
 
     Attributes:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from checker.base.sandbox.launcher import OwnLauncher
 from checker.base.sandbox.layers import ACCOUNT, Layer

@@ -8,11 +8,11 @@ import subprocess
 import threading
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from time import monotonic
 
 from checker.base.progress import Say
-from checker.base.record import record
+from checker.base.record import Record
 
 _LOOK_SECONDS = 0.2
 _SETTLED_SECONDS = 60.0
@@ -20,8 +20,7 @@ _SETTLED_SECONDS = 60.0
 _DEATHS_COUNTED = 30
 
 
-@record()
-class Pace:
+class Pace(Record):
     """How long things take at most.
 
     Attributes:
@@ -50,7 +49,7 @@ class Process:
     command: Sequence[str]
     environment: Mapping[str, str]
     descriptors: Sequence[int] = ()
-    _running: subprocess.Popen[bytes] | None = field(default=None, repr=False)
+    _running: subprocess.Popen[bytes] | None = None
     _started: float = 0.0
     _deaths: int = 0
     _next_start: float = 0.0

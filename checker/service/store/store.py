@@ -20,7 +20,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from checker.base.private_files import tighten, tighten_below
-from checker.base.record import record
+from checker.base.record import Record
 from checker.report.files import ARTEFACT_NAME
 from checker.service.store.durable import move, rename, settle, settle_below, settle_name
 from checker.service.store.incoming import Incoming, TooLarge
@@ -42,8 +42,7 @@ _OURS = ("uploads", "results", "incoming", "parts", "cache", "lock")
 _KEY = re.compile(r"[0-9a-f]{64}")
 
 
-@record()
-class Store:
+class Store(Record):
     """What was uploaded and what was found out about it.
 
     Attributes:

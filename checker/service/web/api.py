@@ -11,7 +11,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.port import State
 from checker.service.web.answers import Problem
 from checker.service.web.events import HIGHEST, event_stream
@@ -125,8 +125,7 @@ def _add_file(router: APIRouter, path: str, endpoint: Any, kind: str) -> None:
     )
 
 
-@record()
-class Api:
+class Api(Record):
     """The routes. What is no coroutine runs in a thread: it waits for the engine or the disk."""
 
     services: Services

@@ -8,7 +8,7 @@ from functools import partial
 from urllib.parse import urlsplit
 
 from checker.base.errors import InvalidSettings
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.port import RETENTION_DAYS
 from checker.service.store.store import DEFAULT_UPLOAD_LIMIT
 
@@ -17,8 +17,7 @@ _CENTURY = 36_500
 """Days; calendars end some day."""
 
 
-@record()
-class Config:
+class Config(Record):
     """What a service allows.
 
     Attributes:

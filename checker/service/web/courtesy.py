@@ -13,7 +13,7 @@ from time import monotonic
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from checker.base.record import record
+from checker.base.record import Record
 
 LINGER_SECONDS = 10.0
 PAUSE_SECONDS = 1.0
@@ -44,8 +44,7 @@ class _Body:
                 return
 
 
-@record()
-class Courtesy:
+class Courtesy(Record):
     """Ends an answer only after the request has been read, within limits."""
 
     app: ASGIApp

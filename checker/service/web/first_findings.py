@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.report.from_json import report_from_json
 from checker.report.report import ReportedFinding
@@ -18,8 +18,7 @@ SIZE_LIMIT = 20_000_000
 _TEXT_LIMIT = 300
 
 
-@record()
-class FirstFinding:
+class FirstFinding(Record):
     """A finding in a line.
 
     Attributes:
@@ -35,8 +34,7 @@ class FirstFinding:
     package: str
 
 
-@record()
-class Glance:
+class Glance(Record):
     """The beginning of a report.
 
     Attributes:

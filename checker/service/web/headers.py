@@ -5,7 +5,7 @@ from __future__ import annotations
 from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from checker.base.record import record
+from checker.base.record import Record
 
 POLICY = "content-security-policy"
 NOTHING = "default-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -28,8 +28,7 @@ _PRIVATE = "private, no-store"
 _HTTPS_SECONDS = 31_536_000
 
 
-@record()
-class SecurityHeaders:
+class SecurityHeaders(Record):
     """Adds the headers to each answer; a policy or rule for caches that a route gives stays."""
 
     app: ASGIApp

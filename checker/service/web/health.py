@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox.layers import hides_files
 from checker.service.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
 from checker.service.loopback import is_loopback
@@ -64,8 +64,7 @@ def router(services: Services) -> APIRouter:
     return made
 
 
-@record()
-class Health:
+class Health(Record):
     """The routes."""
 
     services: Services

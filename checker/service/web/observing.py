@@ -9,7 +9,7 @@ from typing import Any
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.web.answers import CAUSE, Problem
 from checker.service.web.logs import FIELDS, LOGGER, short
 from checker.service.web.metrics import Metrics
@@ -26,8 +26,7 @@ _FAULT = JSONResponse(
 _LOG = logging.getLogger(LOGGER)
 
 
-@record()
-class Observing:
+class Observing(Record):
     """Counts and logs each request by the template of its route: addresses hold ids."""
 
     app: ASGIApp

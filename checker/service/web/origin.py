@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.loopback import is_loopback
 from checker.service.web.answers import refusal_answer
 from checker.service.web.config import Config
@@ -18,8 +18,7 @@ _READING = ("GET", "HEAD", "OPTIONS")
 _HOST = re.compile(r"(\[[0-9A-Fa-f:.]{2,45}\]|[A-Za-z0-9._-]{1,253})(?::\d{1,5})?")
 
 
-@record()
-class OwnOrigin:
+class OwnOrigin(Record):
     """Refuses what is meant for another host, or changes something on behalf of another site.
 
     A service for this machine alone answers to names of this machine only: any site can give its

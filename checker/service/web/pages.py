@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, plain
 from checker.package.archives.archive import ARCHIVE_SUFFIXES
 from checker.package.archives.index import ArchiveLimits
@@ -67,8 +67,7 @@ def error_page(status: int, sentence: str, advice: str) -> Response:
     return html("error.html.j2", status=status, sentence=sentence, advice=advice)
 
 
-@record()
-class _Pages:
+class _Pages(Record):
     """The pages that need what the service works with.
 
     What is no coroutine runs in a thread: the engine and the disk may take their time.

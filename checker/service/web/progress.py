@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import count, plain, shortened
 from checker.service.jobs.port import Event, Stage, State
 from checker.service.web.views import address_of
@@ -23,8 +23,7 @@ _AGAIN = "Send the package again; if this stays, tell whoever runs this service.
 _TEXT_LIMIT = 600
 
 
-@record()
-class Step:
+class Step(Record):
     """One step of a check.
 
     Attributes:
@@ -37,8 +36,7 @@ class Step:
     words: str = ""
 
 
-@record()
-class Headline:
+class Headline(Record):
     """What a check comes to.
 
     Attributes:
@@ -54,8 +52,7 @@ class Headline:
     advice: str = ""
 
 
-@record()
-class PackageLine:
+class PackageLine(Record):
     """A package of a check.
 
     Attributes:
@@ -164,8 +161,7 @@ def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> Pac
     )
 
 
-@record()
-class Moment:
+class Moment(Record):
     """A moment, for people and for programs."""
 
     words: str

@@ -6,12 +6,13 @@ import ipaddress
 from collections import Counter, OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from time import monotonic
 
+import msgspec
 from starlette.requests import HTTPConnection
 
-from checker.base.record import record
+from checker.base.record import Record
 
 CLIENTS = 10_000
 """Remembered at most; who comes new takes the place of who was away the longest."""
@@ -45,8 +46,7 @@ class Bucket:
     counted: float
 
 
-@record()
-class Rate:
+class Rate(Record):
     """So many a minute for each client, all of them at once if it likes.
 
     Attributes:
@@ -56,7 +56,7 @@ class Rate:
 
     per_minute: int
     now: Callable[[], float] = monotonic
-    _buckets: OrderedDict[str, Bucket] = field(default_factory=OrderedDict)
+    _buckets: OrderedDict[str, Bucket] = msgspec.field(default_factory=OrderedDict)
 
     def wait(self, client: str) -> float:
         """Count one more for a client, and return 0; or the seconds until it may."""
@@ -73,8 +73,7 @@ class Rate:
         return 0.0 if allowed else (1 - drops) / per_second
 
 
-@record()
-class Slots:
+class Slots(Record):
     """Places for what goes on at once.
 
     Attributes:
@@ -84,7 +83,7 @@ class Slots:
 
     all: int
     each: int
-    _taken: Counter[str] = field(default_factory=Counter)
+    _taken: Counter[str] = msgspec.field(default_factory=Counter)
 
     @contextmanager
     def one(self, client: str) -> Iterator[bool]:

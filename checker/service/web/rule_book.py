@@ -7,7 +7,7 @@ from functools import cache
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.pages import about, escaped, parse_page, told
 
@@ -16,8 +16,7 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
 
-@record()
-class RuleEntry:
+class RuleEntry(Record):
     """A rule in the list.
 
     Attributes:
@@ -30,8 +29,7 @@ class RuleEntry:
     title: Markup
 
 
-@record()
-class RuleGroup:
+class RuleGroup(Record):
     """Rules of one group.
 
     Attributes:
@@ -43,8 +41,7 @@ class RuleGroup:
     rules: tuple[RuleEntry, ...]
 
 
-@record()
-class RulePage:
+class RulePage(Record):
     """All that is told of a rule; `body` is HTML."""
 
     entry: RuleEntry

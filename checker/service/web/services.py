@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.service.jobs.port import Jobs
 from checker.service.store.store import Store
 from checker.service.web.clerk.port import Clerk
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
     from starlette.requests import Request
 
 
-@record()
-class Services:
+class Services(Record):
     """What the routes of the service work with.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.expand.xacro.expression.bounds import Budget, RefusedExpression
 from checker.expand.xacro.expression.values import plain, weigh
 
@@ -13,8 +13,7 @@ Work = Callable[..., Any]
 """Called with the budget, the arguments and the named arguments."""
 
 
-@record()
-class Function:
+class Function(Record):
     """What a name may stand for besides data; an expression calls it, or hands it on to another.
 
     Attributes:

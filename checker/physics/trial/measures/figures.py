@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from checker.base.record import record
+from checker.base.record import Record
 
 
-@record()
-class Measure:
+class Measure(Record):
     """What a figure means.
 
     Attributes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.physics.trial.measures.motion import Motion
 from checker.physics.trial.measures.touches import Touches
 from checker.physics.trial.profile import Knots, value_at
@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     Mask = NDArray[np.bool_]
 
 
-@record()
-class Footing:
+class Footing(Record):
     """Contact points in the robot's frame, averaged over samples.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.physics.trial.simulation.rig import Rig
 
 if TYPE_CHECKING:
@@ -16,8 +16,7 @@ if TYPE_CHECKING:
     Numbers = NDArray[np.int64]
 
 
-@record()
-class Touches:
+class Touches(Record):
     """Contacts in a stretch of time: n samples, and k contacts in their order.
 
     Attributes:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Collision, Link
 from checker.model.geometry.convex import support
 from checker.model.geometry.shapes import Geometry
@@ -67,8 +67,7 @@ _SERIOUS = (MeshTrouble.MISSING, MeshTrouble.UNREADABLE)
 _DOWN: Vector = (0.0, 0.0, -1.0)
 
 
-@record()
-class Geom:
+class Geom(Record):
     """A collision shape of a link.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Link, Pose
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
@@ -36,8 +36,7 @@ _FLAT = 1e-11
 """Share of the moments that a flat body is given as thickness, so that rounding cannot harm."""
 
 
-@record(eq=False)
-class BodyInertia:
+class BodyInertia(Record, eq=False):
     """What a body weighs.
 
     Attributes:

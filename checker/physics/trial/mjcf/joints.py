@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Axis, Joint
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
@@ -18,8 +18,7 @@ _ENDLESS = 1e6
 """Metres or radians that stand for no bound where a joint is bounded on one side alone."""
 
 
-@record()
-class Degree:
+class Degree(Record):
     """One joint of MuJoCo; coefficients in N, N·m and their quotients by m, rad, m/s, rad/s.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.components import Link
 from checker.model.geometry.transform import Transform
 from checker.model.locomotion.friction import FrictionReader
@@ -21,8 +21,7 @@ from checker.physics.trial.mjcf.repairs import Ledger
 # The links of a robot as trees that MuJoCo can nest: each link hangs on one other at most.
 
 
-@record(eq=False)
-class Forest:
+class Forest(Record, eq=False, dict=True):
     """The links of a robot, from those that hang on nothing downwards."""
 
     hanging: Hanging

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, field
 from itertools import chain
 from typing import Any
 
-from checker.base.record import record
+from msgspec import field, to_builtins
+
+from checker.base.record import Record
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.physics.trial.mjcf.bodies import BodyWriter
@@ -25,8 +26,7 @@ DROP = 0.01
 """Metres between the lowest collision point and the ground at the start."""
 
 
-@record()
-class Scene:
+class Scene(Record):
     """The robot as MJCF text, with the names by which its parts are found in it.
 
     Each body's frame is its link's; at the start all joints are at 0, as the file poses the links.
@@ -73,7 +73,7 @@ class Scene:
 
     def as_json(self) -> dict[str, Any]:
         """Return what JSON can express."""
-        return asdict(self)
+        return to_builtins(self)
 
     @classmethod
     def from_json(cls, said: Mapping[str, Any]) -> Scene:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.physics.trial.course import CLIMB, CLIMB_METRES
 from checker.physics.trial.plan import Plan, PlannedRotor
 from checker.physics.trial.profile import value_at
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 # Shares the force and the torque that a copter needs among its rotors.
 
 
-@record()
-class Allocation:
+class Allocation(Record):
     """Rotors about a centre of mass.
 
     Attributes:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from msgspec import to_builtins
+
+from checker.base.record import Record
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,8 +20,7 @@ _MARGIN = 1.12
 """What is shown may fill the picture but for this."""
 
 
-@record()
-class Camera:
+class Camera(Record):
     """A camera as MuJoCo has it.
 
     Attributes:
@@ -37,7 +37,7 @@ class Camera:
 
     def as_json(self) -> dict[str, Any]:
         """Return its figures by name."""
-        return asdict(self)
+        return to_builtins(self)
 
 
 def framed(points: Array, azimuth: float, elevation: float, aspect: float) -> Camera:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.model.geometry.transform import Transform
 from checker.physics.mesh.surface import Surface, surface_to_json
 from checker.physics.trial.mjcf.names import quaternion, well_placed
@@ -26,8 +26,7 @@ _ITEMS = 2000
 """That are drawn of a robot."""
 
 
-@record()
-class Shot:
+class Shot(Record):
     """One picture.
 
     Attributes:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cached_property
 
 import sqlalchemy as sa
+from msgspec.structs import replace
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.checking import stored_result
 from checker.service.jobs.durable.database import open_database, prepare, reachable
 from checker.service.jobs.durable.keys import key_of_check
@@ -23,8 +23,7 @@ from checker.service.store.store import Store
 _DAY = 86400.0
 
 
-@record()
-class DurableJobs:
+class DurableJobs(Record, dict=True):
     """`Jobs` on a database: SQLite or PostgreSQL.
 
     Ids, which open reports, end here: what lies behind knows checks by their keys alone.

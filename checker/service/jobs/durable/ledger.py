@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import field
 from functools import cached_property
 from typing import Any
 
 import sqlalchemy as sa
+from msgspec import field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.service.jobs.durable.database import now
 from checker.service.jobs.durable.queues import WAITS
@@ -32,8 +32,7 @@ _WORDS_LIMIT = 2000
 _FINAL = [stage.value for stage in Stage if stage.is_final]
 
 
-@record()
-class Turn:
+class Turn(Record):
     """A check in the hands of a worker.
 
     Attributes:
@@ -47,8 +46,7 @@ class Turn:
     order: Order
 
 
-@record()
-class Step:
+class Step(Record):
     """What a check comes to.
 
     Attributes:
@@ -68,8 +66,7 @@ class Step:
     data: Mapping[str, Any] = field(default_factory=dict)
 
 
-@record()
-class Ledger:
+class Ledger(Record, dict=True):
     """The book of checks."""
 
     engine: sa.Engine

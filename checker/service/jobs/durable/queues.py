@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import sqlalchemy as sa
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.port import Stage
 
 if TYPE_CHECKING:
@@ -33,8 +33,7 @@ def workflow_of(id: str, stage: Stage) -> str:
     return id if stage is Stage.STATIC else f"{id}.{stage}"
 
 
-@record()
-class Queues:
+class Queues(Record):
     """Puts checks into queues."""
 
     client: DBOSClient

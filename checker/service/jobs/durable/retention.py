@@ -6,7 +6,7 @@ import time
 
 import sqlalchemy as sa
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.durable.database import now
 from checker.service.jobs.durable.ledger import forget
 from checker.service.jobs.durable.queues import Queues
@@ -16,8 +16,7 @@ from checker.service.store.store import Store
 _AT_ONCE = 200
 
 
-@record()
-class Retention:
+class Retention(Record):
     """Deletes what has had its time; any number of workers may do so at once.
 
     Attributes:

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 
 import sqlalchemy as sa
+from msgspec import to_builtins
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.sandbox.layers import Layer
 from checker.service.jobs.durable.database import now
 from checker.service.jobs.durable.tables import WORKERS
 
 
-@record()
-class Roll:
+class Roll(Record):
     """The roll of workers.
 
     Attributes:
@@ -27,7 +26,7 @@ class Roll:
 
     def beat(self, worker: str) -> None:
         """Show a sign of life."""
-        alive = {"beat": now(self.engine), "layers": [asdict(each) for each in self.layers]}
+        alive = {"beat": now(self.engine), "layers": [to_builtins(each) for each in self.layers]}
         with self.engine.begin() as connection:
             mine = sa.update(WORKERS).where(WORKERS.c.name == worker).values(alive)
             if connection.execute(mine).rowcount == 0:

@@ -10,12 +10,12 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import field
 from typing import TypeVar
 
 import sqlalchemy as sa
+from msgspec import field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.checking import check_upload
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable.client import finished
@@ -37,8 +37,7 @@ _BEGINS = {
 _READ = "the static rules have looked; the trial waits for its turn"
 
 
-@record()
-class Stages:
+class Stages(Record):
     """Does stages of checks.
 
     Attributes:

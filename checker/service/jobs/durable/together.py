@@ -7,12 +7,13 @@ those of all other processes; how much is changed in it hardly matters (group co
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from threading import Lock
 
+import msgspec
 import sqlalchemy as sa
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.durable.database import AWAY
 
 Change = Callable[[sa.Connection], None]
@@ -28,8 +29,7 @@ class _Wanted:
     failed: Exception | None = None
 
 
-@record(eq=False)
-class Together:
+class Together(Record, eq=False):
     """Makes changes in as few transactions as can be.
 
     Attributes:
@@ -37,8 +37,8 @@ class Together:
     """
 
     engine: sa.Engine
-    _turn: Lock = field(default_factory=Lock)
-    _waiting: list[_Wanted] = field(default_factory=list)
+    _turn: Lock = msgspec.field(default_factory=Lock)
+    _waiting: list[_Wanted] = msgspec.field(default_factory=list)
 
     def make(self, change: Change) -> None:
         """Make a change, and return once it holds; it may be tried again if another one fails.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.durable.engine import holders, recover
 from checker.service.jobs.durable.roll import Roll
 
@@ -13,8 +13,7 @@ _ROLL_SILENCES = 60
 """A dead worker stays on the roll for so many times the silence, for those who look at it."""
 
 
-@record()
-class Watchdog:
+class Watchdog(Record):
     """One in each worker; each looks after all others.
 
     Attributes:

@@ -10,9 +10,10 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import field
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.base.sandbox.layers import Layer, hides_files
 from checker.base.signals import on_requests_to_end
 from checker.engine.report_cache import program_parts
@@ -38,8 +39,7 @@ def _some_name() -> str:
     return f"worker-{secrets.token_hex(4)}"
 
 
-@record()
-class WorkerOptions:
+class WorkerOptions(Record):
     """How a worker works.
 
     Attributes:

@@ -6,11 +6,12 @@ import logging
 import socket
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import field
 from functools import cached_property, partial
 from threading import Lock
 
-from checker.base.record import record
+from msgspec import field
+
+from checker.base.record import Record
 from checker.engine.report_cache import program_parts
 from checker.service.jobs.durable.client import DurableJobs, durable_jobs
 from checker.service.jobs.place import database_url
@@ -30,8 +31,7 @@ _PATIENCE = 0.1
 _LOG = logging.getLogger(LOGGER)
 
 
-@record()
-class _Desk:
+class _Desk(Record, dict=True):
     """What a clerk works with."""
 
     store: Store

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Protocol
 
 from checker.base.errors import UnreadableInput
-from checker.base.record import record
+from checker.base.record import Record
 from checker.base.words import plain
 from checker.package.archives.archive import ARCHIVE_SUFFIXES
 from checker.service.jobs.port import Jobs, Order
@@ -16,8 +16,7 @@ from checker.service.web.clerk.indexes import Indexes
 from checker.service.web.refusal import Refused, sentence
 
 
-@record()
-class Slip:
+class Slip(Record):
     """An upload that has come whole.
 
     Attributes:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-
 from anyio import CapacityLimiter, to_thread
+from msgspec import field
 
-from checker.base.record import record
+from checker.base.record import Record
 from checker.service.jobs.port import Jobs
 from checker.service.store.store import Store
 from checker.service.web.clerk.indexes import Indexes
@@ -15,8 +14,7 @@ from checker.service.web.clerk.port import Slip, accepted, looked_at
 _AT_ONCE = 2
 
 
-@record()
-class ThreadClerk:
+class ThreadClerk(Record):
     """Takes uploads in threads: a `Clerk`.
 
     Attributes:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from typing import Any
+
+from msgspec import to_builtins
 
 from checker.service.jobs.port import JobsUnreachable
 from checker.service.web.clerk.port import Slip
@@ -18,7 +19,7 @@ class ClerkFailed(Exception):
 
 def slip_to_line(number: int, slip: Slip) -> bytes:
     """Return an upload and its number as a line."""
-    return _line([number, asdict(slip)])
+    return _line([number, to_builtins(slip)])
 
 
 def slip_from_line(line: bytes) -> tuple[int, Slip]:
@@ -42,7 +43,7 @@ def _answer(take: Callable[[], str], on_fault: Callable[[], object]) -> Mapping[
     try:
         return {"id": take()}
     except Refused as refused:
-        return {"refused": asdict(refused)}
+        return {"refused": to_builtins(refused)}
     except JobsUnreachable as error:
         return {"unreachable": str(error)}
     except OSError as error:
