@@ -16,7 +16,8 @@ from pathlib import Path
 from time import perf_counter, process_time
 from typing import Any
 
-from checker.base.forked_work import Ended, apart
+from checker.base.errors import WorkerFailed
+from checker.base.forked_work import in_fork
 from checker.expand.xacro.included_texts import Gathered
 from checker.expand.xacro.paths import path_of
 from checker.package.inputs import open_input
@@ -82,8 +83,8 @@ def seconds(request: Request, way: Callable[[], None]) -> tuple[float, bool]:
         outcome = processor.expand(*request, {})
         return json.dumps([process_time() - started, "xml" in outcome]).encode()
 
-    result = apart(work, _SECONDS)
-    if isinstance(result, Ended):
+    result = in_fork(work, _SECONDS)
+    if isinstance(result, WorkerFailed):
         raise SystemExit(f"{request[1]} {result.reason}")
     taken, succeeds = json.loads(result)
     return float(taken), bool(succeeds)

@@ -32,7 +32,8 @@ from checker.report.report import (
 from checker.settings import Settings, find_settings, folders_above
 
 if TYPE_CHECKING:
-    from checker.base.child_process import Child
+    from checker.base.child_server import Server
+    from checker.report.scene.processes import StartedProcesses
 
 
 def check_package(path: str | Path, settings: Settings | None = None) -> Report:
@@ -55,7 +56,7 @@ def check_paths(
     wishes: Mapping[str, Any],
     jobs: int = 1,
     say: Say = say_nothing,
-    mesh_child: Callable[[], Child] | None = None,
+    mesh_server: Callable[[], Server] | None = None,
 ) -> Report:
     """Check several inputs; one that cannot be opened does not keep the others from it.
 
@@ -64,13 +65,13 @@ def check_paths(
         wishes: Fields of `Settings` that the command line sets; None leaves them.
         jobs: Processes.
         say: Told what takes long when it begins; called in each of the processes.
-        mesh_child: See `Task`; called in each of the processes.
+        mesh_server: See `Task`; called in each of the processes.
 
     Raises:
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
             own folder, which the report tells among what was not opened.
     """
-    inputs = [Task(path, wishes=wishes, say=say, mesh_child=mesh_child) for path in paths]
+    inputs = [Task(path, wishes=wishes, say=say, mesh_server=mesh_server) for path in paths]
     tasks = [task for each in inputs for task in _parts(each, jobs)]
     if jobs > 1 and len(tasks) > 1:
         from concurrent.futures import ProcessPoolExecutor
@@ -89,7 +90,7 @@ class Task(Record):
         settings: To judge by, instead of those beside the package.
         wishes: Fields of the settings to replace.
         say: Told what takes long.
-        mesh_child: Starts what reads the meshes of a package, if it is not to be started as usual.
+        mesh_server: Starts what reads the meshes of a package, if it is not to be started as usual.
     """
 
     path: Path
@@ -97,7 +98,7 @@ class Task(Record):
     settings: Settings | None = None
     wishes: Mapping[str, Any] = field(default_factory=dict)
     say: Say = say_nothing
-    mesh_child: Callable[[], Child] | None = None
+    mesh_server: Callable[[], Server] | None = None
 
     def settings_for(self, package: Package) -> Settings:
         """Return the settings that judge a package; no search leaves an unpacked archive."""
@@ -203,19 +204,29 @@ def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     if known is not None:
         return replace(known, timings={"recall": perf_counter() - started})
     # Readers, engines and rules are loaded only when there is something to judge.
-    from checker.physics.mesh.early import early_child
-    from checker.report.scene.early import early_children
-
-    meshes = None if settings.select else early_child(package, cache, task.mesh_child)
-    early = early_children(meshes, display=settings.display)
+    processes = _started_processes(package, settings, cache, task.mesh_server)
     with collection_put_off():
         from checker.engine.review import judged
 
-        report = judged(package, shown, settings, cache, task.say, early)
+        report = judged(package, shown, settings, cache, task.say, processes)
         if settings.display:
             report = _with_patch(report, package)
     remember(cache, key, report)
     return report
+
+
+def _started_processes(
+    package: Package, settings: Settings, cache: Cache, start: Callable[[], Server] | None
+) -> StartedProcesses:
+    """Start what loads its libraries while this process loads its own."""
+    from checker.physics.mesh.process import are_new, mesh_server
+    from checker.report.scene.processes import StartedProcesses, drawing_process
+
+    reads = settings.display or (not settings.select and are_new(package, cache))
+    return StartedProcesses(
+        (start or mesh_server)().start() if reads else None,
+        drawing_process() if settings.display else None,
+    )
 
 
 def _with_patch(report: PackageReport, package: Package) -> PackageReport:

@@ -13,8 +13,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from checker.base.child_process import Child, Died, Limits
+from checker.base.child_process import Child, Limits
 from checker.base.disk_file import NotReadable
+from checker.base.errors import WorkerFailed
 from checker.base.sandbox.files import Damaged, from_disk, read, write
 from checker.base.sandbox.launcher import OwnLauncher
 from checker.base.sandbox.task import tightened
@@ -66,19 +67,19 @@ def test_a_child_that_dies(
     body: str, reason: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     died = ask_for(body, tmp_path, monkeypatch, LIMITS)
-    assert isinstance(died, Died)
+    assert isinstance(died, WorkerFailed)
     assert died.reason.startswith(reason)
 
 
 def test_an_answer_that_is_too_long(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("checker.base.child_process.ANSWER_LIMIT", 10)
-    assert isinstance(ask_for("return b'x' * 11", tmp_path, monkeypatch, LIMITS), Died)
+    assert isinstance(ask_for("return b'x' * 11", tmp_path, monkeypatch, LIMITS), WorkerFailed)
     assert ask_for("return b'x' * 10", tmp_path, monkeypatch, LIMITS) == b"x" * 10
 
 
 def test_a_child_that_never_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     died = ask_for("[0 for _ in iter(int, 1)]", tmp_path, monkeypatch, Limits(seconds=1))
-    assert died == Died("needs more than 1 s of processor time")
+    assert died == WorkerFailed("needs more than 1 s of processor time")
 
 
 def test_a_child_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -87,7 +88,7 @@ def test_a_child_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
         child = Child("some_work", b"", LIMITS, starter=found)
         assert child.alive
         child.deadline = 0.0
-        assert isinstance(child.answer(), Died)
+        assert isinstance(child.answer(), WorkerFailed)
         assert not child.alive
 
 
@@ -128,7 +129,7 @@ def test_a_child_that_is_given_nothing_ends(
         child = Child("some_work", None, LIMITS, starter=found)
         child.stop()
         child.stop()
-        assert isinstance(child.answer(), Died)
+        assert isinstance(child.answer(), WorkerFailed)
 
 
 @pytest.mark.parametrize(
@@ -178,7 +179,7 @@ def test_tighter_limits_that_there_are_hold(
     assert ask_for(body, tmp_path, monkeypatch, LIMITS) == b"(5, 6)"
     script = f"""
 import resource
-from checker.confined import ask, Limits
+from checker.base.child_process import ask, Limits
 resource.setrlimit(resource.RLIMIT_CPU, (3, 3))
 print(ask("some_work", b"", {LIMITS}))
 """

@@ -18,6 +18,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, BinaryIO
 
+from checker.base.errors import WorkerFailed
 from checker.base.record import Record
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content, Files
@@ -52,16 +53,6 @@ class Limits(Record):
         return 4.0 * self.seconds + _STARTUP_SECONDS
 
 
-class Died(Record):
-    """No answer came.
-
-    Attributes:
-        reason: Why, as the end of a sentence whose subject is the work.
-    """
-
-    reason: str
-
-
 class Child:
     """A process that works while who asked does something else."""
 
@@ -75,6 +66,7 @@ class Child:
         *,
         works: bool = False,
         folder: Path | None = None,
+        done: int | None = None,
     ) -> None:
         """Start it.
 
@@ -87,16 +79,25 @@ class Child:
             starter: Starts it; that of this process when None.
             works: Whether it writes into the working folder, and asks for processes itself.
             folder: On whose disk request and answer lie; that of temporary files when None.
+            done: By which it says that an answer is there, if it lasts (see `child_server`).
         """
         self.limits = limits
         self.deadline = monotonic() + limits.clock_seconds
         # No names: one that is killed leaves none, and nobody else can open them.
         self._request: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115 - closed by `stop`
         self._answer: BinaryIO = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
-        order = Order(module, int(limits.seconds), limits.memory, works, limits.draws)
+        order = Order(
+            module,
+            int(limits.seconds),
+            limits.memory,
+            works,
+            limits.draws,
+            lasts=done is not None,
+        )
         # Kept, since all of its processes end with it.
         self._starter = starter or launcher()
-        self._started = self._starter.start(order, self._request, self._answer)
+        more = () if done is None else (done,)
+        self._started = self._starter.start(order, self._request, self._answer, *more)
         self.code: int | None = None
         """Its exit code once it has ended; of a signal, its negative number."""
         self._stopped = False
@@ -112,25 +113,24 @@ class Child:
         """Whether it has not ended."""
         return not self.ends(0.0)
 
-    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> None:
+    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> Child:
         """Bring the request to a process that was started without one; its time begins now."""
         self.deadline = monotonic() + self.limits.clock_seconds
         handed.write(self._request, request, contents)
         # One that has died says why when it is asked for its answer.
         with suppress(OSError):
             os.write(self._started.input, b"!")
+        return self
 
-    def answer(self) -> bytes | Died:
+    def answer(self) -> bytes | WorkerFailed:
         """Wait for the answer."""
         try:
             if not self.ends(self.deadline - monotonic()):
-                return Died(f"took longer than {self.limits.clock_seconds:g} s and was stopped")
-            if self.code is None:
-                return Died("could not be started")
+                return overdue(self.limits)
             if self.code != 0:
-                return Died(_cause(self.code, self.limits))
+                return cause_of(self.code, self.limits)
             answer = self.answered(ANSWER_LIMIT)
-            return answer if isinstance(answer, Died) else answer[0]
+            return answer if isinstance(answer, WorkerFailed) else answer[0]
         finally:
             self.stop()
 
@@ -147,21 +147,27 @@ class Child:
             self.code = _code(said)
         return True
 
-    def answered(self, limit: int) -> tuple[bytes, Files] | Died:
+    def answered(
+        self, limit: int, start: int = 0, end: int | None = None
+    ) -> tuple[bytes, Files] | WorkerFailed:
         """Return what it has written; the files can be read until it is stopped.
 
         Args:
             limit: Bytes of the answer; the files have limits of their own.
+            start: Where the answer begins.
+            end: Where it ends; None where the file does.
         """
-        descriptor = self._answer.fileno()
+        size = os.fstat(self._answer.fileno()).st_size
         # A library may end the process with exit code 0 before anything is said.
-        if os.fstat(descriptor).st_size == 0:
-            return Died("ended without an answer")
+        if size == 0:
+            return WorkerFailed("ended without an answer")
         try:
-            answer, files = handed.read(descriptor, limit)
+            if not start <= (size if end is None else end) <= size:
+                raise handed.Damaged("is cut off")
+            answer, files = handed.read(self._answer.fileno(), limit, start, end)
         except handed.Damaged as damage:
-            return Died(f"sent an answer that {damage}")
-        return (answer, files) if answer else Died("ended without an answer")
+            return WorkerFailed(f"sent an answer that {damage}")
+        return (answer, files) if answer else WorkerFailed("ended without an answer")
 
     def stop(self) -> None:
         """End the process, whatever it does; nothing happens if it has ended."""
@@ -177,7 +183,7 @@ class Child:
 
 def ask(
     module: str, request: bytes, limits: Limits, contents: Iterable[tuple[str, Content]] = ()
-) -> bytes | Died:
+) -> bytes | WorkerFailed:
     """Let a process do the work of a module and wait for the answer; see `Child`."""
     return Child(module, request, limits, contents).answer()
 
@@ -207,13 +213,21 @@ def _code(said: bytes) -> int | None:
     return code if code >= 0 or -code in {*signal.Signals} else FAILED
 
 
-def _cause(code: int, limits: Limits) -> str:
+def overdue(limits: Limits) -> WorkerFailed:
+    """Return what is said of a process that was stopped."""
+    return WorkerFailed(f"took longer than {limits.clock_seconds:g} s and was stopped")
+
+
+def cause_of(code: int | None, limits: Limits) -> WorkerFailed:
+    """Return what is said of a process that ended with an exit code other than 0."""
+    if code is None:
+        return WorkerFailed("could not be started")
     if code == OUT_OF_MEMORY:
-        return f"needs more than {limits.memory / 1e6:.0f} MB of memory"
+        return WorkerFailed(f"needs more than {limits.memory / 1e6:.0f} MB of memory")
     if code == -signal.SIGXCPU:
-        return f"needs more than {limits.seconds:g} s of processor time"
+        return WorkerFailed(f"needs more than {limits.seconds:g} s of processor time")
     if code == -signal.SIGKILL:
-        return "was killed: it needs too much time or memory"
+        return WorkerFailed("was killed: it needs too much time or memory")
     if code < 0:
-        return f"crashed (signal {signal.Signals(-code).name})"
-    return "failed with an error"
+        return WorkerFailed(f"crashed (signal {signal.Signals(-code).name})")
+    return WorkerFailed("failed with an error")

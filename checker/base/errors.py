@@ -27,6 +27,16 @@ class NotAtHand(Record):
     applicable: bool = True
 
 
+class WorkerFailed(Record):
+    """No result came of a process: it died, ran out of what it may use, or answered with nonsense.
+
+    Attributes:
+        reason: Why, as the end of a sentence whose subject is the work.
+    """
+
+    reason: str
+
+
 class Parts(Protocol):
     """Gives the parts of a package by their type."""
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from time import monotonic, process_time
 from typing import BinaryIO
 
-from checker.base.record import Record
+from checker.base.errors import WorkerFailed
 from checker.base.sandbox.task import end_with_parent, tighter
 
 _OUT_OF_MEMORY, _FAILED = 71, 70
@@ -29,13 +29,11 @@ _GROWN = 100_000_000
 """Bytes by which works may make their fork grow before the next one is given a new fork."""
 
 
-class Ended(Record):
-    """No result came; the reason ends a sentence whose subject is the work."""
-
-    reason: str
+Forks = Callable[[Sequence[Callable[[], bytes]]], list[bytes | WorkerFailed]]
+"""Does works in forks: `in_forks` with its limits given."""
 
 
-def apart(work: Callable[[], bytes], seconds: int) -> bytes | Ended:
+def in_fork(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed:
     """Return what `work` returns in a fork of this process.
 
     Args:
@@ -43,30 +41,30 @@ def apart(work: Callable[[], bytes], seconds: int) -> bytes | Ended:
         seconds: Of processor time.
     """
     read, code = _forked([work], seconds, math.inf)
-    return read[0] if read and code == 0 else Ended(_cause(code, seconds))
+    return read[0] if read and code == 0 else WorkerFailed(_cause(code, seconds))
 
 
-def all_apart(
+def in_forks(
     works: Sequence[Callable[[], bytes]], seconds: int, until: float, late: str
-) -> list[bytes | Ended]:
+) -> list[bytes | WorkerFailed]:
     """Return what each of several works returns in a fork; one that dies takes no other with it.
 
     They share a fork, since a new one takes as long as a small file. Where it ends, the work at
     which it did is tried once more, the first in a fork of its own.
 
     Args:
-        works: See `apart`.
+        works: See `in_fork`.
         seconds: Of processor time, for each.
         until: When the time for all ends, by `time.monotonic`; none is begun in its last second.
         late: Why those that are left then have no result.
     """
-    results: list[bytes | Ended] = []
+    results: list[bytes | WorkerFailed] = []
     while len(results) < len(works):
         if until - monotonic() < _LEAST:
-            return results + [Ended(late)] * (len(works) - len(results))
+            return results + [WorkerFailed(late)] * (len(works) - len(results))
         read, code = _forked(works[len(results) :], seconds, until)
         in_time = until - monotonic() >= _LEAST
-        results += read or [Ended(_cause(code, seconds) if in_time else late)]
+        results += read or [WorkerFailed(_cause(code, seconds) if in_time else late)]
     return results
 
 

@@ -14,8 +14,8 @@ from typing import Any
 # The versions that a report names.
 
 
-LIBRARIES = ("mujoco", "pin", "trimesh")
-"""What drives the robot, weighs it and reads its meshes: figures may differ between versions."""
+LIBRARIES = ("mujoco", "pin")
+"""What drives the robot and weighs it: figures may differ between versions."""
 
 
 UNKNOWN = "unknown"

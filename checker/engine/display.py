@@ -13,16 +13,16 @@ from checker.base.cache import Cache
 from checker.base.progress import Stages
 from checker.base.record import Record
 from checker.model.robot import Robot
-from checker.physics.mesh.package_meshes import TimedMeshes
+from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.trial import Trial
 from checker.report.report import Display
 from checker.report.scene.builder import scene_of
-from checker.report.scene.early import NO_CHILDREN, EarlyChildren
 from checker.report.scene.glb import glb_of
-from checker.report.scene.mesh_files import MeshFiles, surfaces_of
+from checker.report.scene.mesh_files import MeshFiles
 from checker.report.scene.pictures import Drawing
+from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.report.scene.scene import DisplayScene, Layer
-from checker.report.scene.surface import NoSurfaces, Surfaces
+from checker.report.scene.surfaces import NoSurfaces, Surfaces
 
 if TYPE_CHECKING:
     from checker.physics.trial.trial import Trial
@@ -82,20 +82,20 @@ def without(scene: DisplayScene, layers: Collection[Layer]) -> DisplayScene:
     return replace(scene, links=tuple(links))
 
 
-class Displaying(Record, eq=False, dict=True):
+class RobotDisplay(Record, eq=False, dict=True):
     """The first of some robots, to be shown.
 
     Attributes:
         robots: At least one.
         cache: Where results are kept.
         stages: Told of what takes long.
-        early: Children that wait; whoever has started them ends them.
+        processes: Processes that wait; whoever has started them ends them.
     """
 
     robots: tuple[Robot, ...]
     cache: Cache
     stages: Stages
-    early: EarlyChildren = NO_CHILDREN
+    processes: StartedProcesses = NO_PROCESSES
 
     def begin(self) -> None:
         """Begin to read the meshes and to load what draws, while the caller does something else."""
@@ -129,12 +129,11 @@ class Displaying(Record, eq=False, dict=True):
 
     @cached_property
     def _drawing(self) -> Drawing:
-        return Drawing(self.cache, self.early.artist)
+        return Drawing(self.cache, self.processes.drawing)
 
     @cached_property
     def _surfaces(self) -> MeshFiles | NoSurfaces:
-        robot = self.robots[0]
-        meshes = robot.meshes
-        if isinstance(meshes, TimedMeshes):
-            return surfaces_of(meshes.meshes, robot, self.cache, self.early.looks)
+        meshes = self.robots[0].meshes
+        if isinstance(meshes, PackageMeshes):
+            return MeshFiles(meshes)
         return NoSurfaces()

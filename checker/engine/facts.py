@@ -16,7 +16,7 @@ from checker.model.components import Collision, Visual
 from checker.model.mesh import Mesh
 from checker.model.robot import Robot
 from checker.physics.mass.mass_properties import MassProperties
-from checker.physics.mesh.package_meshes import TimedMeshes
+from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.measures.figures import MEASURES, Measure
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.trial import Measurement, Trial
@@ -169,7 +169,7 @@ def _balance(masses: MassProperties) -> Mapping[str, Any]:
 
 def _meshes_are_known(robot: Robot) -> bool:
     meshes = robot.meshes
-    return isinstance(meshes, TimedMeshes) and (meshes.read or not meshes.number)
+    return isinstance(meshes, PackageMeshes) and meshes.read
 
 
 def _size(robot: Robot) -> list[float] | None:

@@ -48,7 +48,7 @@ KIND = "report"
 _LIBRARIES = (
     *("fast-simplification", "lxml", "markdown-it-py", "mujoco", "numpy", "pillow", "pin"),
     *("pycollada", "pyelftools", "pyyaml", "scipy", "subt-check", "tree-sitter"),
-    *("tree-sitter-ruby", "trimesh", "xacro", "yourdfpy"),
+    *("tree-sitter-ruby", "xacro", "yourdfpy"),
 )
 ENTRIES_LIMIT = 100_000
 """Files beside a package; with more of them, looking at all takes longer than checking."""

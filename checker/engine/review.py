@@ -25,7 +25,7 @@ from checker.report.report import (
     PackageReport,
     ReportedFinding,
 )
-from checker.report.scene.early import NO_CHILDREN, EarlyChildren
+from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.profiles import Profile, profile
@@ -85,7 +85,7 @@ def judged(
     settings: Settings,
     cache: Cache,
     say: Say,
-    early: EarlyChildren = NO_CHILDREN,
+    processes: StartedProcesses = NO_PROCESSES,
 ) -> PackageReport:
     """Return the report of a package; what goes wrong with it is in it, and nothing is raised.
 
@@ -95,7 +95,7 @@ def judged(
         settings: By which rules, and how strictly.
         cache: Where results that take long are kept.
         say: Told what takes long when it begins.
-        early: Children that wait for something to do; they are stopped in the end.
+        processes: Processes that wait for something to do; they are stopped in the end.
 
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.
@@ -103,7 +103,7 @@ def judged(
     settings = settings.suiting(urdf=package.is_urdf)
     stages = Stages(lambda words: say(f"{package.name}: {words}"))
     devices = known_devices(settings.devices)
-    subject = Subject(package, cache, stages, devices, early)
+    subject = Subject(package, cache, stages, devices, processes)
     try:
         if not settings.select:
             # Whatever the rules are, some ask for the meshes: these are read while those load.
@@ -143,8 +143,8 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
     package, judge = subject.package, profile(settings.profile)
     with subject.stages.stage("rules", "rules"):
         subject.start(needed_parts(all_rules(), judge, settings))
-        if settings.display and not isinstance(subject.displaying, NotAtHand):
-            subject.displaying.begin()
+        if settings.display and not isinstance(subject.display, NotAtHand):
+            subject.display.begin()
         outcome = run_and_set_aside(all_rules(), subject, judge, settings)
     blind = [
         NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
@@ -182,10 +182,10 @@ def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
-    if isinstance(subject.displaying, NotAtHand):
+    if isinstance(subject.display, NotAtHand):
         return None, ()
     driven = subject.provided(RobotTrial)
     try:
-        return subject.displaying.made(driven[0].trial if driven else None), ()
+        return subject.display.made(driven[0].trial if driven else None), ()
     except Exception as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
         return None, (crashed("display", error),)

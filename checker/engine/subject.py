@@ -11,7 +11,7 @@ from msgspec import field
 from msgspec.structs import replace
 
 from checker.base.cache import NO_CACHE, Cache
-from checker.base.child_process import Child
+from checker.base.child_server import Server
 from checker.base.disk_file import NotReadable
 from checker.base.errors import NotAtHand
 from checker.base.progress import Stages
@@ -48,16 +48,17 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.robot_mass import weigh
-from checker.physics.mesh.package_meshes import PackageMeshes, TimedMeshes, mesh_uris
+from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
+from checker.physics.mesh.process import mesh_server
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
-from checker.physics.trial.run import Driving
-from checker.physics.views.sensor_views import Viewing
-from checker.report.scene.early import NO_CHILDREN, EarlyChildren
+from checker.physics.trial.run import RobotTrials
+from checker.physics.views.sensor_views import RobotViews
+from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
 if TYPE_CHECKING:
-    from checker.engine.display import Displaying
+    from checker.engine.display import RobotDisplay
 
 T = TypeVar("T")
 
@@ -75,14 +76,14 @@ class Subject(Record, eq=False, dict=True):
         cache: Where results that take long are kept.
         stages: Told of what takes long.
         devices: Sensor devices of which figures are known.
-        early: Children that wait for something to do.
+        processes: Processes that wait for something to do.
     """
 
     package: Package
     cache: Cache = NO_CACHE
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
-    early: EarlyChildren = NO_CHILDREN
+    processes: StartedProcesses = NO_PROCESSES
     _provided: dict[type, Sequence[object]] = field(default_factory=dict)
 
     def part(self, kind: type) -> Sequence[object] | NotAtHand:
@@ -110,10 +111,10 @@ class Subject(Record, eq=False, dict=True):
         driven = twice or RobotTrial in kinds
         if driven or MassProperties in kinds:
             self._begin_meshes()
-        if driven and not isinstance(self.driving, NotAtHand):
-            self.driving.begin(twice=twice)
-        if SensorViews in kinds and not isinstance(self.viewing, NotAtHand):
-            self.viewing.begin()
+        if driven and not isinstance(self.trials, NotAtHand):
+            self.trials.begin(twice=twice)
+        if SensorViews in kinds and not isinstance(self.robot_views, NotAtHand):
+            self.robot_views.begin()
         if UrdfFiles in kinds or UrdfDescription in kinds:
             _ = self.describing
 
@@ -124,17 +125,18 @@ class Subject(Record, eq=False, dict=True):
 
     def _begin_meshes(self) -> None:
         meshes = self.robots[0].meshes if isinstance(self.robots, tuple) else None
-        if isinstance(meshes, TimedMeshes):
+        if isinstance(meshes, PackageMeshes):
             meshes.begin()
 
     def close(self) -> None:
         """End what was begun and nobody asked for."""
-        self.early.stop()
+        self.processes.stop()
+        self.mesh_server.stop()
         robots = self.__dict__.get("robots")
         for robot in robots if isinstance(robots, tuple) else ():
-            if isinstance(robot.meshes, TimedMeshes):
+            if isinstance(robot.meshes, PackageMeshes):
                 robot.meshes.stop()
-        names = ("driving", "describing", "displaying", "viewing")
+        names = ("trials", "describing", "display", "robot_views")
         for each in map(self.__dict__.get, names):
             if each is not None and not isinstance(each, NotAtHand):
                 each.stop()
@@ -213,16 +215,16 @@ class Subject(Record, eq=False, dict=True):
         robots = self._read_robots()
         if isinstance(robots, NotAtHand):
             return robots
-        waiting = (self.early.meshes, *(None for _ in robots))
-        return tuple(
-            replace(robot, meshes=self._meshes(robot, child))
-            for robot, child in zip(robots, waiting, strict=False)
-        )
+        return tuple(replace(robot, meshes=self._meshes(robot)) for robot in robots)
 
-    def _meshes(self, robot: Robot, waiting: Child | None) -> TimedMeshes:
+    def _meshes(self, robot: Robot) -> PackageMeshes:
         uris = mesh_uris(robot)
-        meshes = PackageMeshes(self.package, uris, self.cache, waiting)
-        return TimedMeshes(meshes, len(uris), self.stages)
+        return PackageMeshes(self.package, uris, self.cache, self.stages, self.mesh_server)
+
+    @cached_property
+    def mesh_server(self) -> Server:
+        """The process that reads mesh files; it is started when there is one to read."""
+        return self.processes.meshes or mesh_server()
 
     def _read_robots(self) -> tuple[Robot, ...] | NotAtHand:
         """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
@@ -267,43 +269,45 @@ class Subject(Record, eq=False, dict=True):
         return FirstConfiguration(package.name, robots[0])
 
     @cached_property
-    def driving(self) -> Driving | NotAtHand:
+    def trials(self) -> RobotTrials | NotAtHand:
         """The trials of the robots."""
         if isinstance(self.robots, NotAtHand):
             return self.robots
-        return Driving(self.robots, self.cache, self.stages)
+        return RobotTrials(self.robots, self.cache, self.stages)
 
     @property
     def driven(self) -> tuple[RobotTrial, ...] | NotAtHand:
         """The robots and their trials."""
-        return self.driving if isinstance(self.driving, NotAtHand) else self.driving.once
+        return self.trials if isinstance(self.trials, NotAtHand) else self.trials.once
 
     @property
     def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAtHand:
         """The robots and their trials, also at half the time step."""
-        return self.driving if isinstance(self.driving, NotAtHand) else self.driving.twice
+        return self.trials if isinstance(self.trials, NotAtHand) else self.trials.twice
 
     @cached_property
-    def displaying(self) -> Displaying | NotAtHand:
+    def display(self) -> RobotDisplay | NotAtHand:
         """The robot in 3D; a check that shows nothing loads none of the modules behind it."""
-        from checker.engine.display import Displaying
+        from checker.engine.display import RobotDisplay
 
         had = self.robots
         if isinstance(had, NotAtHand):
             return had
-        return Displaying(had, self.cache, self.stages, self.early)
+        return RobotDisplay(had, self.cache, self.stages, self.processes)
 
     @cached_property
-    def viewing(self) -> Viewing | NotAtHand:
+    def robot_views(self) -> RobotViews | NotAtHand:
         """The views of the robots' sensors."""
         if isinstance(self.robots, NotAtHand):
             return self.robots
-        return Viewing(self.robots, self.cache, self.stages)
+        return RobotViews(self.robots, self.cache, self.stages, self.mesh_server)
 
     @property
     def views(self) -> tuple[SensorViews, ...] | NotAtHand:
         """The robots and what of themselves their sensors see."""
-        return self.viewing if isinstance(self.viewing, NotAtHand) else self.viewing.views
+        return (
+            self.robot_views if isinstance(self.robot_views, NotAtHand) else self.robot_views.views
+        )
 
     @cached_property
     def spawner(self) -> Spawner | NotAtHand:

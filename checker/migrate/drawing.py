@@ -37,11 +37,12 @@ def answer(request: bytes, files: Files) -> bytes:
     """
     shapes = json.loads(request)["shapes"]
     # A renderer that is not there ends MuJoCo's import, so each is tried in a process of its own.
-    from checker.base.forked_work import Ended, apart
+    from checker.base.errors import WorkerFailed
+    from checker.base.forked_work import in_fork
 
     for renderer in _RENDERERS:
-        said = apart(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
-        if not isinstance(said, Ended):
+        said = in_fork(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
+        if not isinstance(said, WorkerFailed):
             return said
     return _unable("OpenGL is not available (EGL or OSMesa)")
 
@@ -124,13 +125,13 @@ def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], content: Content, num
 
 def _corners(file: str, content: Content, scale: Sequence[float]) -> Any:
     """Return the corners of a mesh's triangles, metres; None where it cannot be read."""
-    from checker.physics.mesh.reader import read_surface
-    from checker.physics.mesh.surface import NoSurface
+    from checker.physics.mesh.content import NoSurface
+    from checker.physics.mesh.reader import read_content
 
     if isinstance(content, NotReadable):
         return None
     try:
-        corners = read_surface(content, file).corners.reshape(-1, 3)
+        corners = read_content(content, file).corners.reshape(-1, 3)
     except NoSurface:
         return None
     return corners * scale if len(corners) >= _CORNERS else None

@@ -11,12 +11,13 @@ from typing import Any
 
 from msgspec import field
 
-from checker.base.child_process import NONSENSE, Died, Limits, ask, from_json
+from checker.base.child_process import NONSENSE, Limits, ask, from_json
+from checker.base.errors import WorkerFailed
 from checker.base.record import Record
 from checker.base.sandbox.files import from_disk
 from checker.model.components import Visual
 from checker.model.robot import Robot
-from checker.physics.mesh.limits import SIZE_LIMIT
+from checker.physics.mesh.process import SIZE_LIMIT
 from checker.physics.trial.mjcf.names import quaternion
 
 NAMES = ("1", "2", "3", "4", "5")
@@ -53,7 +54,7 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     files = dict.fromkeys((str(each["file"]) for each in shapes if each["file"]), SIZE_LIMIT)
     limits = Limits(_SECONDS, _MEMORY, draws=True)
     said = ask("checker.migrate.drawing", request, limits, from_disk(files.items()))
-    if isinstance(said, Died):
+    if isinstance(said, WorkerFailed):
         return Thumbnails(trouble=_trouble(f"the process that draws {said.reason}"))
     try:
         answer = from_json(said)

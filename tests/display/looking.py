@@ -11,9 +11,9 @@ from checker.base.cache import NO_CACHE, Cache
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
-from checker.physics.mesh.package_meshes import TimedMeshes
-from checker.report.scene.files.wire import Looked
-from checker.report.scene.mesh_files import MeshFiles, surfaces_of
+from checker.physics.mesh.package_meshes import PackageMeshes
+from checker.physics.mesh.surface import Appearance
+from checker.report.scene.mesh_files import MeshFiles
 from checker.rule_testing import write_example
 
 
@@ -37,8 +37,8 @@ def opened(path: Path, cache: Cache = NO_CACHE) -> Iterator[tuple[Robot, MeshFil
         robots = subject.robots
         assert isinstance(robots, tuple)
         meshes = robots[0].meshes
-        assert isinstance(meshes, TimedMeshes)
-        files = surfaces_of(meshes.meshes, robots[0], cache)
+        assert isinstance(meshes, PackageMeshes)
+        files = MeshFiles(meshes)
         try:
             yield robots[0], files
         finally:
@@ -48,7 +48,7 @@ def opened(path: Path, cache: Cache = NO_CACHE) -> Iterator[tuple[Robot, MeshFil
 
 def looked(
     files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_CACHE
-) -> dict[str, Looked]:
+) -> dict[str, Appearance]:
     """Return what the meshes of a package look like, by their paths.
 
     Args:
@@ -63,4 +63,4 @@ def looked(
     )
     changes = {"@fragment": f'<link name="a">{visuals}</link>', **files}
     with opened(write_example(changes, folder), cache) as (_, found):
-        return {uri.value: found.of(uri) for uri in found.uris}
+        return {uri.value: found.of(uri) for uri in found.meshes.uris}

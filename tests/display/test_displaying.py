@@ -9,10 +9,10 @@ import pytest
 
 from checker.engine import display
 from checker.engine.display import BYTES, display_of
+from checker.physics.mesh.surface import Surface
 from checker.pipeline import check_package
 from checker.report.report import Cause, PackageReport
 from checker.report.scene.scene import Layer
-from checker.report.scene.surface import Surface
 from checker.settings import Settings
 from checker.source.text import Located
 from tests.conftest import SAMPLES

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from checker.model.geometry.transform import Transform
+from checker.physics.mesh.surface import Surface
 from checker.report.scene.glb import glb_of
 from checker.report.scene.glb_meshes import linear
 from checker.report.scene.primitives import box, cylinder
 from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
-from checker.report.scene.surface import Surface
 from tests.display.glb_reader import read_glb
 from tests.effort import examples
 

@@ -11,17 +11,15 @@ import pytest
 
 from checker.base.cache import Cache
 from checker.model.mesh import Mesh
+from checker.physics.mesh.surface import GREY, Appearance, Surface
 from checker.report.scene import mesh_files
-from checker.report.scene.early import looks
-from checker.report.scene.files.wire import Looked
-from checker.report.scene.surface import GREY, Surface
 from tests.display.looking import looked, opened, picture
 from tests.mesh.files import binary_stl, box, cylinder, dae, obj
 
 RED, BLUE = (255, 0, 0), (0, 0, 255)
 
 
-def surfaces(found: Looked) -> tuple[Surface, ...]:
+def surfaces(found: Appearance) -> tuple[Surface, ...]:
     assert not isinstance(found, str), found
     return found
 
@@ -43,7 +41,7 @@ def test_surfaces_of_real_packages_lie_where_the_meshes_do(corpus: Path) -> None
 def _compare_boxes(package: Path) -> int:
     number = 0
     with opened(package) as (_, files):
-        for uri in files.uris:
+        for uri in files.meshes.uris:
             mesh, found = files.meshes.of(uri), files.of(uri)
             if not isinstance(mesh, Mesh):
                 assert found == mesh.reason
@@ -212,7 +210,7 @@ def test_without_its_picture_a_mesh_is_plain(
     [
         ("a.stl", binary_stl(box(1, 1, 1), declared=1_000_000_000), "is cut off"),
         ("a.stl", binary_stl([((float("nan"), 0, 0), (1, 0, 0), (0, 1, 0))]), "nowhere"),
-        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 999999999999\n", "is corrupt"),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 999999999999\n", "names corners"),
         ("a.dae", b"<COLLADA/>" * 2, "is not well-formed XML"),
         ("a.dae", b'<!DOCTYPE a [<!ENTITY b "c">]><COLLADA/>', "document type"),
         ("a.stl", b"", "is empty"),
@@ -253,17 +251,15 @@ def test_what_was_looked_at_is_not_read_again(
         "meshes/a.png": picture({(0, 0): RED, (1, 0): BLUE}),
     }
     (first,) = surfaces(looked(files, tmp_path / "1", cache)["meshes/a.dae"])
-    started: list[object] = []
-    monkeypatch.setattr(mesh_files, "looks", lambda: (started.append(True), looks())[1])
-    (again,) = surfaces(looked(files, tmp_path / "2", cache)["meshes/a.dae"])
-    assert not started
+    with monkeypatch.context() as patch:
+        patch.setattr("checker.base.child_server._Process", None)
+        (again,) = surfaces(looked(files, tmp_path / "2", cache)["meshes/a.dae"])
     assert np.array_equal(first.vertices, again.vertices)
     assert np.array_equal(first.faces, again.faces)
     assert first.vertex_colours is not None
     assert np.array_equal(first.vertex_colours, again.vertex_colours)
     files["meshes/a.png"] = picture({(0, 0): BLUE, (1, 0): RED})
     (painted,) = surfaces(looked(files, tmp_path / "3", cache)["meshes/a.dae"])
-    assert started
     assert not np.array_equal(first.vertex_colours, painted.vertex_colours)
 
 

@@ -10,6 +10,7 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
+from checker.physics.mesh.surface import Surface
 from checker.report.scene.primitives import (
     bar,
     box,
@@ -19,7 +20,6 @@ from checker.report.scene.primitives import (
     joined,
     sphere,
 )
-from checker.report.scene.surface import Surface
 
 LENGTHS = st.floats(0.01, 100.0)
 

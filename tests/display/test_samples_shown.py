@@ -16,16 +16,16 @@ from checker.engine.display import BYTES, display_of, without
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
-from checker.physics.mesh.package_meshes import TimedMeshes
-from checker.physics.trial.run import start_trial
+from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.trial import Trial
 from checker.report.scene.builder import scene_of
 from checker.report.scene.glb import glb_of
-from checker.report.scene.mesh_files import surfaces_of
+from checker.report.scene.mesh_files import MeshFiles
 from checker.report.scene.scene import Layer
-from checker.report.scene.surface import NoSurfaces
+from checker.report.scene.surfaces import NoSurfaces
 from tests.conftest import SAMPLES
 from tests.display.glb_reader import Glb, read_glb
+from tests.trial.machines import trial_in_child
 
 NAMES = sorted(folder.name for folder in SAMPLES.iterdir() if (folder / "package.xml").is_file())
 HUSKY = "husky_migration_sensor_config_1"
@@ -49,7 +49,7 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def trial_of(robot: Robot, cache: Path) -> Trial:
-    trial = start_trial(robot, Cache(cache)).result()
+    trial = trial_in_child(robot, Cache(cache))
     assert isinstance(trial, Trial)
     return trial
 
@@ -57,8 +57,8 @@ def trial_of(robot: Robot, cache: Path) -> Trial:
 @pytest.mark.parametrize("name", NAMES)
 def test_every_sample_is_shown_as_large_as_it_is(name: str, kept: Path) -> None:
     with robot_of(SAMPLES / name, kept) as robot:
-        assert isinstance(robot.meshes, TimedMeshes)
-        surfaces = surfaces_of(robot.meshes.meshes, robot, Cache(kept))
+        assert isinstance(robot.meshes, PackageMeshes)
+        surfaces = MeshFiles(robot.meshes)
         scene = scene_of(robot, None, surfaces)
         marks = set(Layer) - {Layer.VISUAL, Layer.COLLISION}
         shown = trimesh.load(io.BytesIO(glb_of(without(scene, marks))), file_type="glb")
@@ -164,8 +164,8 @@ def test_real_packages_are_shown_within_the_limit(corpus: Path, kept: Path) -> N
                 robots = subject.robots
                 if not isinstance(robots, tuple):
                     continue
-                assert isinstance(robots[0].meshes, TimedMeshes)
-                surfaces = surfaces_of(robots[0].meshes.meshes, robots[0], Cache(kept))
+                assert isinstance(robots[0].meshes, PackageMeshes)
+                surfaces = MeshFiles(robots[0].meshes)
                 display = display_of(robots[0], trial_of(robots[0], kept), surfaces)
                 assert display is not None, package.name
                 assert len(display.glb) <= BYTES, package.name

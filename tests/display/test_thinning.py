@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.report.scene.files.thinning import joined, shares, thinned
-from checker.report.scene.files.wire import from_json, to_json
-from checker.report.scene.surface import GREY, Surface
+from checker.physics.mesh.surface import GREY, Surface, appearance_from_json, appearance_to_json
+from checker.physics.mesh.thinning import joined, shares, thinned
 from tests.mesh.files import box, cylinder
 
 COUNTS = st.lists(st.integers(0, 10**9), min_size=1, max_size=50)
@@ -72,13 +71,13 @@ def test_equal_corners_become_one_where_they_have_the_same_place_in_the_picture(
 @pytest.mark.parametrize("colours", [False, True])
 def test_surfaces_survive_json(colours: bool) -> None:
     surface = _surface(colours)
-    (found,) = from_json(to_json((surface,)))
+    (found,) = appearance_from_json(appearance_to_json((surface,)))
     assert isinstance(found, Surface)
     assert np.array_equal(found.vertices, surface.vertices)
     assert np.array_equal(found.faces, surface.faces)
     assert found.colour == surface.colour
     assert (found.vertex_colours is None) is not colours
-    assert from_json(to_json("is empty")) == "is empty"
+    assert appearance_from_json(appearance_to_json("is empty")) == "is empty"
 
 
 @pytest.mark.parametrize(
@@ -93,7 +92,7 @@ def test_surfaces_survive_json(colours: bool) -> None:
     ],
 )
 def test_nonsense_is_no_surface(changes: dict[str, object]) -> None:
-    said = to_json((joined(np.array(box(1, 1, 1)), GREY, None, None),))
+    said = appearance_to_json((joined(np.array(box(1, 1, 1)), GREY, None, None),))
     said["surfaces"][0].update(changes)
     with pytest.raises(ValueError, match=r"."):
-        from_json(said)
+        appearance_from_json(said)

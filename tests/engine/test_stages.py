@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from time import sleep
 
+from tests.examples import write_example
+
 from checker.base.progress import Stages
+from checker.engine.subject import Subject
 from checker.model.mesh import Mesh
-from checker.physics.mesh.package_meshes import TimedMeshes
-from checker.source.text import Located, SourceText
+from checker.package.inputs import open_input
+from checker.physics.mesh.package_meshes import PackageMeshes
+from tests.mesh.files import binary_stl, box
 
 
 def test_a_stage_is_said_and_timed() -> None:
@@ -38,18 +43,25 @@ def test_a_stage_that_fails_is_timed_all_the_same() -> None:
     assert "rules" in stages.seconds
 
 
-class Meshes:
-    def of(self, uri: Located[str]) -> Mesh:
-        return Mesh(uri.value, "stl", 12, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
-
-
-def test_the_first_mesh_stands_for_the_reading_of_all() -> None:
+def test_the_first_mesh_stands_for_the_reading_of_all(tmp_path: Path) -> None:
     said: list[str] = []
-    meshes = TimedMeshes(Meshes(), 2, Stages(said.append))
-    assert not meshes.read
-    for name in ("a.stl", "b.stl"):
-        mesh = meshes.of(Located(name, SourceText("model.sdf", name).whole()))
-        assert isinstance(mesh, Mesh)
-        assert mesh.path == name
-    assert meshes.read
+    shapes = "".join(
+        f'<visual name="{n}"><geometry><mesh><uri>{n}.stl</uri></mesh></geometry></visual>'
+        for n in "ab"
+    )
+    files = {"a.stl": binary_stl(box(1, 1, 1)), "b.stl": binary_stl(box(1, 1, 2))}
+    example = {"@fragment": f'<link name="a">{shapes}</link>', **files}
+    with open_input(write_example(example, tmp_path)) as opened:
+        subject = Subject(opened.packages[0], stages=Stages(said.append))
+        robots = subject.robots
+        assert isinstance(robots, tuple)
+        meshes = robots[0].meshes
+        assert isinstance(meshes, PackageMeshes)
+        assert not meshes.read
+        for uri, name in zip(meshes.uris, files, strict=True):
+            mesh = meshes.of(uri)
+            assert isinstance(mesh, Mesh)
+            assert mesh.path == name
+        assert meshes.read
+        subject.close()
     assert said == ["reading 2 meshes"]

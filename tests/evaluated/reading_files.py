@@ -11,7 +11,7 @@ from pathlib import Path
 from checker.base.errors import InvalidSettings
 from checker.expand.launch.expansion import expand_launch
 from checker.model.values import ValueReader
-from checker.report.scene.files.painting import picture
+from checker.physics.mesh.appearance import picture
 from checker.settings import FILE_NAME, find_settings
 from checker.source.cmake import read_cmake
 from checker.source.markdown import read_markdown

@@ -31,7 +31,6 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/rulebook/discovery.py", MODULE): "the modules of installed packages of rules",
     ("checker/cli/doctor/library_imports.py", MODULE): "what our own distribution requires",
     ("checker/service/jobs/check_child.py", MODULE): "a list of our own modules",
-    ("checker/physics/mesh/reader.py", MODULE): "one of two libraries, named there",
     ("checker/cli/commands.py", ATTRIBUTE): "options of the command line, named there",
     ("checker/base/record.py", ATTRIBUTE): "fields of our own records",
     ("checker/__init__.py", MODULE): "the modules of the API, named there",

@@ -148,7 +148,7 @@ def test_one_that_reads_meshes_waits_beside_it(
     outcome = check_file(store, children, lambda: seen.update(tasks()), archive, "husky.zip")
     assert isinstance(outcome, Checked)
     assert reader in seen
-    assert list((store.folder / "parts").glob("*/*/cache/mesh/*/*.json"))
+    assert list((store.folder / "parts").glob("*/*/cache/facts/*/*.json"))
     assert not is_alive(reader)
 
 
@@ -160,7 +160,7 @@ def test_one_that_reads_meshes_and_died_is_not_missed(
     killed(wait_for(WAITING)[1])
     outcome = check_file(store, children, lambda: None, archive, "husky.zip")
     assert isinstance(outcome, Checked)
-    assert list((store.folder / "parts").glob("*/*/cache/mesh/*/*.json"))
+    assert list((store.folder / "parts").glob("*/*/cache/facts/*/*.json"))
 
 
 def test_none_waits_after_the_end_and_a_check_goes_on(store: Store, children: Children) -> None:
@@ -196,7 +196,7 @@ def test_what_a_check_has_worked_out_serves_the_same_upload_alone(
     for data in (archive, archive + b"\0"):
         assert isinstance(check_file(store, children, lambda: None, data, "a.zip"), Checked)
     kept = [
-        {path.name for path in each.rglob("mesh/*/*")} for each in store.folder.glob("parts/*/*")
+        {path.name for path in each.rglob("facts/*/*")} for each in store.folder.glob("parts/*/*")
     ]
     assert len(kept) == 2
     assert kept[0] == kept[1] != set()

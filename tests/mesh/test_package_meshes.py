@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from checker.base.cache import NO_CACHE, Cache
-from checker.base.child_process import Child, Died
+from checker.base.child_server import Asked, Server
+from checker.base.errors import WorkerFailed
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
-from checker.physics.mesh import package_meshes
-from checker.physics.mesh.early import early_child
-from checker.physics.mesh.uris import MeshFile
-from checker.report.scene.early import EarlyChildren
+from checker.physics.mesh import process
+from checker.physics.mesh.process import are_new, mesh_server
+from checker.report.scene.processes import StartedProcesses
 from checker.rule_testing import NAME, write_example
 from tests.mesh.files import binary_stl, box, dae, obj
 
@@ -94,12 +96,13 @@ def test_one_content_under_two_names_is_read_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[int] = []
-    start = package_meshes._started
-    monkeypatch.setattr(
-        package_meshes,
-        "_started",
-        lambda files, waiting: asked.append(len(files)) or start(files, waiting),
-    )
+    give = Server.give
+
+    def counted(server: Server, request: bytes, contents: Any) -> Asked:
+        asked.append(len(json.loads(request)["items"]))
+        return give(server, request, contents)
+
+    monkeypatch.setattr(Server, "give", counted)
     one, other = read({"meshes/a.stl": CUBE, "meshes/b.stl": CUBE}, tmp_path)
     assert asked == [1]
     assert isinstance(one, Mesh)
@@ -131,7 +134,7 @@ def test_faults_of_one_file_leave_the_others(tmp_path: Path) -> None:
 def test_a_file_that_brings_its_reader_down_takes_no_other_with_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(package_meshes, "SECONDS_FOR_ONE", 2)
+    monkeypatch.setattr(process, "SECONDS_FOR_ONE", 2)
     # Nodes that show others ten times each, nine levels deep: a billion cubes.
     levels = "".join(
         f'<node id="n{level}">' + f'<instance_node url="#n{level - 1}"/>' * 10 + "</node>"
@@ -161,11 +164,11 @@ def test_results_are_kept_and_no_library_is_loaded_for_them(tmp_path: Path) -> N
     script = f"""
 import sys
 from pathlib import Path
-from checker import confined
-from checker.cache import Cache
-from checker.package.opening import open_input
-from checker.subject import Subject
-confined.Child = None
+from checker.base import child_server
+from checker.base.cache import Cache
+from checker.engine.subject import Subject
+from checker.package.inputs import open_input
+child_server._Process = None
 with open_input(Path({str(tmp_path / NAME)!r})) as opened:
     robot, = Subject(opened.packages[0], Cache(Path({str(tmp_path / "cache")!r}))).robots
     print([use.file for use in robot.mesh_uses])
@@ -186,28 +189,35 @@ def test_a_foreign_entry_in_the_cache_is_read_anew(tmp_path: Path) -> None:
 
 def test_what_was_given_up_is_tried_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     cache = Cache(tmp_path / "cache")
-    gave_up = MeshFault(MeshTrouble.NOT_LOOKED_AT, "took too long")
+    gave_up = {"trouble": "not looked at", "reason": "took too long"}
     with monkeypatch.context() as patch:
-        patch.setattr(package_meshes, "_answered", lambda _, number: [gave_up] * number)
-        assert read({"meshes/a.stl": CUBE}, tmp_path, cache) == [gave_up]
+        answer = json.dumps([{"fault": gave_up}]).encode()
+        patch.setattr(Asked, "answer", lambda _: answer)
+        (found,) = read({"meshes/a.stl": CUBE}, tmp_path, cache)
+        assert found == MeshFault(MeshTrouble.NOT_LOOKED_AT, "took too long")
     assert isinstance(read({"meshes/a.stl": CUBE}, tmp_path, cache)[0], Mesh)
 
 
-@pytest.mark.parametrize("answer", [b"nonsense", b"[]", b"[1]", Died("crashed")])
+@pytest.mark.parametrize("answer", [b"nonsense", b"[]", b"[1]", WorkerFailed("crashed")])
 def test_no_proper_answer(
-    answer: bytes | Died, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    answer: bytes | WorkerFailed, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Child, "answer", lambda _: answer)
+    monkeypatch.setattr(Asked, "answer", lambda _: answer)
     (found,) = read({"meshes/a.stl": CUBE}, tmp_path)
     assert isinstance(found, MeshFault)
     assert found.trouble is MeshTrouble.NOT_LOOKED_AT
 
 
 def test_a_reading_that_was_begun_can_be_ended(tmp_path: Path) -> None:
-    (tmp_path / "a.stl").write_bytes(CUBE)
-    started = package_meshes._started([MeshFile("a.stl", tmp_path / "a.stl")], None)
-    started.stop()
-    assert isinstance(package_meshes._answered(started, 1)[0], MeshFault)
+    changes = {"@fragment": f'<link name="a">{fragment("meshes/a.stl")}</link>'}
+    with open_input(write_example({**changes, "meshes/a.stl": CUBE}, tmp_path)) as opened:
+        subject = Subject(opened.packages[0])
+        subject.start_meshes()
+        subject.close()
+        robots = subject.robots
+        assert isinstance(robots, tuple)
+        assert isinstance(robots[0].mesh_uses[0].file, MeshFault)
+        assert not subject.mesh_server.alive
 
 
 def test_a_child_that_waits_reads_what_it_is_given(
@@ -217,33 +227,35 @@ def test_a_child_that_waits_reads_what_it_is_given(
     changes = {"@fragment": f'<link name="a">{fragment("meshes/a.stl")}</link>'}
     package = write_example({**changes, "meshes/a.stl": CUBE}, tmp_path)
     with open_input(package) as opened:
-        child = early_child(opened.packages[0], cache)
-        assert child is not None
-        monkeypatch.setattr(package_meshes, "Child", None)  # no other is started
-        robots = Subject(opened.packages[0], cache, early=EarlyChildren(child)).robots
+        assert are_new(opened.packages[0], cache)
+        server = mesh_server().start()
+        monkeypatch.setattr("checker.base.child_server._Process", None)  # no other is started
+        subject = Subject(opened.packages[0], cache, processes=StartedProcesses(server))
+        robots = subject.robots
         assert isinstance(robots, tuple)
         (use,) = robots[0].mesh_uses
         assert isinstance(use.file, Mesh)
-        assert early_child(opened.packages[0], cache) is None
+        assert not are_new(opened.packages[0], cache)
+        subject.close()
         # One that no robot names stays unknown, and is no reason to start the child each time.
         (package / "meshes" / "unused.stl").write_bytes(CUBE[:-1])
     with open_input(package) as again:
-        assert early_child(again.packages[0], cache) is None
+        assert not are_new(again.packages[0], cache)
 
 
 def test_a_child_that_waits_in_vain_is_ended(tmp_path: Path) -> None:
     package = write_example({"meshes/a.stl": CUBE}, tmp_path)
     with open_input(package) as opened:
-        child = early_child(opened.packages[0], Cache(tmp_path / "cache"))
-        assert child is not None
-        Subject(opened.packages[0], early=EarlyChildren(child)).close()
-    assert isinstance(child.answer(), Died)
+        server = mesh_server().start()
+        assert server.alive
+        Subject(opened.packages[0], processes=StartedProcesses(server)).close()
+    assert not server.alive
 
 
 def test_a_file_that_is_too_large_is_not_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(package_meshes, "SIZE_LIMIT", 100)
+    monkeypatch.setattr(process, "SIZE_LIMIT", 100)
     (found,) = read({"meshes/a.stl": CUBE}, tmp_path)
     assert isinstance(found, MeshFault)
     assert found.trouble is MeshTrouble.NOT_LOOKED_AT

@@ -4,14 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from checker.base.background import Background
+from checker.base.cache import NO_CACHE, Cache
+from checker.base.errors import WorkerFailed
 from checker.model.robot import Robot
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.mjcf.scene import build_scene
+from checker.physics.trial.run import start_trial
 from checker.physics.trial.trial import Trial
 from checker.physics.trial.worker import driven
 from tests.model.robots import sdf
 
 STEP = 0.002
+
+
+def trial_in_child(robot: Robot, cache: Cache = NO_CACHE) -> Trial | WorkerFailed | str:
+    """Return the trial of a robot as a check has it made, or why it has none."""
+    started = start_trial(robot, cache)
+    return started.result() if isinstance(started, Background) else started
 
 
 def box_inertia(mass: float, x: float, y: float, z: float) -> str:

@@ -9,21 +9,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.base.cache import NO_CACHE
 from checker.model.robot import Robot
 from checker.physics.trial.mjcf.carriers import TRACKED, carriers_of
 from checker.physics.trial.mjcf.scene import build_scene
-from checker.physics.trial.run import start_trial
 from checker.physics.trial.trial import Replay, Trial
 from tests.model.robots import sdf
-from tests.trial.machines import four_wheels
+from tests.trial.machines import four_wheels, trial_in_child
 from tests.trial.scenes import joint, link
 
 NUMBERS = st.floats(width=32, allow_nan=False, allow_infinity=False)
 
 
 def replay_of(robot: Robot) -> Replay | None:
-    trial = start_trial(robot, NO_CACHE).result()
+    trial = trial_in_child(robot)
     assert isinstance(trial, Trial)
     return trial.replay
 
@@ -80,7 +78,7 @@ def test_robots_of_very_many_moving_links_have_no_replay() -> None:
 
     assert len(carriers_of(build_scene(star(TRACKED)))) == TRACKED
     assert not carriers_of(build_scene(star(TRACKED + 1)))
-    trial = start_trial(star(TRACKED + 1), NO_CACHE).result()
+    trial = trial_in_child(star(TRACKED + 1))
     assert isinstance(trial, Trial)
     assert trial.replay is None
     assert f"more than {TRACKED} links move, so there is no replay of the trial" in trial.notes

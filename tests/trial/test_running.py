@@ -6,12 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from checker.base.cache import NO_CACHE, Cache
+from checker.base.background import Background
+from checker.base.cache import Cache
+from checker.base.errors import WorkerFailed
 from checker.model.robot import Robot
 from checker.physics.trial.run import start_trial
 from checker.physics.trial.trial import Trial
 from tests.model.robots import sdf
-from tests.trial.machines import chassis, four_wheels, wheel
+from tests.trial.machines import chassis, four_wheels, trial_in_child, wheel
 
 
 def chain(count: int) -> Robot:
@@ -53,31 +55,35 @@ LOOP = "".join(
     ids=lambda _: "robot",
 )
 def test_a_hostile_robot_ends_as_a_trial_or_a_reason(robot: Robot) -> None:
-    assert isinstance(start_trial(robot, NO_CACHE).result(), Trial | str)
+    assert isinstance(trial_in_child(robot), Trial | WorkerFailed | str)
 
 
 def test_five_thousand_links_end_within_the_limits() -> None:
-    assert isinstance(start_trial(chain(5000), NO_CACHE).result(), Trial | str)
+    assert isinstance(trial_in_child(chain(5000)), Trial | WorkerFailed | str)
 
 
 def test_a_robot_without_collisions_is_no_trial() -> None:
-    outcome = start_trial(sdf('<link name="base_link"/>'), NO_CACHE).result()
+    outcome = trial_in_child(sdf('<link name="base_link"/>'))
     assert isinstance(outcome, str)
 
 
 def test_a_trial_is_kept(tmp_path: Path) -> None:
     cache, robot = Cache(tmp_path), four_wheels()
-    first = start_trial(robot, cache).result()
+    first = trial_in_child(robot, cache)
     again = start_trial(robot, cache)
+    assert isinstance(again, Background)
     assert again.known
     assert again.result() == first
-    assert not start_trial(robot, cache, thorough=True).known
-    assert not start_trial(four_wheels(mass=21), cache).known
+    others = start_trial(robot, cache, thorough=True), start_trial(four_wheels(mass=21), cache)
+    for other in others:
+        assert isinstance(other, Background)
+        assert not other.known
+        other.stop()
 
 
 def test_an_entry_that_is_no_trial_is_driven_again(tmp_path: Path) -> None:
     cache, robot = Cache(tmp_path), four_wheels()
-    first = start_trial(robot, cache).result()
+    first = trial_in_child(robot, cache)
     (entry,) = tmp_path.glob("trial/*/*")
     entry.write_text('{"drive": 1}')
-    assert start_trial(robot, cache).result() == first
+    assert trial_in_child(robot, cache) == first

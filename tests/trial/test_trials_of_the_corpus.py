@@ -6,12 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.base.cache import NO_CACHE
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
-from checker.physics.trial.run import start_trial
 from checker.physics.trial.trial import Trial
-from tests.trial.machines import value
+from tests.trial.machines import trial_in_child, value
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +19,7 @@ def trials(corpus: Path) -> dict[str, Trial]:
         for package in opened.packages:
             robots = Subject(package).robots
             if isinstance(robots, tuple):
-                trial = start_trial(robots[0], NO_CACHE).result()
+                trial = trial_in_child(robots[0])
                 assert isinstance(trial, Trial), f"{package.name}: {trial}"
                 found[package.name] = trial
     return found

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from checker.base.cache import NO_CACHE
-from checker.physics.trial.run import start_trial
 from checker.physics.trial.trial import Trial
 from tests.model.robots import sdf
 from tests.trial.machines import (
@@ -13,6 +11,7 @@ from tests.trial.machines import (
     diff_drive,
     four_wheels,
     sound,
+    trial_in_child,
     trial_of,
     value,
     wheel,
@@ -52,7 +51,7 @@ def test_two_runs_are_the_same_to_the_bit() -> None:
 
 def test_the_child_measures_what_this_process_measures() -> None:
     robot = four_wheels()
-    trial = start_trial(robot, NO_CACHE).result()
+    trial = trial_in_child(robot)
     assert isinstance(trial, Trial)
     assert trial == Trial.from_json(trial_of(robot).as_json())
 

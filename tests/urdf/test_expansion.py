@@ -153,12 +153,12 @@ def test_what_was_expanded_is_kept(
     package = describe({FILE: robot('<link name="${1 + 1}"/>')}).package
     cache = Cache(tmp_path / "cache")
     assert links(Subject(package, cache)) == ["2"]
-    monkeypatch.setattr("checker.expand.xacro.expansion.Child", None)
+    monkeypatch.setattr("checker.base.background.Child", None)
     assert links(Subject(package, cache)) == ["2"]
 
 
 def test_a_plain_urdf_needs_no_process(describe: Describe, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.expand.xacro.expansion.Child", None)
+    monkeypatch.setattr("checker.base.background.Child", None)
     plain = f'<robot name="acme">{BASE}</robot>'
     assert links(describe({f"{NAME}/urdf/acme.urdf": plain})) == ["base"]
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.base.forked_work import Ended, apart
+from checker.base.errors import WorkerFailed
+from checker.base.forked_work import in_fork
 from checker.expand.xacro import worker
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from tests.urdf.conftest import NAME, Describe, robot
@@ -144,6 +145,6 @@ def test_behind_the_guard_nothing_opens(way: str) -> None:
             return json.dumps(f"refused: {refusal}").encode()
         return b'"escaped"'
 
-    result = apart(work, 5)
-    assert not isinstance(result, Ended)
+    result = in_fork(work, 5)
+    assert not isinstance(result, WorkerFailed)
     assert json.loads(result).startswith("refused")

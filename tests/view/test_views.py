@@ -11,7 +11,7 @@ from checker.base.cache import NO_CACHE, Cache
 from checker.engine.subject import Subject
 from checker.model.sensing.view import SensorViews
 from checker.package.inputs import open_input
-from checker.physics.views import sensor_views
+from checker.physics.mesh import process
 from checker.rule_testing import write_example
 from tests.mesh.files import binary_stl, box
 
@@ -96,7 +96,7 @@ def test_an_answer_is_kept_and_holds_while_nothing_changes(
 ) -> None:
     cache, files = Cache(tmp_path / "cache"), {"meshes/a.stl": PLATE}
     one = views(mesh("meshes/a.stl"), tmp_path / "one", files, cache)
-    monkeypatch.setattr(sensor_views, "Child", None)
+    monkeypatch.setattr("checker.base.child_server._Process", None)
     same = views(mesh("meshes/a.stl"), tmp_path / "two", files, cache)
     assert [view.filled for view in same.views] == [view.filled for view in one.views]
     with pytest.raises(TypeError):
@@ -137,8 +137,7 @@ def test_lengths_of_any_kind_do_no_harm(size: str, pose: str, tmp_path: Path) ->
 def test_a_child_that_fails_leaves_a_reason(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sensor_views, "SECONDS_FOR_ALL", 1)
-    monkeypatch.setattr(sensor_views, "MEMORY", 1_000_000)
+    monkeypatch.setattr(process, "MEMORY", 1_000_000)
     found = views(mesh("meshes/a.stl"), tmp_path, {"meshes/a.stl": PLATE})
     assert not found.views
     assert found.unseen[0].startswith("the views of the sensors were not computed")

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from checker.base.forked_work import Ended, apart
+from checker.base.errors import WorkerFailed
+from checker.base.forked_work import in_fork
 from checker.expand.xacro.included_texts import Gathered
 from checker.expand.xacro.paths import path_of
 from checker.package.inputs import open_input
@@ -46,8 +47,8 @@ def compared(gathered: Gathered, path: str) -> dict[str, Any]:
     """Return `number` of expressions evaluated for a file, and those that differ, as `others`."""
     for _ in range(_ROUNDS):
         request = gathered.request(())
-        result = apart(lambda request=request: _compare(request, path), _SECONDS)  # type: ignore[misc]
-        assert not isinstance(result, Ended), (path, result)
+        result = in_fork(lambda request=request: _compare(request, path), _SECONDS)  # type: ignore[misc]
+        assert not isinstance(result, WorkerFailed), (path, result)
         found: dict[str, Any] = json.loads(result)
         if "missing" not in found:
             return found

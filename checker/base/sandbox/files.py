@@ -35,14 +35,15 @@ class Damaged(ValueError):
 class Files:
     """Files that came with a message, by name."""
 
-    def __init__(self, table: Mapping[str, Any], descriptor: int) -> None:
+    def __init__(self, table: Mapping[str, Any], descriptor: int, start: int = 0) -> None:
         """Read nothing yet.
 
         Args:
             table: By name, where a file begins and how long it is, or why it could not be read.
             descriptor: Of what holds them; it stays open as long as this object is used.
+            start: From where in it the table counts.
         """
-        self._table, self._descriptor = table, descriptor
+        self._table, self._descriptor, self._start = table, descriptor, start
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -58,7 +59,7 @@ class Files:
         """Return what is in a file, or why it is not known."""
         match self._table.get(name):
             case [int(at), int(length)]:
-                return os.pread(self._descriptor, length, at)
+                return os.pread(self._descriptor, length, self._start + at)
             case str(reason):
                 return NotReadable(name, reason)
         return NotReadable(name, "was not passed to this process")
@@ -69,7 +70,7 @@ class Files:
             case [int(at), int(length)]:
                 for begin in range(at, at + length, _PIECE):
                     piece = min(_PIECE, at + length - begin)
-                    to.write(os.pread(self._descriptor, piece, begin))
+                    to.write(os.pread(self._descriptor, piece, self._start + begin))
 
 
 NO_FILES = Files({}, -1)
@@ -79,7 +80,7 @@ def write(file: BinaryIO, message: bytes, contents: Iterable[tuple[str, Content]
     """Write a message and files.
 
     Args:
-        file: Empty.
+        file: Empty, or at its end.
         message: Of any form.
         contents: Names and what is in them; one at a time is held in memory.
 
@@ -113,26 +114,31 @@ def from_disk(wanted: Iterable[tuple[str, int]]) -> Iterable[tuple[str, Content]
         yield path, read_bytes(Path(path), path, limit)
 
 
-def read(descriptor: int, limit: int) -> tuple[bytes, Files]:
+def read(
+    descriptor: int, limit: int, start: int = 0, end: int | None = None
+) -> tuple[bytes, Files]:
     """Return the message and the files that somebody has written.
 
     Args:
         descriptor: Of what they were written to; whoever wrote may be hostile.
         limit: Bytes of the message.
+        start: Where they begin.
+        end: Where they end; where the file does when None.
 
     Raises:
         Damaged: It is something else, or too long.
     """
-    size = os.fstat(descriptor).st_size
-    tail = os.pread(descriptor, _TAIL, max(0, size - _TAIL))
+    size = (os.fstat(descriptor).st_size if end is None else end) - start
+    tail = os.pread(descriptor, _TAIL, start + max(0, size - _TAIL))
     message, table = (int.from_bytes(each, "big") for each in (tail[:_LENGTH], tail[_LENGTH:]))
     at = size - _TAIL - table - message
     if len(tail) < _TAIL or at < 0:
         raise Damaged("is cut off")
     if message > limit or table > TABLE_LIMIT or at > FILES_LIMIT:
         raise Damaged(f"has {size / 1e6:.1f} MB, which is more than the limit")
-    said = os.pread(descriptor, message, at)
-    return said, Files(_checked(os.pread(descriptor, table, at + message), at), descriptor)
+    said = os.pread(descriptor, message, start + at)
+    entries = _checked(os.pread(descriptor, table, start + at + message), at)
+    return said, Files(entries, descriptor, start)
 
 
 def _checked(said: bytes, end: int) -> dict[str, Any]:

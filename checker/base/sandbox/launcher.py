@@ -45,6 +45,7 @@ class Order(Record):
         works: Whether it writes into the working folder, and asks for processes itself.
         draws: Whether it may use graphics cards.
         serves: Whether its request is a socket, by which it answers many (`serve` of its module).
+        lasts: Whether it answers one request after the other (see `checker.base.child_server`).
     """
 
     module: str
@@ -53,6 +54,7 @@ class Order(Record):
     works: bool = False
     draws: bool = False
     serves: bool = False
+    lasts: bool = False
 
 
 class Started(Record):
@@ -76,20 +78,21 @@ class Launcher:
         self._control = control
         self._lock = threading.Lock()
 
-    def start(self, order: Order, request: BinaryIO, answer: BinaryIO) -> Started:
+    def start(self, order: Order, request: BinaryIO, answer: BinaryIO, *more: int) -> Started:
         """Have a process started; it waits for its request.
 
         Args:
             order: What it does.
             request: The file that its request will be written into.
             answer: The file that it writes its answer into.
+            more: The descriptor by which it says that an answer is there, if it lasts.
 
         Raises:
             OSError: There is nobody to start it.
         """
         input, ours = os.pipe()
         code, theirs = os.pipe()
-        handed = (input, request.fileno(), answer.fileno(), theirs)
+        handed = (input, request.fileno(), answer.fileno(), theirs, *more)
         try:
             with self._lock:
                 message = json.dumps(to_builtins(order)).encode()

@@ -5,8 +5,8 @@ nobody's files. Each process that it starts runs one function of one module in t
 
 On the socket comes one JSON object a message (`Order` in `checker.base.sandbox.launcher`), with the
 descriptors of the new process: its input, the file of its request, that of its answer, and a pipe
-for its exit code. Who lets go of the other end of the input has the process killed. When the
-socket closes, all of them end.
+for its exit code; and where it lasts, one more to say that an answer is there. Who lets go of the
+other end of the input has the process killed. When the socket closes, all of them end.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ from checker.base.sandbox.task import run
 MESSAGE_LIMIT = 4096
 """Bytes of one message."""
 DESCRIPTORS = 4
+"""That come with an order; one more where the process lasts."""
 _MOST_DESCRIPTORS = 1_048_576
 """That come with the order to start a process."""
 _GONE = select.POLLHUP | select.POLLERR | select.POLLNVAL
@@ -88,10 +89,10 @@ class LauncherProcess:
     def _heed(self, control: socket.socket) -> bool:
         """Do what a message asks for; False if there will be none any more."""
         try:
-            message, descriptors, _, _ = socket.recv_fds(control, MESSAGE_LIMIT, DESCRIPTORS)
+            message, descriptors, _, _ = socket.recv_fds(control, MESSAGE_LIMIT, DESCRIPTORS + 1)
         except ConnectionError:  # closed before all that was said to it was read
             message, descriptors = b"", []
-        if message and len(descriptors) == DESCRIPTORS:
+        if message and len(descriptors) >= DESCRIPTORS:
             # What asks may have been taken over, and the system may have no room for a process.
             with suppress(OSError, ValueError, TypeError):
                 self._start(json.loads(message), descriptors)
@@ -105,25 +106,27 @@ class LauncherProcess:
 
     def _start(self, order: dict[str, Any], descriptors: Sequence[int]) -> None:
         """Start a process; where this fails, nobody has taken the descriptors."""
-        input, request, answer, code = descriptors
+        input, request, answer, code, *more = descriptors
         id = os.fork()
         if id == 0:
-            os._exit(self._be(order, input, request, answer))
-        os.close(request)
-        os.close(answer)
+            os._exit(self._be(order, input, request, answer, *more))
+        for each in (request, answer, *more):
+            os.close(each)
         self._processes[id] = _Process(id, input, code)
         # What is written into it is for the process; here only its end counts.
         self._poll.register(input, 0)
 
-    def _be(self, order: dict[str, Any], input: int, request: int, answer: int) -> int:
+    def _be(
+        self, order: dict[str, Any], input: int, request: int, answer: int, done: int = -1
+    ) -> int:
         """Be the new process; return its exit code."""
         signal.set_wakeup_fd(-1)
         for each in (signal.SIGCHLD, signal.SIGALRM):
             signal.signal(each, signal.SIG_DFL)
         os.setpgid(0, 0)
         inner = self._inner_client.fileno() if order["works"] else -1
-        _close_all_but({input, request, answer, inner})
-        return run(order, self._sandbox, (input, request, answer, inner))
+        _close_all_but({input, request, answer, inner, done})
+        return run(order, self._sandbox, (input, request, answer, inner, done))
 
     def _reap(self) -> None:
         """Tell how processes ended."""

@@ -12,6 +12,8 @@ import socket
 from collections.abc import Iterable
 from contextlib import suppress
 from importlib import import_module
+from struct import Struct
+from types import ModuleType
 from typing import Any, BinaryIO
 
 from checker.base.sandbox.files import Content, read, write
@@ -22,6 +24,8 @@ Answer = bytes | tuple[bytes, Iterable[tuple[str, Content]]]
 OUT_OF_MEMORY, FAILED = 71, 70
 """Exit codes, as in sysexits.h: EX_OSERR, EX_SOFTWARE."""
 _PR_SET_PDEATHSIG = 1
+PLACE = Struct("<QQ")
+"""Where one of several requests or answers begins and ends in the file of all."""
 _REQUEST_LIMIT = 500_000_000
 FAULT_LIMIT = 4_000
 """Bytes of what is told of a fault."""
@@ -32,18 +36,19 @@ DEBUG = "SUBT_CHECK_DEBUG"
 """Name of the variable that has faults of ours told with their traces."""
 
 
-def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, int, int, int]) -> int:
+def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -> int:
     """Do what was ordered; return the exit code.
 
     Args:
         order: `module`, `seconds` of processor time, `memory` in bytes, `works` (whether it writes
             into the working folder and asks for processes), `draws` and `serves` (whether its
-            request is a socket, by which it answers many).
+            request is a socket, by which it answers many), and `lasts`.
         sandbox: That of this process.
         descriptors: The input, on which a byte comes when the request is there; the files of
-            request and answer; the socket by which to ask for processes, or -1.
+            request and answer; the socket by which to ask for processes, or -1; the pipe by which
+            to say that an answer is there, or -1.
     """
-    input, request, answer, inner = descriptors
+    input, request, answer, inner, done = descriptors
     try:
         end_with_parent()
         _speak_to_nobody(input)
@@ -59,6 +64,8 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, int, in
             module.prepare()
         if order["serves"]:
             module.serve(socket.socket(fileno=request))
+        elif order.get("lasts"):
+            _answer_all(module, request, answer, done)
         elif os.read(INPUT, 1):
             said, files = read(request, _REQUEST_LIMIT)
             with os.fdopen(os.dup(answer), "wb") as file:
@@ -69,6 +76,16 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, int, in
         _tell_fault(answer)
         return FAILED
     return 0
+
+
+def _answer_all(module: ModuleType, request: int, answer: int, done: int) -> None:
+    """Answer one request after the other (see `checker.base.child_server`)."""
+    with os.fdopen(os.dup(answer), "wb") as file:
+        while len(place := os.read(INPUT, PLACE.size)) == PLACE.size:
+            said, files = read(request, _REQUEST_LIMIT, *PLACE.unpack(place))
+            start = file.tell()
+            _write(file, module.answer(said, files))
+            os.write(done, PLACE.pack(start, file.tell()))
 
 
 def _tell_fault(answer: int) -> None:

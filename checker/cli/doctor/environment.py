@@ -11,7 +11,8 @@ from itertools import islice
 from pathlib import Path
 
 from checker.base.cache import SIZE_LIMIT, cache_folder
-from checker.base.child_process import Died, Limits, ask
+from checker.base.child_process import Limits, ask
+from checker.base.errors import WorkerFailed
 from checker.base.resources import templates
 from checker.base.sandbox.launcher import OwnLauncher
 from checker.base.sandbox.layers import ACCOUNT, LANDLOCK, NAMESPACES, SECCOMP, Layer
@@ -94,9 +95,11 @@ def _size(path: Path) -> int:
 
 def _drawing() -> Result:
     said = ask("checker.cli.doctor.opengl_frame", b"", _LIMITS)
-    if not isinstance(said, Died) and said != b"none":
+    if not isinstance(said, WorkerFailed) and said != b"none":
         return Result(State.OK, f"pictures: MuJoCo draws with {said.decode()}")
-    reason = f"the process that draws {said.reason}" if isinstance(said, Died) else "no OpenGL"
+    reason = (
+        f"the process that draws {said.reason}" if isinstance(said, WorkerFailed) else "no OpenGL"
+    )
     packages = "libegl1, libopengl0 and libgl1-mesa-dri, or libosmesa6"
     advice = f"install EGL or OSMesa (Debian: {packages}) for reports with pictures"
     return Result(State.NOTE, f"pictures: {reason}", advice)

@@ -6,7 +6,8 @@ import json
 from collections.abc import Iterable
 from importlib import import_module
 
-from checker.base.child_process import Died, Limits, ask
+from checker.base.child_process import Limits, ask
+from checker.base.errors import WorkerFailed
 from checker.base.sandbox.files import Files
 
 _LIMITS = Limits(20.0, 16_000_000_000)
@@ -30,7 +31,7 @@ def import_troubles(distributions: Iterable[str]) -> dict[str, str]:
         for the one that it died of.
     """
     said = ask(__name__, json.dumps(list(distributions)).encode(), _LIMITS)
-    if isinstance(said, Died):
+    if isinstance(said, WorkerFailed):
         return {"libraries": f"the process that imports them {said.reason}"}
     troubles: dict[str, str] = json.loads(said)
     return troubles

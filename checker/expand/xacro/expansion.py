@@ -6,10 +6,11 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from checker.base.cache import Cache, code_hash, key_of
-from checker.base.child_process import Child, Died, Limits, from_json
+from checker.base.background import Background, Work, work_key
+from checker.base.cache import Cache, key_of
+from checker.base.child_process import Limits
+from checker.base.errors import WorkerFailed
 from checker.base.record import Record
-from checker.base.resources import version_of
 from checker.expand.xacro.expanded import expanded_document
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.expand.xacro.included_texts import Gathered
@@ -59,7 +60,6 @@ MEMORY = 500_000_000
 """Bytes of address space."""
 _ROUNDS = 6
 """How often the child may ask for a file whose name is computed."""
-_KIND = "xacro"
 
 
 class Wanted(Record):
@@ -88,72 +88,54 @@ class Expansions:
 
     def __init__(self, package: Package, wanted: Sequence[Wanted], cache: Cache) -> None:
         """Begin; files that were expanded before are taken from the cache."""
-        self._package = package
         self._cache = cache
         self._gathered = Gathered(package)
-        self._files = [path_of(package, each.path) for each in wanted]
-        self._jobs = [
-            {"file": file, "args": dict(each.args)}
-            for file, each in zip(self._files, wanted, strict=True)
+        self._jobs: list[dict[str, Any]] = [
+            {"file": path_of(package, each.path), "args": dict(each.args)} for each in wanted
         ]
-        self._gathered.follow(self._files)
-        self._keys: list[str] = []
-        self._answers: list[Any] = []
-        self._child: Child | None = None
-        self._ask()
+        self._gathered.follow(job["file"] for job in self._jobs)
+        self._begun = self._begin()
 
     def outcomes(self) -> list[Outcome]:
         """Wait, and return what became of each file, in the order wanted."""
         for _ in range(_ROUNDS):
-            self._take_answer()
-            missing = [each["missing"] for each in self._answers if "missing" in each]
+            answers = [*self._begun.results().values()]
+            missing = [
+                each["missing"]
+                for each in answers
+                if not isinstance(each, WorkerFailed) and "missing" in each
+            ]
             if not missing:
                 break
             self._gathered.follow(missing)
-            self._ask()
-        self.stop()
-        pairs = zip(self._files, self._answers, strict=True)
-        return [self._outcome(file, answer) for file, answer in pairs]
+            self._begun = self._begin()
+        results = self._begun.results()
+        return [self._outcome(job["file"], results[self._key(job)]) for job in self._jobs]
 
     def stop(self) -> None:
-        """End the child, if nobody has waited for it."""
-        if self._child is not None:
-            self._child.stop()
-            self._child = None
+        """End the expansion, if nobody has waited for it."""
+        self._begun.stop()
 
-    def _ask(self) -> None:
-        """Look up each job; ask a child about those that are not known."""
-        basis = json.dumps(self._gathered.request(()), sort_keys=True)
-        basis = key_of(basis, version_of("xacro"), version_of("pyyaml"), code_hash("expand/xacro"))
-        self._keys = [key_of(basis, json.dumps(job, sort_keys=True)) for job in self._jobs]
-        self._answers = [self._known(key) for key in self._keys]
-        open_jobs = self._open_jobs()
-        if open_jobs:
-            request = self._gathered.request([self._jobs[number] for number in open_jobs])
-            limits = Limits(SECONDS_FOR_ALL, MEMORY)
-            self._child = Child("checker.expand.xacro.worker", json.dumps(request).encode(), limits)
+    def _begin(self) -> Background[dict[str, Any]]:
+        """Look up each job, and have a child do those that are not known."""
+        common = self._gathered.request
+        texts = json.dumps(common, sort_keys=True)
+        self._basis = work_key([texts], ["expand/xacro"], ["xacro", "pyyaml"])
+        items = {self._key(job): job for job in self._jobs}
+        limits = Limits(SECONDS_FOR_ALL, MEMORY)
+        module = "checker.expand.xacro.worker"
+        work = Work("xacro", module, limits, items, _answer, common, lasts=_lasts)
+        begun = Background(work, self._cache)
+        begun.begin()
+        return begun
 
-    def _known(self, key: str) -> Any:
-        found = self._cache.get(_KIND, key)
-        return found if is_answer(found) else None
+    def _key(self, job: Mapping[str, Any]) -> str:
+        return key_of(self._basis, json.dumps(job, sort_keys=True))
 
-    def _open_jobs(self) -> list[int]:
-        return [number for number, answer in enumerate(self._answers) if answer is None]
-
-    def _take_answer(self) -> None:
-        open_jobs = self._open_jobs()
-        if not open_jobs or self._child is None:
-            return
-        said = self._child.answer()
-        self._child = None
-        for number, answer in zip(open_jobs, _read(said, len(open_jobs)), strict=True):
-            self._answers[number] = answer
-            # Another day, or another machine, may have the time or the memory.
-            if answer.get("kind") != "limit" and not {"missing", "unread"} & answer.keys():
-                self._cache.put(_KIND, self._keys[number], answer)
-
-    def _outcome(self, file: str, answer: Mapping[str, Any]) -> Outcome:
+    def _outcome(self, file: str, answer: dict[str, Any] | WorkerFailed) -> Outcome:
         shown = self._shown(file)
+        if isinstance(answer, WorkerFailed):
+            return Unread(f"{shown} is not expanded: the process that expands it {answer.reason}")
         if "xml" in answer:
             document = expanded_document(answer, self._gathered, file)
             return document or Unread(f"the expanded text of {shown} cannot be read")
@@ -163,7 +145,7 @@ class Expansions:
             return Unread(f"{shown} is not expanded: {self._refusal(answer)}")
         if "missing" in answer:
             return Unread(f"{shown} includes too many files with computed names")
-        return Unread(f"{shown} is not expanded: {answer.get('unread', 'no answer came')}")
+        return Unread(f"{shown} is not expanded: {answer['unread']}")
 
     def _shown(self, file: str) -> str:
         source = self._gathered.sources.get(file)
@@ -201,14 +183,17 @@ class Expansions:
         return document.elements[number].span
 
 
-def _read(said: bytes | Died, number: int) -> list[dict[str, Any]]:
-    """Return as many answers as were asked for."""
-    if isinstance(said, Died):
-        return [{"unread": f"the process that expands it {said.reason}"}] * number
-    try:
-        answers = from_json(said)
-    except ValueError:
-        answers = None
-    if isinstance(answers, list) and len(answers) == number and all(map(is_answer, answers)):
-        return answers
-    return [{"unread": "the process that expands it sent an invalid answer"}] * number
+def _answer(said: Any) -> dict[str, Any]:
+    """Return what became of one file.
+
+    Raises:
+        ValueError: It is something else.
+    """
+    if not is_answer(said):
+        raise ValueError("no answer")
+    return dict(said)
+
+
+def _lasts(answer: Mapping[str, Any]) -> bool:
+    """Say whether an answer holds: another day, or machine, may have the time or the memory."""
+    return answer.get("kind") != "limit" and not {"missing", "unread"} & answer.keys()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -45,14 +45,15 @@ class Gathered:
     beyond: set[str] = field(default_factory=set)
     _size: int = 0
 
-    def request(self, jobs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-        """Return what the child is asked."""
+    @property
+    def request(self) -> dict[str, Any]:
+        """What the child is told of the files."""
         texts = {
             path: source.text for path, source in self.sources.items() if path not in self.faults
         }
         faulty = {path: fault.message for path, fault in self.faults.items()}
         others = {"absent": sorted(self.absent), "beyond": sorted(self.beyond)}
-        return {"texts": texts, "faulty": faulty, **others, "jobs": list(jobs)}
+        return {"texts": texts, "faulty": faulty, **others}
 
     def follow(self, paths: Iterable[str]) -> None:
         """Take up files, and all that they include by a name that is no expression."""

@@ -14,7 +14,8 @@ from contextlib import suppress
 from time import monotonic
 from typing import Any
 
-from checker.base.forked_work import Ended, apart
+from checker.base.errors import WorkerFailed
+from checker.base.forked_work import in_fork
 from checker.base.sandbox import seccomp
 from checker.base.sandbox.files import NO_FILES, Files
 
@@ -61,7 +62,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
     Args:
         request: JSON: `texts` by path, `absent` paths, `faulty` paths with what is wrong there,
-            `beyond` names of packages that are not at hand, and `jobs`: each a `file` and `args`.
+            `beyond` names of packages that are not at hand, and `items`: each a `file` and `args`.
 
     Returns:
         JSON: what became of each job (see `checker.expand.xacro.processor`), in the same order.
@@ -76,13 +77,13 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
         return json.dumps(processor.expand(given, job["file"], job["args"])).encode()
 
     done = []
-    for job in given["jobs"]:
+    for job in given["items"]:
         seconds = min(SECONDS_FOR_ONE, int(until - monotonic()))
         if seconds < _SHORTEST:
             done.append({"unread": f"the other files took {SECONDS_FOR_ALL:g} s"})
             continue
-        result = apart(lambda job=job: work(job), seconds)  # type: ignore[misc]
-        if isinstance(result, Ended):
+        result = in_fork(lambda job=job: work(job), seconds)  # type: ignore[misc]
+        if isinstance(result, WorkerFailed):
             done.append({"kind": "limit", "message": f"expanding it {result.reason}"})
         else:
             done.append(json.loads(result))

@@ -1,1 +1,1 @@
-"""Mesh files: read by trimesh in a child process, their facts kept on disk."""
+"""Mesh files: read in a child process, their facts kept on disk."""

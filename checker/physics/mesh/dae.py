@@ -9,52 +9,51 @@ from __future__ import annotations
 
 import io
 import math
-from typing import TYPE_CHECKING, Any
+import re
+from collections.abc import Iterable
+from typing import Any
 
 from lxml import etree
 
 from checker.model.mesh import MeshTrouble
-from checker.physics.mesh.collada_xml import local_name, parse_collada, without_looks
-from checker.physics.mesh.surface import NoSurface, Surface
-
-if TYPE_CHECKING:
-    from numpy import float64
-    from numpy.typing import NDArray
+from checker.physics.mesh.content import MeshContent, NoSurface, Piece
+from checker.physics.mesh.dae_materials import DaeMaterials, local_name, places_in_picture
 
 
-def read_dae(data: bytes) -> Surface:
+def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
     """Return the triangles of the scene.
 
     Raises:
         NoSurface: The file is no COLLADA, or its scene shows nothing.
     """
+    import numpy as np
+
     root, defects = parse_collada(data)
     metres, unit_defects = metres_per_unit(root)
-    textures, parts = _textures(root), _parts(root)
+    textures, parts, materials = _textures(root), _parts(root), DaeMaterials(root)
     is_skinned = next(root.iter("{*}instance_controller"), None) is not None
-    corners, faults = _corners(without_looks(root))
-    if not len(corners):
+    sets, faults = triangles_of_scene(only_geometry(root))
+    pieces = tuple(
+        Piece(
+            np.asarray(triangles.vertex, np.float64)[triangles.vertex_index] * metres,
+            materials.material_of(geometry, triangles.original.material or ""),
+            places_in_picture(triangles),
+        )
+        for geometry, triangles in sets
+    )
+    if not pieces:
         if is_skinned:
             raise NoSurface("is a mesh with a skeleton", MeshTrouble.NOT_LOOKED_AT)
         raise NoSurface(f"contains no triangles{': ' + faults[0] if faults else ''}")
     defects = [*defects, *unit_defects, *faults[:5]]
-    return Surface(corners * metres, metres, textures, defects=tuple(defects), parts=parts)
-
-
-def _corners(bare: bytes) -> tuple[NDArray[float64], list[str]]:
-    """Return the triangles of the scene in the file's unit, and what could not be read."""
-    import numpy as np
-
-    sets, faults = triangles_of_scene(bare)
-    pieces = (np.asarray(each.vertex, np.float64)[each.vertex_index] for _, each in sets)
-    return np.concatenate([np.empty((0, 3, 3)), *pieces]), faults
+    return MeshContent(pieces, metres, textures, defects=tuple(defects), parts=parts)
 
 
 def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any]], list[str]]:
     """Return what the scene shows in the file's unit, and what could not be read.
 
     Args:
-        bare: A document without looks.
+        bare: A document that says nothing of materials.
 
     Returns:
         pycollada's bound sets of triangles, each with the id of its geometry; faults, as sentences.
@@ -130,3 +129,74 @@ def _parts(root: etree._Element) -> tuple[str, ...]:
 
 def _text(element: etree._Element | None) -> str:
     return (element.text or "").strip() if element is not None else ""
+
+
+# The XML of a COLLADA file, parsed with nothing switched on that reaches beyond the file.
+
+
+_DOCTYPE = re.compile(rb"<!DOCTYPE|<!ENTITY")
+_BRACKET_IN_VALUE = re.compile(rb"""(?<==)("[^"<]*<[^"]*"|'[^'<]*<[^']*')""")
+
+_NO_GEOMETRY = frozenset(
+    {
+        *("asset", "extra", "library_animations", "library_animation_clips", "library_cameras"),
+        *("library_controllers", "library_effects", "library_force_fields", "library_images"),
+        *("library_lights", "library_materials", "library_physics_materials"),
+        *("library_physics_models", "library_physics_scenes", "bind_material"),
+        *("instance_camera", "instance_controller", "instance_light"),
+    }
+)
+"""Elements that say nothing of the surface; faults in them must not hide it."""
+
+
+def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
+    """Return the root of a COLLADA document, and defects that were mended.
+
+    Files whose ids hold `<` (`id="<STL_BINARY>"`, as a converter writes them) are no XML, but
+    widely copied, and Gazebo's parser takes them.
+
+    Raises:
+        NoSurface: It is no XML, no COLLADA, or declares a document type.
+    """
+    # A zero byte stands between the letters of UTF-16.
+    if _DOCTYPE.search(data.replace(b"\0", b"")):
+        reason = "declares a document type (<!DOCTYPE>), which is not read here"
+        raise NoSurface(reason, MeshTrouble.NOT_LOOKED_AT)
+    defects = []
+    try:
+        root = _parse(data)
+    except etree.XMLSyntaxError as error:
+        mended = _BRACKET_IN_VALUE.sub(lambda value: value[0].replace(b"<", b"&lt;"), data)
+        try:
+            root = _parse(mended)
+        except etree.XMLSyntaxError:
+            raise NoSurface(f"is not well-formed XML: {error.msg}") from None
+        value = _BRACKET_IN_VALUE.search(data)
+        shown = value[0].decode("utf-8", "replace")[:60] if value else ""
+        defects.append(f"its XML is not well-formed: `<` in an attribute's value {shown}")
+    if root is None or local_name(root) != "COLLADA":
+        raise NoSurface("is XML, but no COLLADA file")
+    return root, defects
+
+
+def _parse(data: bytes) -> etree._Element:
+    parser = etree.XMLParser(
+        resolve_entities=False,
+        no_network=True,
+        load_dtd=False,
+        huge_tree=True,
+        remove_comments=True,
+    )
+    return etree.fromstring(data, parser)
+
+
+def only_geometry(root: etree._Element) -> bytes:
+    """Return the document with nothing in it but geometry and the nodes that place it.
+
+    The tree is changed.
+    """
+    for element in list(root.iter("{*}*")):
+        parent = element.getparent()
+        if parent is not None and local_name(element) in _NO_GEOMETRY:
+            parent.remove(element)
+    return etree.tostring(root)

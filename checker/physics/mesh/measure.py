@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from checker.base.record import Record
 from checker.model.geometry.transform import Vector
 from checker.model.mesh import Mesh
-from checker.physics.mesh.surface import NoSurface, Surface
+from checker.physics.mesh.content import MeshContent, NoSurface
 
 if TYPE_CHECKING:
     from numpy import bool_, float64, int64
@@ -131,16 +131,17 @@ THINNEST = 1e-8
 """Metres: nearer corners are one (trimesh's own tolerance), a lower triangle has no area."""
 
 
-def measure(surface: Surface, path: str, format: str) -> Mesh:
-    """Return a surface's figures.
+def measure(content: MeshContent, path: str, format: str) -> Mesh:
+    """Return the figures of what a file holds.
 
     Raises:
         NoSurface: It has no triangles, or a corner that is nowhere.
     """
-    if not len(surface.corners):
+    corners = content.corners
+    if not len(corners):
         raise NoSurface("contains no triangles")
-    _refuse_lost_corners(surface.corners)
-    joined = Joined.of(surface.corners)
+    _refuse_lost_corners(corners)
+    joined = Joined.of(corners)
     flat = _without_area(joined)
     points = joined.vertices
     hull, hull_volume = convex_hull(points)
@@ -150,19 +151,19 @@ def measure(surface: Surface, path: str, format: str) -> Mesh:
     return Mesh(
         path=path,
         format=format,
-        triangles=len(surface.corners),
+        triangles=len(corners),
         low=_vector(points.min(axis=0)),
         high=_vector(points.max(axis=0)),
-        metres_per_unit=surface.metres_per_unit,
+        metres_per_unit=content.metres_per_unit,
         hull=hull,
         volume=_volume(joined) if wound_alike else None,
         hull_volume=hull_volume,
         watertight=watertight,
         degenerate=int(flat.sum()),
-        textures=surface.textures,
-        materials=surface.materials,
-        defects=surface.defects,
-        parts=surface.parts,
+        textures=content.textures,
+        materials=content.materials,
+        defects=content.defects,
+        parts=content.parts,
     )
 
 

@@ -8,10 +8,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from checker.physics.mesh.content import MeshContent, NoSurface, Piece
 from checker.physics.mesh.dae import read_dae
 from checker.physics.mesh.measure import measure
 from checker.physics.mesh.obj import read_obj
-from checker.physics.mesh.surface import NoSurface, Surface
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -29,7 +29,7 @@ _SOLID = re.compile(rb"^[ \t]*solid[ \t]+(\S[^\r\n]{0,200})", re.I | re.M)
 _END = re.compile(rb"^[ \t]*endsolid\b", re.I | re.M)
 
 
-def read_stl(data: bytes) -> Surface:
+def read_stl(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
     """Return the triangles.
 
     Many binary files start with `solid` as text files do, so the length decides first.
@@ -39,7 +39,7 @@ def read_stl(data: bytes) -> Surface:
     """
     count = int.from_bytes(data[80:_HEADER], "little")
     if len(data) >= _HEADER and len(data) == _HEADER + count * _TRIANGLE:
-        return Surface(_binary(data, count))
+        return MeshContent((Piece(_binary(data, count)),))
     if data.lstrip()[:5].lower() == b"solid" and b"\0" not in data:
         return _text(data)
     if len(data) < _HEADER:
@@ -53,7 +53,8 @@ def read_stl(data: bytes) -> Surface:
             f"{held:,}"
         )
     left = len(data) - _HEADER - count * _TRIANGLE
-    return Surface(_binary(data, count), defects=(f"{left:,} bytes follow its last triangle",))
+    defects = (f"{left:,} bytes follow its last triangle",)
+    return MeshContent((Piece(_binary(data, count)),), defects=defects)
 
 
 def _binary(data: bytes, count: int) -> NDArray[float64]:
@@ -64,7 +65,7 @@ def _binary(data: bytes, count: int) -> NDArray[float64]:
     return np.asarray(triangles["corners"], np.float64)
 
 
-def _text(data: bytes) -> Surface:
+def _text(data: bytes) -> MeshContent:
     import numpy as np
 
     numbers = _VERTEX.findall(data)
@@ -76,24 +77,19 @@ def _text(data: bytes) -> Surface:
         raise NoSurface(f"contains a corner that is not a number: {error}") from None
     names = [name.decode("utf-8", "replace").strip() for name in _SOLID.findall(data)]
     defects = () if _END.search(data) else ("it does not end in `endsolid`",)
-    return Surface(corners, defects=defects, parts=tuple(dict.fromkeys(names)))
+    return MeshContent((Piece(corners),), defects=defects, parts=tuple(dict.fromkeys(names)))
 
 
-_Reader = Callable[[bytes], Surface]
+_Reader = Callable[[bytes, Iterable[bytes]], MeshContent]
 _READERS: dict[str, _Reader] = {"dae": read_dae, "stl": read_stl, "obj": read_obj}
-
-_LIBRARIES = {"dae": "collada", "obj": "trimesh"}
-"""What reads a format, by the suffix of its files."""
 
 _POINTER = b"version https://git-lfs"
 
 
 def load_libraries(names: Iterable[str]) -> None:
     """Import once what reads files of these names, before a process forks to read them."""
-    suffixes = {name.rpartition(".")[2].lower() for name in names}
-    for suffix, library in _LIBRARIES.items():
-        if suffix in suffixes:
-            import_module(library)
+    if any(name.lower().endswith(".dae") for name in names):
+        import_module("collada")
 
 
 def read_mesh(data: bytes, path: str) -> Mesh | MeshFault:
@@ -105,13 +101,18 @@ def read_mesh(data: bytes, path: str) -> Mesh | MeshFault:
     """
     suffix = path.rpartition(".")[2].lower()
     try:
-        return measure(read_surface(data, path), path, suffix)
+        return measure(read_content(data, path), path, suffix)
     except NoSurface as none:
         return MeshFault(none.trouble, none.reason)
 
 
-def read_surface(data: bytes, path: str) -> Surface:
+def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -> MeshContent:
     """Return the triangles of a file.
+
+    Args:
+        data: Its content.
+        path: Its name; the suffix decides on the format, as in Gazebo.
+        material_files: What is in those that it names, as far as they are at hand.
 
     Raises:
         NoSurface: It cannot be read.
@@ -125,17 +126,9 @@ def read_surface(data: bytes, path: str) -> Surface:
         raise NoSurface("is empty")
     if data.startswith(_POINTER):
         raise NoSurface("is a Git LFS pointer, not the mesh")
-    return _surface(reader, data)
-
-
-def _surface(reader: _Reader, data: bytes) -> Surface:
-    """Read a file whose every line may be wrong.
-
-    Raises:
-        NoSurface: It cannot be read.
-    """
+    # Its every line may be wrong.
     try:
-        return reader(data)
+        return reader(data, material_files)
     except (NoSurface, MemoryError):
         raise
     except RecursionError:

@@ -1,19 +1,28 @@
-"""Reads mesh files in a child process: the module behind `checker.base.child_process`."""
+"""Reads mesh files in a child process: the module behind `checker.physics.mesh.process`.
+
+A request says what is `wanted` of its `items`: facts or the appearance of files, or what sensors
+see of them. Each file is read in a fork, so that one which takes its reader down costs only itself.
+"""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from importlib import import_module
 from time import monotonic
+from typing import Any
+
+from msgspec import to_builtins
 
 from checker.base.disk_file import NotReadable
-from checker.base.forked_work import Ended, all_apart
+from checker.base.errors import WorkerFailed
+from checker.base.forked_work import Forks, in_forks
 from checker.base.sandbox.files import Files
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
-from checker.physics.mesh.limits import LATE, SECONDS_FOR_ALL
+from checker.physics.mesh.appearance import appearances
 from checker.physics.mesh.reader import load_libraries, read_mesh
-from checker.physics.mesh.wire import to_json
+from checker.physics.views.visibility import seen_of_mesh, sensors_of, views_of
 
 
 def prepare() -> None:
@@ -25,33 +34,61 @@ def answer(request: bytes, files: Files) -> bytes:
     """Read files.
 
     Args:
-        request: JSON: `files`, pairs of the name under which a file was handed over and the one by
-            which the model knows it (its ending says the format); and `seconds` of processor time
-            each.
+        request: JSON: `wanted`, one of `facts`, `appearance` and `views`; `items`, of the form that
+            this asks for; `seconds` of processor time for a file, `seconds_for_all` by the clock.
         files: The files.
 
     Returns:
-        JSON: what each file holds, in the same order.
+        JSON: what is wanted of each item.
     """
     asked = json.loads(request)
-    load_libraries(name for _, name in asked["files"])
-    works = [partial(_as_bytes, files, at, name) for at, name in asked["files"]]
-    read = all_apart(works, asked["seconds"], monotonic() + SECONDS_FOR_ALL, LATE)
-    return b"[" + b",".join(map(_said, read)) + b"]"
+    late = f"was not read: the others took {asked['seconds_for_all']} s"
+    until = monotonic() + asked["seconds_for_all"]
+    forks = partial(in_forks, seconds=asked["seconds"], until=until, late=late)
+    load_libraries(files.names)
+    return b"[" + b",".join(_WANTED[asked["wanted"]](asked["items"], files, forks)) + b"]"
 
 
-def _said(read: bytes | Ended) -> bytes:
-    if isinstance(read, Ended):
-        return json.dumps(to_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, read.reason))).encode()
-    return read
+def _facts(items: Sequence[Mapping[str, str]], files: Files, forks: Forks) -> list[bytes]:
+    """Return what files hold; each item has a `file`, and the `name` that the model knows."""
+    read = forks([partial(_fact, item, files) for item in items])
+    return [_failed(each) if isinstance(each, WorkerFailed) else each for each in read]
 
 
-def _as_bytes(files: Files, at: str, name: str) -> bytes:
-    return json.dumps(to_json(_read(files, at, name))).encode()
-
-
-def _read(files: Files, at: str, name: str) -> Mesh | MeshFault:
-    data = files.read(at)
+def _fact(item: Mapping[str, str], files: Files) -> bytes:
+    data = files.read(item["file"])
     if isinstance(data, NotReadable):
-        return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
-    return read_mesh(data, name)
+        return _as_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason))
+    return _as_json(read_mesh(data, item["name"]))
+
+
+def _failed(failed: WorkerFailed) -> bytes:
+    return _as_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, failed.reason))
+
+
+def _as_json(read: Mesh | MeshFault) -> bytes:
+    kind = "fault" if isinstance(read, MeshFault) else "mesh"
+    return json.dumps({kind: to_builtins(read)}).encode()
+
+
+def _views(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> list[bytes]:
+    """Return what sensors see; see `views_of`."""
+    return [json.dumps(_view(item, files, forks)).encode() for item in items]
+
+
+def _view(item: Mapping[str, Any], files: Files, forks: Forks) -> dict[str, Any]:
+    sensors = sensors_of(item)
+
+    def seen(mesh: Mapping[str, Any]) -> bytes:
+        return json.dumps(seen_of_mesh(sensors, mesh, files.read(mesh["file"]))).encode()
+
+    told = forks([partial(seen, mesh) for mesh in item["meshes"]])
+    read = [each.reason if isinstance(each, WorkerFailed) else json.loads(each) for each in told]
+    return views_of(item, sensors, read)
+
+
+_WANTED: dict[str, Callable[[Sequence[Any], Files, Forks], list[bytes]]] = {
+    "facts": _facts,
+    "appearance": appearances,
+    "views": _views,
+}

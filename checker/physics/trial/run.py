@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
-from checker.base.cache import Cache, code_hash, key_of
-from checker.base.child_process import NONSENSE, Child, Died, Limits, from_json
-from checker.base.errors import NotAtHand
+from checker.base.background import Background, Work, work_key
+from checker.base.cache import Cache
+from checker.base.child_process import Limits
+from checker.base.errors import NotAtHand, WorkerFailed
 from checker.base.progress import Stages
 from checker.base.record import Record
-from checker.base.resources import version_of
 from checker.model.robot import Robot
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.physics.trial.trial import Trial
@@ -23,51 +21,11 @@ TIMESTEP = 0.002
 """Seconds; contacts and servos are tuned to it."""
 LIMITS = Limits(seconds=20.0, memory=1_000_000_000)
 
-_KIND = "trial"
 _LIBRARIES = ("mujoco", "numpy", "scipy")
 
 
-@dataclass
-class Pending:
-    """A trial that is under way, or known already."""
-
-    _cache: Cache
-    _key: str = ""
-    _child: Child | None = None
-    _outcome: Trial | str = ""
-
-    @property
-    def known(self) -> bool:
-        """Whether nothing needs to be waited for."""
-        return self._child is None
-
-    def stop(self) -> None:
-        """End the trial, if nobody has waited for it."""
-        if self._child is not None:
-            self._child.stop()
-
-    def result(self) -> Trial | str:
-        """Wait for the trial; else return why there is none, as the end of a sentence."""
-        if self._child is not None:
-            answer = self._child.answer()
-            self._child = None
-            self._outcome = self._read(answer)
-        return self._outcome
-
-    def _read(self, answer: bytes | Died) -> Trial | str:
-        if isinstance(answer, Died):
-            return f"the trial {answer.reason}"
-        try:
-            said = from_json(answer)
-            trial = Trial.from_json(said)
-        except NONSENSE:
-            return "the trial sent an invalid answer"
-        self._cache.put(_KIND, self._key, said)
-        return trial
-
-
-def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Pending:
-    """Start the trial of a robot; it drives while the caller does something else.
+def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Background[Trial] | str:
+    """Start the trial of a robot; else return why it has none, as the end of a sentence.
 
     Args:
         robot: What is driven.
@@ -84,28 +42,20 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Pendin
     servos = (*plan.speeds, *plan.places)
     scene = build_scene(robot, servos=servos, belts=belts, timestep=timestep)
     if scene.unusable:
-        return Pending(cache, _outcome=scene.unusable)
-    request = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
-    text = json.dumps(request).encode()
-    key = key_of(text, code_hash("physics/trial"), *map(version_of, _LIBRARIES))
-    known = _known(cache.get(_KIND, key))
-    if known is not None:
-        return Pending(cache, _outcome=known)
-    return Pending(cache, key, Child("checker.physics.trial.worker", text, LIMITS))
-
-
-def _known(said: Any) -> Trial | None:
-    try:
-        return Trial.from_json(said) if said is not None else None
-    except (KeyError, TypeError, ValueError, AttributeError):
-        return None
+        return scene.unusable
+    asked = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
+    key = work_key([json.dumps(asked)], ["physics/trial"], _LIBRARIES)
+    module = "checker.physics.trial.worker"
+    trial = Background(Work("trial", module, LIMITS, {key: asked}, Trial.from_json), cache)
+    trial.begin()
+    return trial
 
 
 ROBOTS_LIMIT = 8
 """Of one file; a world with more of them is no submission, and each takes about a second."""
 
 
-class Driving(Record, eq=False, dict=True):
+class RobotTrials(Record, eq=False, dict=True):
     """The trials of some robots."""
 
     robots: tuple[Robot, ...]
@@ -127,7 +77,7 @@ class Driving(Record, eq=False, dict=True):
         """End the trials that nobody has waited for."""
         for name in ("_first", "_first_again"):
             pending = self.__dict__.get(name)
-            if pending is not None:
+            if isinstance(pending, Background):
                 pending.stop()
 
     @cached_property
@@ -161,15 +111,14 @@ class Driving(Record, eq=False, dict=True):
         return next((reason for reason in reasons if reason is not None), None)
 
     @cached_property
-    def _first(self) -> Pending:
+    def _first(self) -> Background[Trial] | str:
         return self._started(self.robots[0], thorough=False)
 
     @cached_property
-    def _first_again(self) -> Pending:
+    def _first_again(self) -> Background[Trial] | str:
         return self._started(self.robots[0], thorough=True)
 
-    def _started(self, robot: Robot, *, thorough: bool) -> Pending:
-
+    def _started(self, robot: Robot, *, thorough: bool) -> Background[Trial] | str:
         twice = ", again at half the time step" if thorough else ""
         with self.stages.stage("trial", f"driving the robot on its course in MuJoCo{twice}"):
             return start_trial(robot, self.cache, thorough=thorough)
@@ -180,13 +129,15 @@ class Driving(Record, eq=False, dict=True):
         trials: list[Trial] = []
         for number, robot in enumerate(self.robots):
             if number == 0:
-                pending = self._first_again if thorough else self._first
+                begun = self._first_again if thorough else self._first
             else:
-                pending = self._started(robot, thorough=thorough)
+                begun = self._started(robot, thorough=thorough)
+            if isinstance(begun, str):
+                return NotAtHand(begun)
             with self.stages.stage("trial"):
-                trial = pending.result()
-            if not isinstance(trial, Trial):
-                return NotAtHand(trial)
+                trial = begun.result()
+            if isinstance(trial, WorkerFailed):
+                return NotAtHand(f"the trial {trial.reason}")
             trials.append(trial)
         return trials
 

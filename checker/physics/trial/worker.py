@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -20,17 +22,20 @@ from checker.physics.trial.trial import Trial
 
 
 def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
-    """Drive a robot.
+    """Drive robots.
 
     Args:
-        request: JSON with `scene`, `plan` and `timestep` (seconds).
+        request: JSON; `items` with `scene`, `plan` and `timestep` (seconds) each.
 
     Returns:
-        JSON of the trial.
+        JSON of the trials.
     """
-    said = json.loads(request)
-    trial = driven(Scene.from_json(said["scene"]), Plan.from_json(said["plan"]), said["timestep"])
-    return json.dumps(trial.as_json()).encode()
+    return json.dumps([_trial(asked).as_json() for asked in json.loads(request)["items"]]).encode()
+
+
+def _trial(asked: Mapping[str, Any]) -> Trial:
+    scene, plan = Scene.from_json(asked["scene"]), Plan.from_json(asked["plan"])
+    return driven(scene, plan, asked["timestep"])
 
 
 def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:

@@ -42,6 +42,11 @@ class Asked(Record, eq=False):
     unseen: tuple[str, ...]
 
     @property
+    def visible(self) -> bool:
+        """Whether there is anything to be seen."""
+        return bool(self.request["meshes"] or self.request["solids"])
+
+    @property
     def work(self) -> int:
         """How many pairs of sensor and visual are looked at."""
         return len(self.sensors) * len(self.visuals)

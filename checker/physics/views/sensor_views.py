@@ -7,65 +7,55 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from checker.base.cache import Cache, code_hash, key_of
-from checker.base.child_process import Child, Died, Limits, from_json
+from checker.base.background import Background, work_key
+from checker.base.cache import Cache
+from checker.base.child_server import Server
+from checker.base.errors import WorkerFailed
 from checker.base.progress import Stages
-from checker.base.resources import version_of
-from checker.base.sandbox.files import from_disk
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews, View
-from checker.physics.mesh.limits import MEMORY, SIZE_LIMIT
-from checker.physics.mesh.package_meshes import TimedMeshes
+from checker.physics.mesh.package_meshes import PackageMeshes
+from checker.physics.mesh.process import SIZE_LIMIT, mesh_work
 from checker.physics.views.request import Asked, Content, asked_of
-from checker.physics.views.worker import SECONDS_FOR_ALL
 from checker.source.text import Located
 
-_KIND = "view"
-_LIBRARIES = ("lxml", "numpy", "pycollada", "trimesh")
+_LIBRARIES = ("lxml", "numpy", "pycollada")
 _SMALL = 1500
 """Pairs of sensor and visual up to which solids are looked at without a child: some 50 ms."""
 _ROBOTS = 8
 """Of one file; a world with more of them is no submission."""
 
+_Told = dict[str, Any]
+"""What the worker says: `views` and `unread`."""
+
 
 @dataclass(eq=False)
-class _Pending:
-    """What is asked about one robot.
+class RobotViews:
+    """The views of some robots.
 
     Attributes:
-        known: The worker's answer, if it was known.
-        child: Works at it otherwise; None where it needs no child.
+        server: Reads mesh files; None starts a process for the views alone.
     """
-
-    robot: Robot
-    asked: Asked
-    key: str
-    known: Any = None
-    child: Child | None = None
-
-
-@dataclass(eq=False)
-class Viewing:
-    """The views of some robots."""
 
     robots: tuple[Robot, ...]
     cache: Cache
     stages: Stages
-    _pending: dict[int, _Pending] = field(default_factory=dict)
+    server: Server | None = None
+    _begun: dict[int, tuple[Asked, Background[_Told] | None]] = field(default_factory=dict)
     _views: tuple[SensorViews, ...] | None = None
 
     def begin(self) -> None:
         """Begin with the first robot, while the caller does something else."""
         # What goes wrong is met again by who asks for the views.
         with suppress(Exception):
-            self._begun(0)
+            self._begin(0)
 
     def stop(self) -> None:
         """End what nobody has waited for."""
-        for pending in self._pending.values():
-            if pending.child is not None:
-                pending.child.stop()
+        for _, begun in self._begun.values():
+            if begun is not None:
+                begun.stop()
 
     @property
     def views(self) -> tuple[SensorViews, ...]:
@@ -73,81 +63,73 @@ class Viewing:
         if self._views is None:
             said = (f"only the views of the first {_ROBOTS} robots are checked",)
             self._views = tuple(
-                self._collected(self._begun(number))
-                if number < _ROBOTS
-                else SensorViews(robot, (), said)
+                self._collected(number, robot) if number < _ROBOTS else SensorViews(robot, (), said)
                 for number, robot in enumerate(self.robots)
             )
         return self._views
 
-    def _begun(self, number: int) -> _Pending:
-        if number not in self._pending:
+    def _begin(self, number: int) -> tuple[Asked, Background[_Told] | None]:
+        if number not in self._begun:
             with self.stages.stage("views"):
-                self._pending[number] = self._started(self.robots[number])
-        return self._pending[number]
+                asked = asked_of(self.robots[number], _content_of(self.robots[number]))
+                begun = self._work(asked) if asked.sensors and asked.visible else None
+                if begun is not None:
+                    begun.begin()
+                self._begun[number] = asked, begun
+        return self._begun[number]
 
-    def _started(self, robot: Robot) -> _Pending:
-        asked = asked_of(robot, _content_of(robot))
-        text = json.dumps(asked.request)
+    def _work(self, asked: Asked) -> Background[_Told]:
         # The files count by what is in them, not by where they are.
         hashed = json.dumps({**asked.request, "meshes": _without_places(asked)})
-        own = code_hash("physics/views", "physics/mesh"), *map(version_of, _LIBRARIES)
-        pending = _Pending(robot, asked, key_of(hashed, *own))
-        if not asked.sensors or not (asked.request["meshes"] or asked.request["solids"]):
-            return pending
-        pending.known = _checked(self.cache.get(_KIND, pending.key), asked)
-        if pending.known is None and (asked.request["meshes"] or asked.work > _SMALL):
-            limits = Limits(SECONDS_FOR_ALL, MEMORY)
-            files = from_disk((mesh["file"], SIZE_LIMIT) for mesh in asked.request["meshes"])
-            pending.child = Child("checker.physics.views.worker", text.encode(), limits, files)
-        return pending
+        key = work_key([hashed], ["physics/views", "physics/mesh"], _LIBRARIES)
+        work = mesh_work(
+            "views",
+            {key: asked.request},
+            lambda told: _checked(told, asked),
+            lambda told: not told["unread"],
+            lambda item: [(mesh["file"], SIZE_LIMIT) for mesh in item["meshes"]],
+            None if asked.request["meshes"] or asked.work > _SMALL else _seen_here,
+        )
+        return Background(work, self.cache, self.server)
 
-    def _collected(self, pending: _Pending) -> SensorViews:
-        """Wait for what was asked about a robot, and keep it."""
-        asked = pending.asked
-        if not asked.sensors or not (asked.request["meshes"] or asked.request["solids"]):
+    def _collected(self, number: int, robot: Robot) -> SensorViews:
+        """Wait for what was asked about a robot."""
+        asked, begun = self._begin(number)
+        if begun is None:
             nothing = tuple(View(each, (), 0.0, None) for each in asked.sensors)
-            return SensorViews(pending.robot, nothing, asked.unseen if asked.sensors else ())
-        if pending.known is None:
-            with self.stages.stage("views", "computing the views of the sensors"):
-                told = _answered(pending)
-            if isinstance(told, str):
-                return SensorViews(pending.robot, (), (told,))
-            if not told["unread"]:
-                self.cache.put(_KIND, pending.key, told)
-            pending.known = told
-        return _views_of(pending.robot, asked, pending.known)
-
-
-def _answered(pending: _Pending) -> dict[str, Any] | str:
-    """Return the worker's answer, or why there is none."""
-    if pending.child is None:
-        from checker.physics.views.worker import look
-
-        return look(pending.asked.request)
-    told = pending.child.answer()
-    if isinstance(told, Died):
-        return f"the views of the sensors were not computed: the process {told.reason}"
-    try:
-        known = _checked(from_json(told), pending.asked)
-    except ValueError:
-        known = None
-    return known or "the views of the sensors were not computed: the answer is invalid"
-
-
-def _checked(told: Any, asked: Asked) -> dict[str, Any] | None:
-    """Return an answer that fits the question; None for anything else."""
-    with suppress(KeyError, TypeError, ValueError, AttributeError):
-        views, unread = list(told["views"]), list(told["unread"])
-        if (
-            len(views) == len(asked.sensors)
-            and all(-1 <= int(view["by"]) < len(asked.visuals) for view in views)
-            and all(len(view["shares"]) == len(view["reach"]) for view in views)
-            and all(view["cut"] >= 0.0 and sum(view["shares"], 0.0) >= 0.0 for view in views)
-            and all(0 <= number < len(asked.contents) and str(why) for number, why in unread)
+            return SensorViews(robot, nothing, asked.unseen if asked.sensors else ())
+        with self.stages.stage(
+            "views", "" if begun.known else "computing the views of the sensors"
         ):
-            return {"views": views, "unread": unread}
-    return None
+            told = begun.result()
+        if isinstance(told, WorkerFailed):
+            said = f"the views of the sensors were not computed: the process {told.reason}"
+            return SensorViews(robot, (), (said,))
+        return _views_of(robot, asked, told)
+
+
+def _seen_here(request: _Told) -> _Told:
+    from checker.physics.views.visibility import sensors_of, views_of
+
+    return views_of(request, sensors_of(request))
+
+
+def _checked(told: Any, asked: Asked) -> _Told:
+    """Return an answer that fits the question.
+
+    Raises:
+        AttributeError, KeyError, TypeError, ValueError: It does not.
+    """
+    views, unread = list(told["views"]), list(told["unread"])
+    if (
+        len(views) == len(asked.sensors)
+        and all(-1 <= int(view["by"]) < len(asked.visuals) for view in views)
+        and all(len(view["shares"]) == len(view["reach"]) for view in views)
+        and all(view["cut"] >= 0.0 and sum(view["shares"], 0.0) >= 0.0 for view in views)
+        and all(0 <= number < len(asked.contents) and str(why) for number, why in unread)
+    ):
+        return {"views": views, "unread": unread}
+    raise ValueError("no views of these sensors")
 
 
 def _views_of(robot: Robot, asked: Asked, told: dict[str, Any]) -> SensorViews:
@@ -175,7 +157,7 @@ def _without_places(asked: Asked) -> list[Any]:
 def _content_of(robot: Robot) -> Content:
     """Return what finds the files of a robot's meshes."""
     meshes = robot.meshes
-    return meshes.meshes.content if isinstance(meshes, TimedMeshes) else _not_looked_for
+    return meshes.content if isinstance(meshes, PackageMeshes) else _not_looked_for
 
 
 def _not_looked_for(uri: Located[str]) -> MeshFault:  # noqa: ARG001 - as a `Content` has it

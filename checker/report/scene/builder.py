@@ -17,7 +17,7 @@ from checker.report.scene.layers.views import views
 from checker.report.scene.layers.visuals import collisions, visuals
 from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks
 from checker.report.scene.shown_robot import Hung, Showing
-from checker.report.scene.surface import Notes, Surfaces, short
+from checker.report.scene.surfaces import Notes, Surfaces, short
 
 if TYPE_CHECKING:
     from checker.physics.trial.trial import Replay, Trial

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from checker.base.record import Record
 from checker.model.geometry.transform import Transform, Vector
+from checker.physics.mesh.surface import Surface
 from checker.report.scene.scene import DisplayScene, Item, Layer
-from checker.report.scene.surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

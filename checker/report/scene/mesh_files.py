@@ -2,138 +2,153 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping, Sequence
+import hashlib
+import posixpath
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
+from itertools import islice
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
 
-from checker.base.cache import Cache
-from checker.base.child_process import Child
+from checker.base.background import Background, work_key
+from checker.base.disk_file import NotReadable, read_bytes
+from checker.base.errors import WorkerFailed
 from checker.base.record import Record
-from checker.base.sandbox.files import from_disk
 from checker.model.mesh import Mesh, MeshFault
-from checker.model.robot import Robot
-from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
-from checker.physics.mesh.reading_child import all_read
+from checker.package.package import Package
+from checker.physics.mesh import process
+from checker.physics.mesh.obj import MATERIAL_LIMIT
+from checker.physics.mesh.package_meshes import PackageMeshes
+from checker.physics.mesh.surface import Appearance, appearance_from_json
+from checker.physics.mesh.thinning import shares
 from checker.physics.mesh.uris import MeshFile
-from checker.report.scene.early import looks
-from checker.report.scene.files.request import Asked, asked_of
-from checker.report.scene.files.thinning import shares
-from checker.report.scene.files.wire import Looked, from_json, to_json
 from checker.source.text import Located
 
 FOR_ONE = 40_000
 """Triangles of one file."""
 FOR_ALL = 150_000
 """Triangles of the files of one robot, each counted once however often it is used."""
-_KIND = "surfaces"
-
-
-class _Reading(Record, eq=False):
-    """What is known already, by key, and a child that reads the rest, in this order."""
-
-    known: Mapping[str, Looked]
-    unread: Sequence[str]
-    child: Child | None
+PICTURE_LIMIT = 30_000_000
+"""Bytes of a picture file."""
+_BESIDE = 40
+"""Pictures, and material files, of one mesh."""
+_LIBRARIES = ("fast-simplification", "lxml", "numpy", "pillow", "pycollada")
 
 
 class MeshFiles(Record, eq=False, dict=True):
     """Gives what the mesh files of a robot look like: a `Surfaces`.
 
     Attributes:
-        meshes: Where they are found, and what is in them.
-        uris: All that the robot names.
-        cache: Where results are kept.
-        waiting: A child that waits for files to read.
+        meshes: Where they are found, what is in them, and what reads them.
     """
 
     meshes: PackageMeshes
-    uris: tuple[Located[str], ...]
-    cache: Cache
-    waiting: Child | None = None
 
-    def of(self, uri: Located[str]) -> Looked:
+    def of(self, uri: Located[str]) -> Appearance:
         """Return what the file behind a URI looks like; the first call reads all files."""
         mesh, place = self.meshes.of(uri), self.meshes.content(uri)
         if isinstance(mesh, MeshFault):
             return mesh.reason
         if isinstance(place, MeshFault):
             return place.reason
-        asked = self._asked.get(place[0].path)
-        return "is not a mesh of this robot" if asked is None else self._looked[asked.key]
+        key = self._asked[0].get(place[0].path)
+        if key is None:
+            return "is not a mesh of this robot"
+        read = self._appearances.results()[key]
+        if isinstance(read, WorkerFailed):
+            return f"was not read: its reader {read.reason}"
+        return read
 
     def begin(self) -> None:
         """Begin to read, while the caller does something else; `of` waits for it."""
-        _ = self._reading
+        self._appearances.begin()
 
     def stop(self) -> None:
         """End the reading, if nobody has waited for it."""
-        if "_reading" in self.__dict__ and self._reading.child is not None:
-            self._reading.child.stop()
+        if "_appearances" in self.__dict__:
+            self._appearances.stop()
 
     @cached_property
-    def _asked(self) -> dict[str, Asked]:
-        """What is asked, by the path of the file."""
+    def _asked(self) -> tuple[Mapping[str, str], Mapping[str, Any]]:
+        """Keys of the cache by the paths of files, and what is asked by the keys."""
         files: dict[str, tuple[MeshFile, str, Mesh]] = {}
-        for uri in self.uris:
+        for uri in self.meshes.uris:
             mesh, place = self.meshes.of(uri), self.meshes.content(uri)
             if isinstance(mesh, Mesh) and isinstance(place, tuple):
                 files[place[0].path] = (*place, mesh)
         # Of files with the same content only one is shown.
         counts = {key: min(mesh.triangles, FOR_ONE) for _, key, mesh in files.values()}
         most = dict(zip(counts, shares([*counts.values()], FOR_ALL), strict=True))
-        return {
-            path: asked_of(self.meshes.package, file, key, mesh, most[key])
+        asked = {
+            path: _asked_of(self.meshes.package, file, key, mesh, most[key])
             for path, (file, key, mesh) in files.items()
         }
+        return {path: key for path, (key, _) in asked.items()}, dict(asked.values())
 
     @cached_property
-    def _reading(self) -> _Reading:
-        asked = {each.key: each for each in self._asked.values()}
-        known = {key: found for key in asked if (found := self._known(key)) is not None}
-        unread = [key for key in asked if key not in known]
-        if not unread:
-            return _Reading(known, (), None)
-        child = self.waiting or looks()
-        request = json.dumps([asked[key].request for key in unread]).encode()
-        files = dict(file for key in unread for file in asked[key].files)
-        child.give(request, from_disk(files.items()))
-        return _Reading(known, unread, child)
-
-    @cached_property
-    def _looked(self) -> dict[str, Looked]:
-        """Wait for the child, and keep what it has read."""
-        reading = self._reading
-        if reading.child is None:
-            return dict(reading.known)
-        read = dict(zip(reading.unread, _answered(reading.child, len(reading.unread)), strict=True))
-        for key, looked in read.items():
-            # What could not be read may be next time: it may have more time or memory.
-            if not isinstance(looked, str):
-                self.cache.put(_KIND, key, to_json(looked))
-        return {**reading.known, **read}
-
-    def _known(self, key: str) -> Looked | None:
-        try:
-            return from_json(self.cache.get(_KIND, key))
-        except ValueError:
-            return None
+    def _appearances(self) -> Background[Appearance]:
+        work = process.mesh_work(
+            "appearance", self._asked[1], appearance_from_json, _lasts, _files_of
+        )
+        return Background(work, self.meshes.cache, self.meshes.server)
 
 
-def surfaces_of(
-    meshes: PackageMeshes, robot: Robot, cache: Cache, waiting: Child | None = None
-) -> MeshFiles:
-    """Return what gives the looks of a robot's mesh files.
+def _asked_of(
+    package: Package, file: MeshFile, key: str, mesh: Mesh, most: int
+) -> tuple[str, Mapping[str, Any]]:
+    """Return the cache's key of a file's appearance, and what is asked about it.
 
     Args:
-        meshes: Those of the robot.
-        robot: Its visuals and collisions are shown.
-        cache: Where results are kept.
-        waiting: A child that waits for files to read.
+        package: Whose robot names it.
+        file: It.
+        key: Hash of its content.
+        mesh: What is in it.
+        most: Triangles that it may have.
     """
-    return MeshFiles(meshes, mesh_uris(robot), cache, waiting)
+    folder = posixpath.dirname(file.path)
+    pictures = dict(_existing(package, folder, mesh.textures))
+    materials = dict(_existing(package, folder, mesh.materials))
+    request = {
+        "file": str(file.location),
+        "name": posixpath.basename(file.path),
+        "triangles": most,
+        "pictures": {name: str(path) for name, path in pictures.items()},
+        "materials": [str(path) for path in materials.values()],
+    }
+    contents = (
+        *(f"{name} {_hash(path, PICTURE_LIMIT)}" for name, path in pictures.items()),
+        *(_hash(path, MATERIAL_LIMIT) for path in materials.values()),
+    )
+    # 0 where all triangles fit into the budget.
+    budget = 0 if most >= mesh.triangles else most
+    return work_key([key, str(budget), *contents], ["physics/mesh"], _LIBRARIES), request
 
 
-def _answered(child: Child, number: int) -> list[Looked]:
-    """Wait for what a child has read, as many files as it was given."""
-    read = all_read(child, number, from_json)
-    return [read] * number if isinstance(read, str) else read
+def _lasts(read: Appearance) -> bool:
+    """Say whether a result holds: next time there may be more time or memory."""
+    return not isinstance(read, str)
+
+
+def _files_of(asked: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
+    """Yield what goes with a request: paths, and how many bytes each may have."""
+    yield asked["file"], process.SIZE_LIMIT
+    yield from ((path, PICTURE_LIMIT) for path in asked["pictures"].values())
+    yield from ((path, MATERIAL_LIMIT) for path in asked["materials"])
+
+
+def _existing(package: Package, folder: str, names: Iterable[str]) -> Iterator[tuple[str, Path]]:
+    """Yield the files within the workspace that a mesh names, by their names inside."""
+    for name in islice(names, _BESIDE):
+        written = unquote(name.removeprefix("file://")).replace("\\", "/")
+        beside = (name, written, f"../materials/textures/{posixpath.basename(written)}")
+        for path in dict.fromkeys(beside):
+            entry = package.resolve(posixpath.normpath(posixpath.join(folder, path)))
+            if entry is not None and entry.is_file:
+                yield name, entry.location
+                break
+
+
+def _hash(path: Path, limit: int) -> str:
+    data = read_bytes(path, str(path), limit)
+    return "" if isinstance(data, NotReadable) else hashlib.sha256(data).hexdigest()

@@ -3,23 +3,29 @@
 from __future__ import annotations
 
 import base64
+import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from checker.base.cache import NO_CACHE, Cache, code_hash, key_of
-from checker.base.child_process import Child, Died, from_json
-from checker.base.resources import version_of
+from checker.base.background import Background, Work, work_key
+from checker.base.cache import NO_CACHE, Cache
+from checker.base.child_process import Child
+from checker.base.errors import WorkerFailed
 from checker.model.geometry.transform import Transform
+from checker.physics.mesh.surface import Surface
 from checker.report.report import Picture
 from checker.report.scene.drawing.camera import Camera, framed
 from checker.report.scene.drawing.request import Shot, drawn_items, request_of
-from checker.report.scene.early import PLATFORMS, artist
+from checker.report.scene.processes import (
+    DRAWING_LIMITS,
+    PLATFORMS,
+    drawing_module,
+    drawing_process,
+)
 from checker.report.scene.scene import DisplayScene, Layer
-from checker.report.scene.surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -157,7 +163,6 @@ def ground_of(scene: DisplayScene) -> float:
 
 WIDTH, HEIGHT = 640, 480
 """Pixels."""
-_KIND = "pictures"
 
 
 @dataclass(eq=False)
@@ -171,18 +176,18 @@ class Drawing:
 
     cache: Cache = NO_CACHE
     child: Child | None = None
-    _request: bytes = b""
-    _key: str = ""
-    _known: list[bytes] | None = None
     _shots: tuple[Shot, ...] = ()
+    _drawn: tuple[Background[list[bytes]], ...] = ()
 
     def begin(self) -> None:
         """Load what draws, while it is not known yet what."""
         if self.child is None:
-            self.child = artist(PLATFORMS[0], None)
+            self.child = drawing_process()
 
     def stop(self) -> None:
         """End what nobody waits for."""
+        for each in self._drawn:
+            each.stop()
         if self.child is not None:
             self.child.stop()
 
@@ -190,49 +195,33 @@ class Drawing:
         """Say what to draw; it is drawn while the caller does something else."""
         self._shots = tuple(shots_of(scene, WIDTH / HEIGHT))
         if self._shots:
-            self._request = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
-            own = code_hash("report/scene/drawing"), version_of("mujoco")
-            self._key = key_of(self._request, *own)
-            self._known = _files(self.cache.get(_KIND, self._key), len(self._shots))
-            if self._known is None:
-                self.begin()
-                if self.child is not None:
-                    self.child.give(self._request)
+            asked = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
+            key = work_key([json.dumps(asked)], ["report/scene/drawing"], ["mujoco"])
+            self._drawn = tuple(self._background(key, asked, each) for each in PLATFORMS)
+            self._drawn[0].begin()
 
     @property
     def pictures(self) -> tuple[Picture, ...]:
         """The pictures; none where nothing can draw without a window."""
-        drawn = self._known or self._drawn()
-        return tuple(
-            Picture(shot.caption, jpeg, WIDTH, HEIGHT)
-            for shot, jpeg in zip(self._shots, drawn or (), strict=drawn is not None)
-        )
+        for each in self._drawn:
+            files = each.result()
+            if not isinstance(files, WorkerFailed):
+                return tuple(
+                    Picture(shot.caption, jpeg, WIDTH, HEIGHT)
+                    for shot, jpeg in zip(self._shots, files, strict=True)
+                )
+        return ()
 
-    def _drawn(self) -> list[bytes] | None:
-        """Return what the child draws, and keep it; None where nothing can draw."""
-        if self.child is None or not self._shots:
-            return None
-        for platform in PLATFORMS:
-            is_first = platform == PLATFORMS[0]
-            child = self.child if is_first else artist(platform, self._request)
-            said = _read(child.answer())
-            drawn = _files(said, len(self._shots))
-            if drawn is not None:
-                self.cache.put(_KIND, self._key, said)
-                return drawn
-        return None
+    def _background(
+        self, key: str, asked: Mapping[str, Any], platform: str
+    ) -> Background[list[bytes]]:
+        def decoded(answer: Any) -> list[bytes]:
+            files = [base64.b64decode(each) for each in answer]
+            if len(files) != len(self._shots):
+                raise ValueError("another number of pictures")
+            return files
 
-
-def _read(answer: bytes | Died) -> Any:
-    with suppress(ValueError):
-        return None if isinstance(answer, Died) else from_json(answer)
-    return None
-
-
-def _files(said: Any, number: int) -> list[bytes] | None:
-    """Return the files that stand in an answer, if they are as many as expected."""
-    try:
-        files = [base64.b64decode(each) for each in said]
-    except (TypeError, ValueError):
-        return None
-    return files if len(files) == number else None
+        module = drawing_module(platform)
+        work = Work("pictures", module, DRAWING_LIMITS, {key: asked}, decoded)
+        waiting = self.child if platform == PLATFORMS[0] else None
+        return Background(work, self.cache, waiting)

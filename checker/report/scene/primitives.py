@@ -8,7 +8,7 @@ from functools import cache
 from itertools import pairwise, product
 from typing import TYPE_CHECKING, Any
 
-from checker.report.scene.surface import Surface
+from checker.physics.mesh.surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from checker.base.record import Record
 from checker.model.geometry.transform import Transform, Vector, rotation_from_quaternion
-from checker.report.scene.surface import Surface
+from checker.physics.mesh.surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -11,6 +11,7 @@ from checker.model.components import Collision, Visual
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Rotation, Transform, Vector
 from checker.model.mesh import MeshFault
+from checker.physics.mesh.surface import Surface
 from checker.physics.trial.mjcf.names import FAR, usable
 from checker.report.scene.primitives import (
     box,
@@ -21,7 +22,7 @@ from checker.report.scene.primitives import (
     sphere,
 )
 from checker.report.scene.shown_robot import Showing
-from checker.report.scene.surface import Surface, short
+from checker.report.scene.surfaces import short
 
 _NOTHING = ("", "empty")
 

@@ -13,7 +13,7 @@ from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.physics.trial.mjcf.names import well_placed
 from checker.report.scene.scene import Item
-from checker.report.scene.surface import Notes, Surfaces, short
+from checker.report.scene.surfaces import Notes, Surfaces, short
 
 Hung = Iterator[tuple[str, Item]]
 """Items, each with the scoped name of the link that it hangs on."""

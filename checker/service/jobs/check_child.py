@@ -17,10 +17,10 @@ from pathlib import Path
 from select import select
 from typing import Any
 
-from checker.base.child_process import Child
+from checker.base.child_server import Server
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import INPUT, Answer
-from checker.physics.mesh.early import mesh_child
+from checker.physics.mesh.process import mesh_server
 from checker.report.report import Report
 from checker.service.jobs.layout import new_parts, settle
 from checker.service.jobs.limits import StageLimits, limit
@@ -52,9 +52,9 @@ def prepare() -> None:
 
 
 @once
-def _waiting() -> list[Child]:
+def _waiting() -> list[Server]:
     """Return the process that reads meshes, if the check lets it come first."""
-    return [] if select([INPUT], [], [], _IDLE)[0] else [mesh_child()]
+    return [] if select([INPUT], [], [], _IDLE)[0] else [mesh_server().start()]
 
 
 def answer(request: bytes, files: Files) -> Answer:
@@ -76,12 +76,12 @@ def answer(request: bytes, files: Files) -> Answer:
     return json.dumps(said).encode(), chain(made, new_parts(place, files.names))
 
 
-def _meshes() -> Child:
+def _meshes() -> Server:
     """Return a process that waits for meshes: the one that is there, the first time."""
     waiting = _waiting()
     if waiting and waiting[0].alive:
         return waiting.pop()
-    return mesh_child()
+    return mesh_server()
 
 
 def _checked(
@@ -106,7 +106,7 @@ def _checked(
     }
     try:
         # Relative, so that no report shows where this machine keeps it.
-        report = without_folder(check_paths([Path(name)], options, mesh_child=_meshes), place)
+        report = without_folder(check_paths([Path(name)], options, mesh_server=_meshes), place)
     except (InvalidSettings, UnreadableInput) as error:
         return _refused(shortened(str(error), 1_000))
     if not report.packages:

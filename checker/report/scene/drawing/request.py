@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from checker.base.record import Record
 from checker.model.geometry.transform import Transform
+from checker.physics.mesh.surface import Surface, surface_to_json
 from checker.physics.trial.mjcf.names import quaternion, well_placed
 from checker.report.scene.drawing.camera import Camera
-from checker.report.scene.files.wire import surface_to_json
 from checker.report.scene.scene import DisplayScene, Item, Layer
-from checker.report.scene.surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -64,7 +62,7 @@ class _Meshes:
 
 def request_of(
     scene: DisplayScene, shots: Sequence[Shot], ground: float, width: int, height: int
-) -> bytes:
+) -> dict[str, Any]:
     """Return what the worker needs to know.
 
     Args:
@@ -89,7 +87,7 @@ def request_of(
         if len(surface.faces)
     ]
     used = sorted({number for number, _ in shown})
-    asked = {
+    return {
         "width": width,
         "height": height,
         "ground": ground,
@@ -98,7 +96,6 @@ def request_of(
         "geoms": geoms,
         "shots": [_shot(scene, shot, used) for shot in shots],
     }
-    return json.dumps(asked).encode()
 
 
 def drawn_items(scene: DisplayScene) -> Iterator[tuple[int, Item]]:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from checker.physics.mesh.surface import Surface, surface_from_json
 from checker.physics.trial.mjcf.names import numbers
 from checker.report.scene.drawing.camera import FIELD_OF_VIEW
-from checker.report.scene.files.wire import surface_from_json
-from checker.report.scene.surface import Surface
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

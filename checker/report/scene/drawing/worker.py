@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import Any
 
 from checker.base.sandbox.files import NO_FILES, Files
+from checker.physics.mesh.surface import Surface, surface_to_json
 from checker.report.scene.drawing.camera import Camera
 from checker.report.scene.drawing.studio import (
     GROUND_GROUP,
@@ -22,8 +23,6 @@ from checker.report.scene.drawing.studio import (
     model_of,
     set_stage,
 )
-from checker.report.scene.files.wire import surface_to_json
-from checker.report.scene.surface import Surface
 
 # A request that has everything drawn once that other requests have drawn, as small as can be.
 
@@ -87,13 +86,16 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     """Draw pictures.
 
     Args:
-        request: JSON; see `checker.report.scene.drawing.request`.
+        request: JSON; `items` of the form that `checker.report.scene.drawing.request` has.
 
     Returns:
-        JSON: the JPEG files in the order of the shots, as base64.
+        JSON: of each the JPEG files in the order of the shots, as base64.
     """
-    pictures = _pictures(json.loads(request))
-    return json.dumps([base64.b64encode(each).decode() for each in pictures]).encode()
+    return json.dumps([_encoded(asked) for asked in json.loads(request)["items"]]).encode()
+
+
+def _encoded(asked: Mapping[str, Any]) -> list[str]:
+    return [base64.b64encode(each).decode() for each in _pictures(asked)]
 
 
 def _pictures(asked: Mapping[str, Any]) -> list[bytes]:

@@ -11,12 +11,13 @@ from msgspec.structs import replace
 from checker.model.components import Joint, Link
 from checker.model.geometry.transform import Rotation, Transform, Vector
 from checker.physics.mass.inertia import moments_of
+from checker.physics.mesh.surface import Colour, Surface
 from checker.physics.trial.mjcf.names import FAR, usable, well_placed
 from checker.report.scene.primitives import bar, box, joined, revolved, sphere, tapered, tube
 from checker.report.scene.scene import Item, Layer
 from checker.report.scene.shapes import turn_to
 from checker.report.scene.shown_robot import Hung, Showing
-from checker.report.scene.surface import Colour, Surface, short
+from checker.report.scene.surfaces import short
 
 # The layer of joints: an arrow along each axis.
 

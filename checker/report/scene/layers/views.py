@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from checker.model.components import Sensor
+from checker.physics.mesh.surface import Colour, Surface
 from checker.physics.views.rays import Grid, grid_of
 from checker.report.scene.primitives import bar, joined
 from checker.report.scene.scene import Item, Layer
 from checker.report.scene.shown_robot import Hung, Showing
-from checker.report.scene.surface import Colour, Surface
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -13,10 +13,10 @@ from checker.model.components import Visual
 from checker.model.geometry.shapes import Material
 from checker.model.robot import Robot
 from checker.model.values import ValueReader
+from checker.physics.mesh.surface import Colour, Surface
 from checker.report.scene.scene import Item, Layer
 from checker.report.scene.shapes import drawn
 from checker.report.scene.shown_robot import Hung, Showing
-from checker.report.scene.surface import Colour, Surface
 from checker.source.xml import Element
 
 # The layer of collisions: what touches things, see-through in one colour.

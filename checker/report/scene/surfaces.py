@@ -1,19 +1,14 @@
-"""What is drawn: triangles of one material; and who gives those of mesh files."""
+"""Who gives what mesh files look like, and what is said of parts that are not shown."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Protocol
 
 from checker.base.record import Record
 from checker.base.words import plain, shortened
+from checker.physics.mesh.surface import Surface
 from checker.source.text import Located
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[Any]
-
 
 # What is not shown, as sentences: each once, and not more than anybody reads.
 
@@ -46,30 +41,6 @@ class Notes:
 def short(name: str) -> str:
     """Return a name that a sentence can hold."""
     return plain(shortened(name, _NAME))
-
-
-Colour = tuple[float, float, float, float]
-"""Red, green, blue and alpha as sRGB has them, 0 to 1."""
-
-GREY: Colour = (0.7, 0.7, 0.7, 1.0)
-
-
-class Surface(Record, eq=False):
-    """Triangles of one material.
-
-    Attributes:
-        vertices: Corners, metres (n × 3, float32).
-        faces: Three numbers of corners a triangle, counter-clockwise from outside (m × 3, uint32).
-        colour: Of all triangles; vertex colours are multiplied with it.
-        vertex_colours: sRGB red, green, blue and alpha of each corner (n × 4, uint8), or None.
-        normals: Unit vectors of smooth surfaces (n × 3, float32); None lets every triangle be flat.
-    """
-
-    vertices: Array
-    faces: Array
-    colour: Colour = GREY
-    vertex_colours: Array | None = None
-    normals: Array | None = None
 
 
 class Surfaces(Protocol):

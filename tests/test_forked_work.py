@@ -21,7 +21,8 @@ BEGIN = """
 import os, resource
 from stat import S_ISFIFO
 from time import monotonic, sleep
-from checker.mesh.apart import Ended, all_apart, apart
+from checker.base.errors import WorkerFailed
+from checker.base.forked_work import in_fork, in_forks
 
 def say(data):
     descriptors = [int(name) for name in os.listdir("/dev/fd") if os.path.exists(f"/dev/fd/{name}")]
@@ -39,8 +40,8 @@ def run(body: str) -> list[str]:
 @pytest.mark.parametrize("how", DIES)
 def test_work_may_die(how: str) -> None:
     body = f"def work():\n    {DIES[how]}\n"
-    body += "print(type(apart(work, 1)).__name__, apart(lambda: b'well', 1))"
-    assert run(body) == ["Ended b'well'"]
+    body += "print(type(in_fork(work, 1)).__name__, in_fork(lambda: b'well', 1))"
+    assert run(body) == ["WorkerFailed b'well'"]
 
 
 @pytest.mark.parametrize("how", DIES)
@@ -48,10 +49,10 @@ def test_one_of_several_may_die(how: str) -> None:
     body = f"""
 def dies():
     {DIES[how]}
-first, *others = all_apart([lambda: b"1", dies, dies, lambda: b"", os.getcwdb], 1, 1e9, "late")
+first, *others = in_forks([lambda: b"1", dies, dies, lambda: b"", os.getcwdb], 1, 1e9, "late")
 print(first, type(others[0]).__name__, type(others[1]).__name__, others[2:] == [b"", os.getcwdb()])
 """
-    assert run(body) == ["b'1' Ended Ended True"]
+    assert run(body) == ["b'1' WorkerFailed WorkerFailed True"]
 
 
 def test_they_share_a_fork_until_one_ends_it() -> None:
@@ -60,8 +61,8 @@ def dies():
     raise ValueError
 def who():
     return str(os.getpid()).encode()
-a, b, bad, c, d = all_apart([who, who, dies, who, who], 5, 1e9, "late")
-print(a == b, isinstance(bad, Ended), c == d, a == c, a == who())
+a, b, bad, c, d = in_forks([who, who, dies, who, who], 5, 1e9, "late")
+print(a == b, isinstance(bad, WorkerFailed), c == d, a == c, a == who())
 """
     assert run(body) == ["True True True False False"]
 
@@ -74,7 +75,7 @@ kept = []
 def large():
     kept.append(bytearray(150_000_000))
     return str(len(kept)).encode()
-print(*all_apart([large] * 7, 5, 1e9, "late"))
+print(*in_forks([large] * 7, 5, 1e9, "late"))
 """
     counts = [int(count[2:-1]) for count in run(body)[0].split(" ")]
     assert counts == [1] * 7
@@ -88,7 +89,7 @@ def first_only():
     if len(begun) > 1:
         raise ValueError
     return b"done"
-print(*all_apart([first_only] * 4, 5, 1e9, "late"))
+print(*in_forks([first_only] * 4, 5, 1e9, "late"))
 """
     assert run(body) == [" ".join(["b'done'"] * 4)]
 
@@ -101,7 +102,7 @@ def cycle():
     node = Node()
     node.self, node.data = node, bytearray(60_000_000)
     return str(os.getpid()).encode()
-print(len(set(all_apart([cycle] * 8, 5, 1e9, "late"))))
+print(len(set(in_forks([cycle] * 8, 5, 1e9, "late"))))
 """
     assert run(body) == ["1"]
 
@@ -114,7 +115,7 @@ def works():
     while sum(os.times()[:2]) < until:
         pass
     return b"done"
-print(*all_apart([works] * 4, 2, 1e9, "late"))
+print(*in_forks([works] * 4, 2, 1e9, "late"))
 """
     assert run(body) == [" ".join(["b'done'"] * 4)]
 
@@ -126,15 +127,15 @@ def waits():
     while monotonic() < until - 0.95:
         sleep(0.01)
     return b"done"
-print(all_apart([waits] * 4, 5, until, "came too late"))
+print(in_forks([waits] * 4, 5, until, "came too late"))
 """
-    late = "Ended(reason='came too late')"
+    late = "WorkerFailed(reason='came too late')"
     assert run(body) == [f"[b'done', {late}, {late}, {late}]"]
 
 
 def test_limits_that_there_are_stay() -> None:
     body = """
 resource.setrlimit(resource.RLIMIT_CPU, (3, 3))
-print(apart(lambda: str(resource.getrlimit(resource.RLIMIT_CPU)).encode(), 20))
+print(in_fork(lambda: str(resource.getrlimit(resource.RLIMIT_CPU)).encode(), 20))
 """
     assert run(body) == ["b'(3, 3)'"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from checker.report.scene.surface import Colour, Surface
+from checker.physics.mesh.surface import Colour, Surface
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

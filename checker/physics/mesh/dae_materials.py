@@ -1,4 +1,4 @@
-"""Triangles of a COLLADA file by material.
+"""The materials of a COLLADA file.
 
 Only diffuse colours, diffuse pictures and transparency are taken over (COLLADA 1.4.1, FX elements
 of profile_COMMON): the light of the display is not that of the file.
@@ -7,38 +7,18 @@ of profile_COMMON): the light of the display is not that of the file.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import Any
 
 from lxml import etree
 
-from checker.physics.mesh.collada_xml import local_name, parse_collada, without_looks
-from checker.physics.mesh.dae import metres_per_unit, triangles_of_scene
-from checker.report.scene.files.piece import Look, Piece
-from checker.report.scene.surface import GREY, Colour
+from checker.physics.mesh.content import Material
+from checker.physics.mesh.surface import GREY, Colour
 
 _FAINTEST = 0.02
 """Alpha below which a material counts as opaque: exporters that mix up 0 and 1 are common."""
 
 
-def collada_pieces(data: bytes) -> Iterator[Piece]:
-    """Yield the triangles of the scene, metres.
-
-    Raises:
-        NoSurface: The file is no COLLADA.
-    """
-    import numpy as np
-
-    root, _ = parse_collada(data)
-    metres, _ = metres_per_unit(root)
-    looks = _Looks(root)
-    for geometry, triangles in triangles_of_scene(without_looks(root))[0]:
-        look = looks.of(geometry, triangles.original.material or "")
-        corners = np.asarray(triangles.vertex, np.float64)[triangles.vertex_index] * metres
-        yield Piece(corners, look, _places(triangles))
-
-
-def _places(triangles: Any) -> Any:
+def places_in_picture(triangles: Any) -> Any:
     """Return where corners lie in a picture, by the first set that the file has of it."""
     import numpy as np
 
@@ -51,21 +31,22 @@ def _places(triangles: Any) -> Any:
     return np.asarray(sets, np.float64)[:, :2][numbers]
 
 
-class _Looks:
-    """The materials of a document; read before its looks are taken out."""
+class DaeMaterials:
+    """The materials of a document; read before they are taken out."""
 
     def __init__(self, root: etree._Element) -> None:
+        """Read them."""
         self._bound = _bound(root)
         images = {_id(each): _text(each, "init_from") for each in root.iter("{*}image")}
-        effects = {_id(each): _look(each, images) for each in root.iter("{*}effect")}
+        effects = {_id(each): _material(each, images) for each in root.iter("{*}effect")}
         self._materials = {
-            _id(each): effects.get(_target(each.find("{*}instance_effect"), "url"), Look())
+            _id(each): effects.get(_target(each.find("{*}instance_effect"), "url"), Material())
             for each in root.iter("{*}material")
         }
 
-    def of(self, geometry: str, symbol: str) -> Look:
-        """Return the look of triangles of a geometry that name a symbol."""
-        return self._materials.get(self._bound.get((geometry, symbol), symbol), Look())
+    def material_of(self, geometry: str, symbol: str) -> Material:
+        """Return the material of triangles of a geometry that name a symbol."""
+        return self._materials.get(self._bound.get((geometry, symbol), symbol), Material())
 
 
 def _bound(root: etree._Element) -> dict[tuple[str, str], str]:
@@ -77,18 +58,18 @@ def _bound(root: etree._Element) -> dict[tuple[str, str], str]:
     }
 
 
-def _look(effect: etree._Element, images: dict[str, str]) -> Look:
+def _material(effect: etree._Element, images: dict[str, str]) -> Material:
     shading = effect.find("{*}profile_COMMON/{*}technique/*")
     for kind in ("phong", "lambert", "blinn", "constant"):
         found = effect.find(f"{{*}}profile_COMMON/{{*}}technique/{{*}}{kind}")
         shading = found if found is not None else shading
     if shading is None:
-        return Look()
+        return Material()
     shows = "emission" if local_name(shading) == "constant" else "diffuse"
     texture = shading.find(f"{{*}}{shows}/{{*}}texture")
     picture = _picture(effect, images, texture.get("texture", "")) if texture is not None else ""
     red, green, blue, _ = _colour(shading, shows) or GREY
-    return Look((red, green, blue, _alpha(shading)), picture)
+    return Material((red, green, blue, _alpha(shading)), picture)
 
 
 def _picture(effect: etree._Element, images: dict[str, str], name: str) -> str:
@@ -142,3 +123,8 @@ def _id(element: etree._Element) -> str:
 
 def _target(element: etree._Element | None, name: str) -> str:
     return element.get(name, "").lstrip("#") if element is not None else ""
+
+
+def local_name(element: etree._Element) -> str:
+    """Return an element's name without its namespace."""
+    return str(element.tag).rpartition("}")[2]

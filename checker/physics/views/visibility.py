@@ -1,23 +1,19 @@
-"""Casts the rays of sensors at visuals, in a child process where files are read.
+"""Casts the rays of sensors at visuals.
 
-A request holds `sensors` (pose and grid), `solids` (visuals of one kind, with their sizes) and
+What is asked holds `sensors` (pose and grid), `solids` (visuals of one kind, with their sizes) and
 `meshes` (files, with the visuals that show them). Poses are 12 numbers in the robot's frame: the
 rotation row by row, then the place.
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
-from time import monotonic
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from checker.base.disk_file import NotReadable
-from checker.base.forked_work import Ended, all_apart
-from checker.base.sandbox.files import NO_FILES, Content, Files
-from checker.physics.mesh.reader import load_libraries, read_surface
-from checker.physics.mesh.surface import NoSurface
+from checker.base.sandbox.files import Content
+from checker.physics.mesh.content import NoSurface
+from checker.physics.mesh.reader import read_content
 from checker.physics.views.rays import Grid, grid_from_json
 from checker.physics.views.solids import entered
 from checker.physics.views.triangles import ball_around, in_view, met
@@ -28,12 +24,9 @@ if TYPE_CHECKING:
 
     Array = NDArray[float64]
     Bits = NDArray[bool_]
+    Sensors = Sequence[tuple[Array, Grid]]
+    """Pose and rays of each."""
 
-SECONDS_FOR_ONE = 20
-"""Processor time for one file and all that look at it."""
-SECONDS_FOR_ALL = 60
-"""By the clock, for the files of one robot."""
-_LATE = f"was not checked: the other sensors took {SECONDS_FOR_ALL} s"
 FARTHEST = 1e12
 """Metres; corners beyond are nowhere."""
 
@@ -42,43 +35,41 @@ Met = dict[str, Any]
 it, how far away (`reach`, metres), and those that meet it nearer than the sensor sees (`cut`)."""
 
 
-def answer(request: bytes, files: Files) -> bytes:
-    """Do the work; see `look`."""
-    return json.dumps(look(json.loads(request), files)).encode()
-
-
-def look(asked: dict[str, Any], files: Files = NO_FILES) -> dict[str, Any]:
+def views_of(
+    asked: Mapping[str, Any], sensors: Sensors, of_meshes: Sequence[list[Met] | str] = ()
+) -> dict[str, Any]:
     """Return what each sensor sees of the visuals.
 
     Args:
         asked: See above.
-        files: The meshes, by their `file`.
+        sensors: Those that are asked about.
+        of_meshes: What is seen of each mesh, or why that is not known (`seen_of_mesh`).
 
     Returns:
         `views`: for each sensor `shares` of the view and the metres (`reach`) to what fills each of
         them, the share that is `cut` off, and the visual that fills most (`by`; -1 for none).
         `unread`: numbers of files, and why.
     """
-    import numpy as np
-
-    grids = [grid_from_json(each["grid"]) for each in asked["sensors"]]
-    poses = [np.array(each["pose"]) for each in asked["sensors"]]
-    found = list(_solids(asked["solids"], poses, grids))
+    found = list(_solids(asked["solids"], sensors))
     unread: list[tuple[int, str]] = []
-    until = monotonic() + SECONDS_FOR_ALL
-    load_libraries(mesh["name"] for mesh in asked["meshes"])
-    works = [partial(_as_bytes, mesh, files.read, poses, grids) for mesh in asked["meshes"]]
-    for number, told in enumerate(all_apart(works, SECONDS_FOR_ONE, until, _LATE)):
-        read = told.reason if isinstance(told, Ended) else json.loads(told)
-        if isinstance(read, str):
-            unread.append((number, read))
+    for number, seen in enumerate(of_meshes):
+        if isinstance(seen, str):
+            unread.append((number, seen))
         else:
-            found += read
+            found += seen
     views = [
         _view(grid, [each for each in found if each["sensor"] == number])
-        for number, grid in enumerate(grids)
+        for number, (_, grid) in enumerate(sensors)
     ]
     return {"views": views, "unread": unread}
+
+
+def sensors_of(asked: Mapping[str, Any]) -> Sensors:
+    """Return poses and rays of the sensors that are asked about."""
+    import numpy as np
+
+    sensors = asked["sensors"]
+    return [(np.array(each["pose"]), grid_from_json(each["grid"])) for each in sensors]
 
 
 def _view(grid: Grid, met: Iterable[Met]) -> dict[str, Any]:
@@ -116,13 +107,13 @@ def _met(visual: int, sensor: int, first: Array, cut: Bits) -> Met:
     }
 
 
-def _solids(kinds: dict[str, Any], poses: list[Array], grids: list[Grid]) -> Iterator[Met]:
+def _solids(kinds: Mapping[str, Any], sensors: Sensors) -> Iterator[Met]:
     import numpy as np
 
     for kind, group in kinds.items():
         sizes, placed = np.array(group["sizes"]), np.array(group["poses"])
         turned, places = placed[:, :9].reshape(-1, 3, 3), placed[:, 9:]
-        for sensor, (pose, grid) in enumerate(zip(poses, grids, strict=True)):
+        for sensor, (pose, grid) in enumerate(sensors):
             rays = grid.directions @ pose[:9].reshape(3, 3).T
             # Into the frame of each shape: its rotation's transpose.
             own_rays = np.einsum("rj,pjk->prk", rays, turned)
@@ -136,27 +127,26 @@ def _solids(kinds: dict[str, Any], poses: list[Array], grids: list[Grid]) -> Ite
                 yield _met(group["visuals"][number], sensor, first[number], cut[number])
 
 
-Read = Callable[[str], Content]
+def seen_of_mesh(sensors: Sensors, mesh: Mapping[str, Any], data: Content) -> list[Met] | str:
+    """Return what the sensors see of a mesh, or why that is not known.
 
-
-def _as_bytes(mesh: dict[str, Any], read: Read, poses: list[Array], grids: list[Grid]) -> bytes:
-    return json.dumps(_mesh(mesh, read(mesh["file"]), poses, grids)).encode()
-
-
-def _mesh(
-    mesh: dict[str, Any], data: Content, poses: list[Array], grids: list[Grid]
-) -> list[Met] | str:
+    Args:
+        sensors: That look at it.
+        mesh: One of the `meshes` that are asked about.
+        data: What is in the file.
+    """
     import numpy as np
 
     if isinstance(data, NotReadable):
         return data.reason
     try:
-        surface = read_surface(data, mesh["name"])
+        content = read_content(data, mesh["name"])
     except NoSurface as none:
         return none.reason
-    if mesh["part"] not in ("", *surface.parts) or (mesh["part"] and len(surface.parts) > 1):
+    if mesh["part"] not in ("", *content.parts) or (mesh["part"] and len(content.parts) > 1):
         return "is only partly used (<submesh>)"
-    corners = surface.corners[(np.abs(surface.corners) <= FARTHEST).all(axis=(1, 2))]
+    corners = content.corners
+    corners = corners[(np.abs(corners) <= FARTHEST).all(axis=(1, 2))]
     found: list[Met] = []
     if not len(corners):
         return found
@@ -164,7 +154,7 @@ def _mesh(
         placed = np.array(use["pose"])
         in_robot = (corners * use["scale"]) @ placed[:9].reshape(3, 3).T + placed[9:]
         middle, radius = ball_around(in_robot)
-        for sensor, (pose, grid) in enumerate(zip(poses, grids, strict=True)):
+        for sensor, (pose, grid) in enumerate(sensors):
             turned = pose[:9].reshape(3, 3)
             # Most of a robot is behind most of its cameras.
             if not in_view((middle - pose[9:]) @ turned, radius, grid):

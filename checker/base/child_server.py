@@ -1,0 +1,130 @@
+"""A process with limits that answers one request after the other, so that it loads but once.
+
+Requests come one behind the other in one file, answers in another; two pipes tell where each lies.
+No socket is needed, so that a process in the sandbox can have such a process as well.
+"""
+
+from __future__ import annotations
+
+import os
+import select
+from collections.abc import Iterable
+from contextlib import suppress
+from time import monotonic
+
+from checker.base import child_process
+from checker.base.child_process import Child, Limits, cause_of, overdue
+from checker.base.errors import WorkerFailed
+from checker.base.sandbox import files as handed
+from checker.base.sandbox.files import Content
+from checker.base.sandbox.task import PLACE
+
+_ENDS_SECONDS = 5.0
+"""Until the exit code of a process that has died is known, at most."""
+
+
+class _Process(Child):
+    """The process of a server."""
+
+    def __init__(self, module: str, limits: Limits) -> None:
+        """Start it."""
+        self._done, theirs = os.pipe()
+        try:
+            super().__init__(module, None, limits, done=theirs)
+        finally:
+            os.close(theirs)
+        self._given = 0
+        self._places: list[tuple[int, int]] = []
+
+    def ask(self, request: bytes, contents: Iterable[tuple[str, Content]]) -> Asked:
+        """Bring a request."""
+        start = self._request.seek(0, os.SEEK_END)
+        handed.write(self._request, request, contents)
+        # One that has died says why when it is asked for its answer.
+        with suppress(OSError):
+            os.write(self._started.input, PLACE.pack(start, self._request.tell()))
+        self._given += 1
+        return Asked(self, self._given - 1)
+
+    def answer_to(self, number: int, deadline: float) -> bytes | WorkerFailed:
+        """Wait for the answer to a request; a process that takes too long is stopped."""
+        poll = select.poll()
+        poll.register(self._done, select.POLLIN)
+        while not self._stopped and len(self._places) <= number:
+            if not poll.poll(max(0.0, deadline - monotonic()) * 1000.0):
+                self.stop()
+                return overdue(self.limits)
+            place = os.read(self._done, PLACE.size)
+            if len(place) < PLACE.size:
+                self.ends(_ENDS_SECONDS)
+                return cause_of(self.code, self.limits)
+            self._places.append(PLACE.unpack(place))
+        if self._stopped:
+            return WorkerFailed("was stopped")
+        found = self.answered(child_process.ANSWER_LIMIT, *self._places[number])
+        return found if isinstance(found, WorkerFailed) else found[0]
+
+    def stop(self) -> None:
+        """End the process, whatever it does; nothing happens if it has been stopped."""
+        if not self._stopped:
+            super().stop()
+            os.close(self._done)
+
+
+class Asked:
+    """A request to a server, and the answer once it is there."""
+
+    def __init__(self, process: _Process, number: int) -> None:
+        """Take it over; its time begins now."""
+        self._process, self._number = process, number
+        self._deadline = monotonic() + process.limits.clock_seconds
+        self._wanted = True
+
+    def answer(self) -> bytes | WorkerFailed:
+        """Wait for the answer."""
+        if not self._wanted:
+            return WorkerFailed("was given up")
+        return self._process.answer_to(self._number, self._deadline)
+
+    def stop(self) -> None:
+        """Want no answer any more; the process goes on for others."""
+        self._wanted = False
+
+
+class Server:
+    """Starts its process when it is first asked; one that has died is started anew."""
+
+    def __init__(self, module: str, limits: Limits) -> None:
+        """Start nothing yet.
+
+        Args:
+            module: As of a `Child`.
+            limits: What the process may use for all requests; by the clock, for each.
+        """
+        self._module, self._limits = module, limits
+        self._process: _Process | None = None
+
+    @property
+    def alive(self) -> bool:
+        """Whether its process waits for requests, or works at one."""
+        return self._process is not None and self._process.alive
+
+    def start(self) -> Server:
+        """Start the process, if there is none."""
+        self._running()
+        return self
+
+    def give(self, request: bytes, contents: Iterable[tuple[str, Content]] = ()) -> Asked:
+        """Bring a request; it is answered after those before it."""
+        return self._running().ask(request, contents)
+
+    def stop(self) -> None:
+        """End the process, whatever it does."""
+        if self._process is not None:
+            self._process.stop()
+
+    def _running(self) -> _Process:
+        if self._process is None or not self._process.alive:
+            self.stop()
+            self._process = _Process(self._module, self._limits)
+        return self._process

@@ -1,0 +1,110 @@
+"""What a mesh file holds: triangles by material, and the names in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from checker.base.record import Record
+from checker.model.mesh import MeshTrouble
+from checker.physics.mesh.surface import GREY, Colour
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+
+MOST = 32
+"""Looks of one file; the triangles of all others get that of the most frequent of them."""
+
+
+class Material(Record):
+    """What a material does to its triangles.
+
+    Attributes:
+        colour: Of what has no picture.
+        picture: File as named inside; empty without one.
+    """
+
+    colour: Colour = GREY
+    picture: str = ""
+
+
+class Piece(Record, eq=False):
+    """Triangles of one material.
+
+    Attributes:
+        corners: n triangles × 3 corners × (x, y, z), metres.
+        material: What they look like.
+        places: Where each corner lies in the picture (n × 3 × 2; u to the right, v upwards, 0 to 1
+            once across); None where the file does not say.
+    """
+
+    corners: Array
+    material: Material = Material()
+    places: Array | None = None
+
+
+class MeshContent(Record, eq=False):
+    """What a file holds, before anything is measured.
+
+    Attributes:
+        pieces: Its triangles.
+        metres_per_unit: The file's own unit, which the pieces honour.
+        textures: Picture files as named inside.
+        materials: Material files as named inside.
+        defects: What is not valid for the format though loaders cope, as clauses.
+        parts: Names of the parts inside.
+    """
+
+    pieces: tuple[Piece, ...]
+    metres_per_unit: float = 1.0
+    textures: tuple[str, ...] = ()
+    materials: tuple[str, ...] = ()
+    defects: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
+
+    @property
+    def corners(self) -> Array:
+        """Of all triangles: n triangles × 3 corners × (x, y, z), metres."""
+        import numpy as np
+
+        if len(self.pieces) == 1:
+            return self.pieces[0].corners
+        return np.concatenate([np.empty((0, 3, 3)), *(piece.corners for piece in self.pieces)])
+
+
+class NoSurface(Exception):
+    """A file yields no triangles; it becomes a `MeshFault`.
+
+    Attributes:
+        reason: The end of a sentence whose subject is the file.
+    """
+
+    def __init__(self, reason: str, trouble: MeshTrouble = MeshTrouble.UNREADABLE) -> None:
+        """Make it; by default the file is at fault."""
+        super().__init__(reason)
+        self.reason = reason
+        self.trouble = trouble
+
+
+def by_material(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
+    """Return one piece for each material, at most `MOST`, large ones first."""
+    groups: dict[tuple[Material, bool], list[Piece]] = {}
+    for piece in pieces:
+        groups.setdefault((piece.material, piece.places is None), []).append(piece)
+    merged = sorted(map(_merged, groups.values()), key=lambda piece: -len(piece.corners))
+    few = merged if len(merged) <= MOST else [*merged[: MOST - 1], _merged(merged[MOST - 1 :])]
+    return tuple(few)
+
+
+def _merged(pieces: list[Piece]) -> Piece:
+    """Join pieces; the first one's material holds for all."""
+    import numpy as np
+
+    if len(pieces) == 1:
+        return pieces[0]
+    corners = np.concatenate([piece.corners for piece in pieces])
+    places = [piece.places for piece in pieces if piece.places is not None]
+    whole = len(places) == len(pieces)
+    return Piece(corners, pieces[0].material, np.concatenate(places) if whole else None)

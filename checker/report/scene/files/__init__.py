@@ -1,1 +1,0 @@
-"""What mesh files look like: triangles by material, coloured by their pictures, few enough."""
