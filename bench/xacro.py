@@ -65,7 +65,7 @@ def requests(folder: Path) -> list[Request]:
                     path = path_of(package, file.path)
                     gathered.follow([path])
                     if path in gathered.documents and "$" in gathered.sources[path].text:
-                        found.append((gathered.request(()), path))
+                        found.append((gathered.request, path))
     return found
 
 

@@ -126,7 +126,7 @@ def test_a_server_that_died_is_started_anew() -> None:
         lost, queued = (Background(work(each), NO_CACHE, server) for each in ("dies", "a"))
         lost.begin()
         queued.begin()
-        assert lost.result() == queued.result() == WorkerFailed("failed in its process")
+        assert lost.result() == queued.result() == WorkerFailed("failed with an error")
         assert Background(work("b"), NO_CACHE, server).result() == "b"
 
 

@@ -173,19 +173,27 @@ _FACTS: Mapping[str, Any] = {
 }
 
 
-class PackageJson(Record):
+class PackageJson(Record, kw_only=True):
     """A package; whoever reads a report works out the verdict from the rest."""
 
     name: str
     path: Annotated[str, Meta(description="As given to the checker.")]
     kind: Annotated[Word, Meta(extra_json_schema={"enum": list(map(str, PackageKind))})]
     profile: Annotated[Word, Meta(description="What judged it.")]
+    settings: Annotated[
+        str, Meta(description="What a settings file changed; empty without one.")
+    ] = ""
+    fail_on: Annotated[
+        Severity, Meta(description="Findings at or above it make the command fail.")
+    ] = Severity.ERROR
+    verdict: VerdictKind
     inherited: tuple[InheritedPart, ...]
     findings: tuple[FindingJson, ...]
     suppressed: Annotated[
         tuple[SuppressedJson, ...], Meta(description="What was found and does not count.")
     ]
     not_checked: tuple[NotCheckedJson, ...]
+    trial: TrialJson | None = None
     facts: Annotated[
         Mapping[str, Any],
         Meta(
@@ -194,14 +202,6 @@ class PackageJson(Record):
         ),
     ]
     timings: Annotated[Mapping[str, float], Meta(description="Seconds by stage.")]
-    verdict: VerdictKind
-    trial: TrialJson | None = None
-    settings: Annotated[
-        str, Meta(description="What a settings file changed; empty without one.")
-    ] = ""
-    fail_on: Annotated[
-        Severity, Meta(description="Findings at or above it make the command fail.")
-    ] = Severity.ERROR
 
 
 class NotOpenedJson(Record):
@@ -214,11 +214,11 @@ class NotOpenedJson(Record):
     ] = False
 
 
-class ToolJson(Record):
+class ToolJson(Record, kw_only=True):
     """What wrote the report."""
 
-    versions: Mapping[str, str]
     name: str = "subt-check"
+    versions: Mapping[str, str]
 
 
 class ReportJson(Record):

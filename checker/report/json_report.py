@@ -56,7 +56,7 @@ def to_dict(report: Report) -> dict[str, Any]:
     members: dict[str, Any] = msgspec.to_builtins(
         ReportJson(
             SCHEMA_VERSION,
-            ToolJson(report.versions),
+            ToolJson(versions=report.versions),
             tuple(map(_package_json, report.packages)),
             tuple(NotOpenedJson(each.path, each.reason, each.failed) for each in report.not_opened),
         )

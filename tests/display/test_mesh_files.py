@@ -209,7 +209,11 @@ def test_without_its_picture_a_mesh_is_plain(
     ("name", "data", "said"),
     [
         ("a.stl", binary_stl(box(1, 1, 1), declared=1_000_000_000), "is cut off"),
-        ("a.stl", binary_stl([((float("nan"), 0, 0), (1, 0, 0), (0, 1, 0))]), "nowhere"),
+        (
+            "a.stl",
+            binary_stl([((float("nan"), 0, 0), (1, 0, 0), (0, 1, 0))]),
+            "without a finite position",
+        ),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 999999999999\n", "names corners"),
         ("a.dae", b"<COLLADA/>" * 2, "is not well-formed XML"),
         ("a.dae", b'<!DOCTYPE a [<!ENTITY b "c">]><COLLADA/>', "document type"),

@@ -5,13 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from time import sleep
 
-from tests.examples import write_example
-
 from checker.base.progress import Stages
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh
 from checker.package.inputs import open_input
 from checker.physics.mesh.package_meshes import PackageMeshes
+from checker.rule_testing import write_example
 from tests.mesh.files import binary_stl, box
 
 

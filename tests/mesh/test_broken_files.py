@@ -76,7 +76,7 @@ def test_no_triangles(data: bytes) -> None:
 
 def test_faces_of_corners_that_are_not_there() -> None:
     bad = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"
-    assert fault(bad, "a.obj") == "names corners that it has not"
+    assert fault(bad, "a.obj") == "names corners that do not exist"
     data = dae(CUBE).replace(b"<p>0 1 2 ", b"<p>0 1 99 ")
     read_mesh(data, "a.dae")
     assert "below 0" in fault(dae(CUBE).replace(b"<p>0 1 2 ", b"<p>0 1 -2 "), "a.dae")

@@ -189,7 +189,7 @@ def test_a_foreign_entry_in_the_cache_is_read_anew(tmp_path: Path) -> None:
 
 def test_what_was_given_up_is_tried_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     cache = Cache(tmp_path / "cache")
-    gave_up = {"trouble": "not looked at", "reason": "took too long"}
+    gave_up = {"trouble": "not checked", "reason": "took too long"}
     with monkeypatch.context() as patch:
         answer = json.dumps([{"fault": gave_up}]).encode()
         patch.setattr(Asked, "answer", lambda _: answer)

@@ -116,7 +116,7 @@ OUTSIDE = {
     "case 1; when Integer then 1; end": "compares with a Class in a case",
     "[1, 2].each { |a, *b| 1 }": "has the block parameter *b",
     "f(**{})": "uses '**{}', which is not supported",
-    "x = {**{}}": "holds a hash entry that is not read",
+    "x = {**{}}": "contains a hash entry that is not supported",
     "f({a: 1}, 'b' => 2)": "passes 'b' => 2, which is not supported",
     "[[1]] == [[1]]": "compares two values of the class Array",
     "{[1] => 2}": "uses Array as the key of a hash",

@@ -46,7 +46,7 @@ def _of_package(package: Package) -> Iterator[tuple[Gathered, str]]:
 def compared(gathered: Gathered, path: str) -> dict[str, Any]:
     """Return `number` of expressions evaluated for a file, and those that differ, as `others`."""
     for _ in range(_ROUNDS):
-        request = gathered.request(())
+        request = gathered.request
         result = in_fork(lambda request=request: _compare(request, path), _SECONDS)  # type: ignore[misc]
         assert not isinstance(result, WorkerFailed), (path, result)
         found: dict[str, Any] = json.loads(result)

@@ -175,7 +175,7 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
         shown = value[0].decode("utf-8", "replace")[:60] if value else ""
         defects.append(f"its XML is not well-formed: `<` in an attribute's value {shown}")
     if root is None or local_name(root) != "COLLADA":
-        raise NoSurface("is XML, but no COLLADA file")
+        raise NoSurface("is XML, but not a COLLADA file")
     return root, defects
 
 

@@ -61,7 +61,9 @@ def _say(words: str) -> None:
 def _token(options: argparse.Namespace) -> str:
     token: str = options.token or os.environ.get("SUBT_CHECK_TOKEN", "")
     if not (token.isascii() and token.isprintable() and " " not in token):
-        raise CheckerError("the token has characters that are not ASCII letters, digits or signs")
+        raise CheckerError(
+            "the token contains characters that are not ASCII letters, digits or signs"
+        )
     return token
 
 
