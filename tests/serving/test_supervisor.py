@@ -20,7 +20,7 @@ DEAF = "import signal; signal.signal(signal.SIGTERM, signal.SIG_IGN); "
 
 
 def process(code: str, stamps: Path) -> Process:
-    return Process("the clerk", [sys.executable, "-c", code, str(stamps)], os.environ)
+    return Process("the process", [sys.executable, "-c", code, str(stamps)], os.environ)
 
 
 def times(stamps: Path) -> list[float]:
@@ -29,15 +29,15 @@ def times(stamps: Path) -> list[float]:
 
 def test_one_that_dies_waits_longer_each_time(tmp_path: Path) -> None:
     stop, said = threading.Event(), list[str]()
-    clerk = process(STAMP + "; sys.exit(7)", tmp_path / "stamps")
-    keeper = threading.Thread(target=keep_running, args=([clerk], stop, QUICK, said.append))
-    clerk.start()
+    kept = process(STAMP + "; sys.exit(7)", tmp_path / "stamps")
+    keeper = threading.Thread(target=keep_running, args=([kept], stop, QUICK, said.append))
+    kept.start()
     keeper.start()
     wait_for(lambda: len(said) >= 5)
     stop.set()
     keeper.join()
     waits = ["0.3", "0.6", "1", "1", "1"]
-    assert said[:5] == [f"the clerk ended with exit code 7; it restarts in {w} s" for w in waits]
+    assert said[:5] == [f"the process ended with exit code 7; it restarts in {w} s" for w in waits]
     started = times(tmp_path / "stamps")
     pauses = [later - sooner for sooner, later in pairwise(started)]
     assert all(pause >= float(wait) for pause, wait in zip(pauses, waits, strict=False))
@@ -45,35 +45,35 @@ def test_one_that_dies_waits_longer_each_time(tmp_path: Path) -> None:
 
 def test_one_that_lives_is_left_alone(tmp_path: Path) -> None:
     stop, said = threading.Event(), list[str]()
-    clerk = process(STAMP + SLEEP, tmp_path / "stamps")
-    clerk.start()
+    kept = process(STAMP + SLEEP, tmp_path / "stamps")
+    kept.start()
     wait_for(lambda: times(tmp_path / "stamps"))
     threading.Timer(1.0, stop.set).start()
-    keep_running([clerk], stop, QUICK, said.append)
+    keep_running([kept], stop, QUICK, said.append)
     assert len(times(tmp_path / "stamps")) == 1
     assert not said
-    assert stop_all([clerk], threading.Event(), QUICK)
-    assert not clerk.is_running
+    assert stop_all([kept], threading.Event(), QUICK)
+    assert not kept.is_running
 
 
 def test_one_that_does_not_hear_is_killed_when_its_time_is_over(tmp_path: Path) -> None:
-    clerk = process(DEAF + STAMP + SLEEP, tmp_path / "stamps")
-    clerk.start()
+    kept = process(DEAF + STAMP + SLEEP, tmp_path / "stamps")
+    kept.start()
     wait_for(lambda: times(tmp_path / "stamps"))
     started = time.monotonic()
-    assert not stop_all([clerk], threading.Event(), QUICK)
+    assert not stop_all([kept], threading.Event(), QUICK)
     assert time.monotonic() - started >= QUICK.grace
-    assert clerk.exit_code == -signal.SIGKILL
+    assert kept.exit_code == -signal.SIGKILL
 
 
 def test_nobody_waits_when_it_shall_be_at_once(tmp_path: Path) -> None:
-    clerk = process(DEAF + STAMP + SLEEP, tmp_path / "stamps")
-    clerk.start()
+    kept = process(DEAF + STAMP + SLEEP, tmp_path / "stamps")
+    kept.start()
     wait_for(lambda: times(tmp_path / "stamps"))
     at_once = threading.Event()
     at_once.set()
-    assert not stop_all([clerk], at_once, Pace(grace=600.0))
-    assert clerk.exit_code == -signal.SIGKILL
+    assert not stop_all([kept], at_once, Pace(grace=600.0))
+    assert kept.exit_code == -signal.SIGKILL
 
 
 def test_what_was_never_started_is_stopped_as_well(tmp_path: Path) -> None:

@@ -10,7 +10,6 @@ from pathlib import Path
 import httpx
 import pytest
 from msgspec.structs import replace
-from tests.web.test_receiving import GOOD
 
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.port import Order
@@ -20,6 +19,7 @@ from checker.service.web.config import Config
 from checker.service.web.logs import JsonLines
 from tests.web.board import DONE, ID, QUEUED, BoardJobs, keep_result
 from tests.web.server import eventually, left_behind, served
+from tests.web.test_transfer import GOOD
 
 CLOSE = "Host: localhost\r\nConnection: close\r\n"
 EVIL = "evil.example"

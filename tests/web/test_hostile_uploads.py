@@ -11,13 +11,13 @@ from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
-from tests.web.test_receiving import GOOD, zipped
 
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from tests.web.board import BoardJobs
 from tests.web.server import left_behind
+from tests.web.test_transfer import GOOD, zipped
 
 SYMLINK, DEVICE = 0o120777 << 16, 0o020666 << 16
 
