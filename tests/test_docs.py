@@ -18,6 +18,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from checker import cli
+from checker.cli import arguments
 from checker.engine.options import check_against_rules
 from checker.rule import Rule
 from checker.rule_testing import check_example
@@ -117,7 +118,7 @@ def test_settings_in_the_documents_are_valid() -> None:
 def test_the_documents_name_the_profiles_in_order() -> None:
     section = USAGE.read_text("utf-8").partition("## Profiles")[2].partition("##")[0]
     assert tuple(re.findall(r"^\| `([\w-]+)` \|", section, re.MULTILINE)) == profile_names()
-    assert profile_names() == cli.PROFILES
+    assert profile_names() == arguments.PROFILES
 
 
 def test_commands_in_the_documents_are_understood() -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from checker.base.cache import Cache, cache_folder
-from checker.cli.rule_text import page_text
+from checker.cli.rule import page_text
 from checker.engine.review import run_and_set_aside
 from checker.engine.run import Outcome
 from checker.engine.subject import Subject

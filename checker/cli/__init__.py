@@ -1,376 +1,60 @@
-"""The command `subt-check`. Every command is named in this file; each loads what it needs."""
+"""The command `subt-check`: one module per command, which names its arguments and runs."""
 
 from __future__ import annotations
 
 import argparse
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
+from importlib import import_module
 from io import TextIOWrapper
+from types import ModuleType
 
 from checker.base.output import EXIT_CLEAN, EXIT_CRASH, EXIT_USAGE
+from checker.cli.arguments import EXITS
 
-COMMANDS = (
-    *("check", "rule", "rules", "export", "migrate", "init", "doctor"),
-    *("serve", "worker", "submit"),
-)
-PROFILES = ("subt", "sdf", "urdf", "gazebo-harmonic")
-FORMATS = ("text", "json", "sarif", "github", "junit", "markdown", "html")
+COMMANDS = {
+    "check": "check packages",
+    "export": "write a package's robot as URDF or MJCF",
+    "migrate": "convert a description for Gazebo 9 to a package for SubT",
+    "submit": "check a package with a service",
+    "serve": "start the web service with its worker processes",
+    "worker": "start another worker process of a service",
+    "init": "write a settings file and a pre-commit hook",
+    "doctor": "test whether everything works on this machine; exit code 1 if not",
+    "rule": "explain a rule",
+    "rules": "list all rules",
+}
+"""What each command does; its module has the same name."""
+_MODULES = {"doctor": "doctor.command"}
 
-_EXITS = """exit codes:
-  0  nothing at or above --fail-on
-  1  findings at or above --fail-on
-  2  wrong usage, or input that cannot be read
-  3  a rule could not run because of the checker itself
-"""
 
+def build_parser(wanted: Collection[str] = tuple(COMMANDS)) -> argparse.ArgumentParser:
+    """Return the parser.
 
-def build_parser() -> argparse.ArgumentParser:
-    """Return the parser of all commands."""
+    Args:
+        wanted: The commands of which arguments are known; the modules of others are not loaded.
+    """
     parser = argparse.ArgumentParser(
         prog="subt-check",
         description="Check robot model packages for simulation. "
         "`subt-check PATH` is short for `subt-check check PATH`.",
-        epilog=_EXITS,
+        epilog=EXITS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="store_true", help="print the version and exit")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
-    _add_check(commands)
-    _add_export(commands)
-    _add_migrate(commands)
-    _add_submit(commands)
-    _add_serve(commands)
-    _add_worker(commands)
-    start = commands.add_parser("init", help="write a settings file and a pre-commit hook")
-    folder = "folder of the packages (default: the current one)"
-    start.add_argument("path", metavar="FOLDER", nargs="?", default=".", help=folder)
-    commands.add_parser(
-        "doctor", help="test whether everything works on this machine; exit code 1 if not"
-    )
-    one = commands.add_parser("rule", help="explain a rule")
-    one.add_argument("id", help="id or name, such as SEN005 or lidar-scan-resolution")
-    every = commands.add_parser("rules", help="list all rules")
-    every.add_argument("--format", choices=("text", "json"), default="text")
+    for name, summary in COMMANDS.items():
+        command = commands.add_parser(name, help=summary)
+        if name in wanted:
+            _module(name).add_arguments(command)
     return parser
 
 
-def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    check = commands.add_parser(
-        "check",
-        help="check packages",
-        epilog=_EXITS,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    check.add_argument(
-        "paths",
-        nargs="+",
-        metavar="PATH",
-        help="a package folder, an archive (.zip, .tar.gz), a folder of packages, or a model file",
-    )
-    check.add_argument(
-        "--files",
-        action="store_true",
-        help="each PATH is a changed file: check the packages of these files",
-    )
-    check.add_argument("--format", choices=FORMATS, default="text")
-    check.add_argument(
-        "--output", metavar="FILE", help="write the result to this file instead of stdout"
-    )
-    check.add_argument(
-        "--report",
-        metavar="DIR",
-        help="also write report.html, report.json, report.sarif and robot.glb into this folder",
-    )
-    check.add_argument(
-        "--statistics", action="store_true", help="print the number of findings of each rule"
-    )
-    check.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: subt, or urdf for URDF)"
-    )
-    check.add_argument("--select", metavar="IDS", type=_ids, help="run only these rules or groups")
-    check.add_argument(
-        "--ignore", metavar="IDS", type=_ids, help="do not run these rules or groups"
-    )
-    check.add_argument(
-        "--fail-on",
-        choices=("error", "warning"),
-        help="lowest severity that fails (default: error)",
-    )
-    check.add_argument("--fix", action="store_true", help="apply safe fixes, then check")
-    check.add_argument(
-        "--unsafe",
-        action="store_true",
-        help="with --fix or --diff: also fixes that change behaviour",
-    )
-    check.add_argument(
-        "--diff", action="store_true", help="print the fixes as a patch and do nothing else"
-    )
-    check.add_argument("--baseline", metavar="FILE", help="ignore findings that are in this file")
-    check.add_argument(
-        "--write-baseline",
-        action="store_true",
-        help=(
-            "write the current findings to a baseline file and do nothing else (default: the file "
-            "in the settings, else subt-check-baseline.json)"
-        ),
-    )
-    check.add_argument("--no-trial", action="store_true", help="skip the trial")
-    check.add_argument(
-        "--thorough", action="store_true", help="repeat the trial at half the time step"
-    )
-    check.add_argument("--no-cache", action="store_true", help="do not use the cache")
-    check.add_argument("--jobs", type=_positive, default=1, metavar="N", help="number of processes")
-    check.add_argument("--color", choices=("auto", "always", "never"), default="auto")
-
-
-def _add_export(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    export = commands.add_parser("export", help="write a package's robot as URDF or MJCF")
-    export.add_argument("path", metavar="PATH", help="a package, an archive or a model file")
-    export.add_argument(
-        "--format",
-        choices=("urdf", "mjcf"),
-        required=True,
-        help="urdf: for RViz, with package:// meshes; mjcf: the trial's scene for MuJoCo",
-    )
-    export.add_argument(
-        "--output",
-        metavar="FILE",
-        help="output file; or, for MJCF, a folder for the scene and its meshes",
-    )
-    export.add_argument("--no-cache", action="store_true", help="do not use the cache")
-
-
-def _add_migrate(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    migrate = commands.add_parser(
-        "migrate",
-        help="convert a description for Gazebo 9 to a package for SubT",
-        epilog=_EXITS,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    migrate.add_argument("source", metavar="SOURCE", help="a description package, or a URDF file")
-    migrate.add_argument("destination", metavar="DEST", help="a new or empty folder")
-    migrate.add_argument(
-        "--organization",
-        metavar="NAME",
-        default="",
-        help="name of the organization that submits the robot",
-    )
-    migrate.add_argument(
-        "--robot", metavar="NAME", default="", help="name of the robot (default: the URDF's name)"
-    )
-    migrate.add_argument(
-        "--config", type=int, default=1, metavar="N", help="configuration number (default: 1)"
-    )
-    for side in ("left", "right"):
-        migrate.add_argument(
-            f"--{side}-wheels",
-            metavar="JOINTS",
-            type=_ids,
-            default=(),
-            help=f"drive joints on the {side}, separated by commas (default: guessed)",
-        )
-    for limit, unit in (("velocity", "m/s"), ("acceleration", "m/s²")):
-        migrate.add_argument(
-            f"--max-{limit}",
-            metavar="NUMBER",
-            type=_above_zero,
-            help=f"limit of the drive, {unit} (default: the limits of the joints and SubT)",
-        )
-    migrate.add_argument("--urdf", metavar="FILE", default="", help="file that contains the robot")
-    migrate.add_argument(
-        "--args",
-        metavar="NAME:=VALUE",
-        nargs="+",
-        type=_argument,
-        default=[],
-        help="argument for xacro",
-    )
-    migrate.add_argument("--no-trial", action="store_true", help="skip the trial")
-    migrate.add_argument("--no-cache", action="store_true", help="do not use the cache")
-
-
-def _add_submit(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    submit = commands.add_parser(
-        "submit",
-        help="check a package with a service",
-        epilog=_EXITS,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    submit.add_argument(
-        "package", metavar="PACKAGE", help="a package folder, an archive or a model file"
-    )
-    submit.add_argument(
-        "--server",
-        metavar="URL",
-        required=True,
-        help="address of the service, such as https://check.example",
-    )
-    submit.add_argument(
-        "--token",
-        default="",
-        help="access token (safer: the variable SUBT_CHECK_TOKEN, which other users cannot see)",
-    )
-    submit.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: subt, or urdf for URDF)"
-    )
-    submit.add_argument("--format", choices=FORMATS, default="text")
-    submit.add_argument(
-        "--output", metavar="FILE", help="write the result to this file instead of stdout"
-    )
-    submit.add_argument(
-        "--report",
-        metavar="DIR",
-        help="also write report.html, report.json, report.sarif and robot.glb into this folder",
-    )
-    submit.add_argument(
-        "--fail-on",
-        choices=("error", "warning"),
-        help="lowest severity that fails (default: error)",
-    )
-    submit.add_argument("--color", choices=("auto", "always", "never"), default="auto")
-
-
-def _add_serve(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    serve = commands.add_parser(
-        "serve",
-        help="start the web service with its worker processes",
-        description=(
-            "Start the web service with its worker processes. On an address that other machines "
-            "can reach, it needs SUBT_CHECK_TOKENS (separated by commas) or --public. It then also "
-            "needs sandbox layers for uploads; `subt-check doctor` lists them."
-        ),
-    )
-    serve.add_argument("--host", default="127.0.0.1", help="address (default: 127.0.0.1)")
-    serve.add_argument(
-        "--port", type=_port, default=8000, help="port (default: 8000; 0: any free port)"
-    )
-    serve.add_argument(
-        "--workers",
-        type=_count,
-        metavar="N",
-        help="number of worker processes; 0: none, they run elsewhere (default: 2 or fewer)",
-    )
-    serve.add_argument("--public", action="store_true", help="allow everybody to upload")
-    serve.add_argument(
-        "--without-sandbox",
-        action="store_true",
-        help=(
-            "accept uploads although no sandbox layer hides files: a package that takes control of "
-            "its reader can then read all files of this user"
-        ),
-    )
-    _add_data(serve)
-    serve.add_argument(
-        "--base-url",
-        metavar="URL",
-        default="",
-        help="public address of the service, if it differs from its own",
-    )
-    serve.add_argument(
-        "--behind-proxy",
-        metavar="ADDRESSES",
-        type=_networks,
-        nargs="?",
-        const="127.0.0.1,::1",
-        default="",
-        help=(
-            "trust the client addresses that proxies at these addresses or networks report; "
-            "separated by commas (default: a proxy on this machine)"
-        ),
-    )
-
-
-def _add_worker(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    worker = commands.add_parser("worker", help="start another worker process of a service")
-    worker.add_argument(
-        "--jobs",
-        type=_positive,
-        metavar="N",
-        help=(
-            "trials at the same time in each worker process (default: the last number given, else "
-            "1)"
-        ),
-    )
-    worker.add_argument(
-        "--name",
-        default="",
-        help=(
-            "unique name of the worker process; one that restarts with the same name continues its "
-            "checks at once (default: random)"
-        ),
-    )
-    _add_data(worker)
-
-
-def _add_data(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--data",
-        metavar="DIR",
-        default="",
-        help=(
-            "folder for uploads and reports (default: SUBT_CHECK_DATA, else the user's data folder)"
-        ),
-    )
-
-
-def _argument(text: str) -> tuple[str, str]:
-    name, assigned, value = text.partition(":=")
-    if not name or not assigned:
-        raise argparse.ArgumentTypeError(f"{text!r} is not an argument, expected name:=value")
-    return name, value
-
-
-def _above_zero(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a limit, expected a number above 0")
-    return value
-
-
-def _ids(text: str) -> tuple[str, ...]:
-    return tuple(word.strip() for word in text.split(",") if word.strip())
-
-
-def _positive(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is not a number of processes, expected 1 or more"
-        )
-    return int(text)
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is not a number of processes, expected 0 or more"
-        )
-    return int(text)
-
-
-def _networks(text: str) -> str:
-    """Return addresses and networks as they are: one that is misspelt would never be met."""
-    import ipaddress
-
-    for each in text.split(",") if text else ():
-        try:
-            ipaddress.ip_network(each.strip())
-        except ValueError:
-            raise argparse.ArgumentTypeError(
-                f"{each!r} is not an address or network, expected for example 127.0.0.1 or "
-                "172.30.77.0/24"
-            ) from None
-    return text
-
-
-def _port(text: str) -> int:
-    if not (text.isascii() and text.isdecimal()) or int(text) > 65535:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a port, expected a number up to 65535")
-    return int(text)
+def _module(command: str) -> ModuleType:
+    """Load what a command needs, and no more: a doctor works where a library is missing."""
+    return import_module(f"checker.cli.{_MODULES.get(command, command)}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -379,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if words and words[0] not in (*COMMANDS, "-h", "--help", "--version"):
         words.insert(0, "check")
     _end_in_good_order()
-    parser = build_parser()
+    parser = build_parser(words[:1])
     options = parser.parse_args(words)
     options.words = list(sys.argv[1:] if arguments is None else arguments)
     if options.version:
@@ -414,7 +98,7 @@ def _guarded(options: argparse.Namespace) -> int:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
     try:
-        return _run(options)
+        return int(_module(options.command).run(options))
     except CheckerError as error:
         print(f"subt-check: {plain(shortened(str(error), 900))}", file=sys.stderr)
         return EXIT_USAGE
@@ -431,28 +115,3 @@ def _guarded(options: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return EXIT_CRASH
-
-
-def _run(options: argparse.Namespace) -> int:
-    if options.command == "doctor":
-        # It works where a library is missing that the other commands import.
-        from checker.cli.doctor.command import doctor
-
-        return doctor()
-    if options.command in ("serve", "worker"):
-        # They wait; the checker's own readers would only take memory from those who work.
-        from checker.service.processes.command import serve, worker
-
-        return serve(options) if options.command == "serve" else worker(options)
-    from checker.cli import commands
-
-    actions: dict[str, Callable[[], int]] = {
-        "check": lambda: commands.check(options),
-        "export": lambda: commands.export(options),
-        "migrate": lambda: commands.migrate(options),
-        "submit": lambda: commands.submit(options),
-        "init": lambda: commands.init(options),
-        "rule": lambda: commands.explain_rule(options.id),
-        "rules": lambda: commands.list_rules(options.format),
-    }
-    return actions[options.command]()

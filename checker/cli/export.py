@@ -1,7 +1,8 @@
-"""What `subt-check export` does: a package's robot as URDF for RViz, or as MJCF."""
+"""`subt-check export`: writes a package's robot as URDF for RViz, or as MJCF."""
 
 from __future__ import annotations
 
+import argparse
 import posixpath
 import re
 from collections.abc import Callable, Sequence
@@ -146,3 +147,26 @@ def _package_uri(package: Package, path: str) -> str:
     if path.startswith("../"):
         return f"package://{path.removeprefix('../')}"
     return f"package://{package.name}/{path}"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.add_argument("path", metavar="PATH", help="a package, an archive or a model file")
+    parser.add_argument(
+        "--format",
+        choices=("urdf", "mjcf"),
+        required=True,
+        help="urdf: for RViz, with package:// meshes; mjcf: the trial's scene for MuJoCo",
+    )
+    parser.add_argument(
+        "--output",
+        metavar="FILE",
+        help="output file; or, for MJCF, a folder for the scene and its meshes",
+    )
+    parser.add_argument("--no-cache", action="store_true", help="do not use the cache")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write a package's robot in another format."""
+    output = Path(options.output) if options.output else None
+    return export(Path(options.path), options.format, output, cached=not options.no_cache)

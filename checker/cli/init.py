@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
 import tempfile
@@ -15,6 +16,7 @@ from typing import Any
 
 from checker.base.disk_file import NotReadable, read_bytes
 from checker.base.errors import CheckerError, UnreadableInput
+from checker.base.output import EXIT_CLEAN, show
 from checker.base.record import Record
 from checker.base.resources import templates
 from checker.base.words import plain
@@ -254,3 +256,15 @@ def _replace(file: Path, text: str) -> None:
             with suppress(OSError):
                 Path(new.name).unlink()
             raise
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    folder = "folder of the packages (default: the current one)"
+    parser.add_argument("path", metavar="FOLDER", nargs="?", default=".", help=folder)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write what a repository needs to be checked."""
+    show(init(Path(options.path)))
+    return EXIT_CLEAN

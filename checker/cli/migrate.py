@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import argparse
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from checker.base.output import say_progress, show
 from checker.base.progress import Say, say_nothing
 from checker.base.words import plain, shortened
+from checker.cli.arguments import above_zero, add_exit_codes, argument, ids
+from checker.cli.exit_code import exit_code
 from checker.migrate.migration import Migrated, migrate
 from checker.migrate.options import Wishes
 from checker.pipeline import check_paths
@@ -65,3 +70,72 @@ def _listed(title: str, lines: tuple[str, ...] | list[str]) -> Iterator[str]:
     if lines:
         yield f"{title}:"
         yield from (f"  - {plain(shortened(line, _LINE_LIMIT))}" for line in lines)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    add_exit_codes(parser)
+    parser.add_argument("source", metavar="SOURCE", help="a description package, or a URDF file")
+    parser.add_argument("destination", metavar="DEST", help="a new or empty folder")
+    parser.add_argument(
+        "--organization",
+        metavar="NAME",
+        default="",
+        help="name of the organization that submits the robot",
+    )
+    parser.add_argument(
+        "--robot", metavar="NAME", default="", help="name of the robot (default: the URDF's name)"
+    )
+    parser.add_argument(
+        "--config", type=int, default=1, metavar="N", help="configuration number (default: 1)"
+    )
+    for side in ("left", "right"):
+        parser.add_argument(
+            f"--{side}-wheels",
+            metavar="JOINTS",
+            type=ids,
+            default=(),
+            help=f"drive joints on the {side}, separated by commas (default: guessed)",
+        )
+    for limit, unit in (("velocity", "m/s"), ("acceleration", "m/s²")):
+        parser.add_argument(
+            f"--max-{limit}",
+            metavar="NUMBER",
+            type=above_zero,
+            help=f"limit of the drive, {unit} (default: the limits of the joints and SubT)",
+        )
+    parser.add_argument("--urdf", metavar="FILE", default="", help="file that contains the robot")
+    parser.add_argument(
+        "--args",
+        metavar="NAME:=VALUE",
+        nargs="+",
+        type=argument,
+        default=[],
+        help="argument for xacro",
+    )
+    parser.add_argument("--no-trial", action="store_true", help="skip the trial")
+    parser.add_argument("--no-cache", action="store_true", help="do not use the cache")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Make a package of a description, check it, and say what is left to do."""
+    wishes = Wishes(
+        options.organization,
+        options.robot,
+        options.config,
+        options.left_wheels,
+        options.right_wheels,
+        options.max_velocity,
+        options.max_acceleration,
+        options.urdf,
+        dict(options.args),
+    )
+    settings = {
+        "trial": False if options.no_trial else None,
+        "cache": False if options.no_cache else None,
+    }
+    say = say_progress if sys.stderr.isatty() else say_nothing
+    source, destination = Path(options.source), Path(options.destination)
+    said, report = migrated_and_checked(source, destination, wishes, settings, say)
+    show(said)
+    return exit_code(report)

@@ -387,7 +387,7 @@ def test_a_folder_is_no_changed_file(run: Run, good: Path, given: str) -> None:
 
 
 def test_an_error_is_shown_in_full_when_asked_for(good: Path) -> None:
-    start = "import sys, checker.cli.commands as c; c.check = None; from checker.cli import main; "
+    start = "import sys, checker.cli.check as c; c.run = None; from checker.cli import main; "
     command = [sys.executable, "-c", start + "sys.exit(main())", str(good)]
     short = subprocess.run(command, capture_output=True, text=True, check=False)
     assert short.returncode == 3

@@ -31,9 +31,10 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/rulebook/discovery.py", MODULE): "the modules of installed packages of rules",
     ("checker/cli/doctor/library_imports.py", MODULE): "what our own distribution requires",
     ("checker/service/jobs/check_child.py", MODULE): "a list of our own modules",
-    ("checker/cli/commands.py", ATTRIBUTE): "options of the command line, named there",
+    ("checker/cli/check.py", ATTRIBUTE): "options of the command line, named there",
     ("checker/base/record.py", ATTRIBUTE): "fields of our own records",
     ("checker/__init__.py", MODULE): "the modules of the API, named there",
+    ("checker/cli/__init__.py", MODULE): "the modules of commands, named there",
     ("checker/rule_testing.py", ATTRIBUTE): "the two kinds of examples, named there",
     (
         "checker/physics/trial/simulation/simulation.py",

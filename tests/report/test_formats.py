@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from checker import cli
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS
+from checker.cli import arguments
 from checker.engine.report_cache import from_stored
 from checker.report.formats import FORMATS
 from checker.report.palette import Palette
@@ -28,7 +29,7 @@ MANNER = Manner(Palette(enabled=False), str(SAMPLES))
 
 
 def test_the_command_offers_every_format() -> None:
-    assert tuple(FORMATS) == cli.FORMATS
+    assert tuple(FORMATS) == arguments.FORMAT_NAMES
 
 
 @pytest.mark.parametrize("form", FORMATS)

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 import yaml
 
-from checker import cli
+from checker.cli import arguments
 from tests.conftest import SAMPLES
 from tests.repository.conftest import BROKEN, GOOD, ROOT
 
@@ -93,7 +93,7 @@ def test_no_input_stands_in_a_script() -> None:
 
 def test_inputs_name_all_profiles() -> None:
     said = ACTION["inputs"]["profile"]["description"]
-    assert all(profile in said for profile in cli.PROFILES)
+    assert all(profile in said for profile in arguments.PROFILES)
 
 
 def test_the_page_tells_of_all_inputs_and_outputs() -> None:

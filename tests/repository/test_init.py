@@ -13,7 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.base.resources import templates
-from checker.cli import PROFILES, main
+from checker.cli import main
+from checker.cli.arguments import PROFILES
 from checker.cli.init import HOOKS_FILE, guessed_profile, has_hook, hook_entry, init, with_hook
 from checker.engine.options import check_against_rules
 from checker.rulebook.discovery import all_rules

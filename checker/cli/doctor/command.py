@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from itertools import chain
 
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, show
@@ -10,7 +11,11 @@ from checker.cli.doctor.installation import installation
 from checker.cli.doctor.result import INSTALL_AGAIN, Result, State
 
 
-def doctor() -> int:
+def add_arguments(_parser: argparse.ArgumentParser) -> None:
+    """Add nothing: the command takes no arguments."""
+
+
+def run(_options: argparse.Namespace) -> int:
     """Look at everything, print what is found, and return the exit code."""
     well = True
     for result in chain(installation(), sandbox(), surroundings()):

@@ -1,9 +1,8 @@
-"""What the commands of `subt-check` do."""
+"""`subt-check check`: checks packages and tells the report."""
 
 from __future__ import annotations
 
 import argparse
-import json
 import shlex
 import sys
 from contextlib import suppress
@@ -13,9 +12,7 @@ from checker.base.errors import CheckerError, InvalidSettings, UnreadableInput
 from checker.base.garbage_collection import collection_put_off
 from checker.base.output import (
     EXIT_CLEAN,
-    EXIT_CRASH,
     EXIT_FINDINGS,
-    EXIT_USAGE,
     empty_of,
     here,
     say_progress,
@@ -24,8 +21,9 @@ from checker.base.output import (
 )
 from checker.base.progress import say_nothing
 from checker.base.words import plain, shortened
+from checker.cli.arguments import FORMAT_NAMES, PROFILES, add_exit_codes, ids, positive
 from checker.cli.baseline import baseline_to_renew, write_baseline
-from checker.engine.options import no_such_rule
+from checker.cli.exit_code import exit_code
 from checker.finding import Safety, Severity
 from checker.pipeline import check_paths, settings_of
 from checker.report.files import STALE, artefacts
@@ -34,14 +32,77 @@ from checker.report.palette import palette_for
 from checker.report.render_settings import Manner
 from checker.report.report import Report
 from checker.report.summary import statistics_text
-from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
-from checker.rulebook.pages import parse_page
 from checker.rulebook.suppression.baseline import DEFAULT_FILE, Baseline, read_baseline
 
 
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    add_exit_codes(parser)
+    parser.add_argument(
+        "paths",
+        nargs="+",
+        metavar="PATH",
+        help="a package folder, an archive (.zip, .tar.gz), a folder of packages, or a model file",
+    )
+    parser.add_argument(
+        "--files",
+        action="store_true",
+        help="each PATH is a changed file: check the packages of these files",
+    )
+    parser.add_argument("--format", choices=FORMAT_NAMES, default="text")
+    parser.add_argument(
+        "--output", metavar="FILE", help="write the result to this file instead of stdout"
+    )
+    parser.add_argument(
+        "--report",
+        metavar="DIR",
+        help="also write report.html, report.json, report.sarif and robot.glb into this folder",
+    )
+    parser.add_argument(
+        "--statistics", action="store_true", help="print the number of findings of each rule"
+    )
+    parser.add_argument(
+        "--profile", choices=PROFILES, help="set of rules (default: subt, or urdf for URDF)"
+    )
+    parser.add_argument("--select", metavar="IDS", type=ids, help="run only these rules or groups")
+    parser.add_argument(
+        "--ignore", metavar="IDS", type=ids, help="do not run these rules or groups"
+    )
+    parser.add_argument(
+        "--fail-on",
+        choices=("error", "warning"),
+        help="lowest severity that fails (default: error)",
+    )
+    parser.add_argument("--fix", action="store_true", help="apply safe fixes, then check")
+    parser.add_argument(
+        "--unsafe",
+        action="store_true",
+        help="with --fix or --diff: also fixes that change behaviour",
+    )
+    parser.add_argument(
+        "--diff", action="store_true", help="print the fixes as a patch and do nothing else"
+    )
+    parser.add_argument("--baseline", metavar="FILE", help="ignore findings that are in this file")
+    parser.add_argument(
+        "--write-baseline",
+        action="store_true",
+        help=(
+            "write the current findings to a baseline file and do nothing else (default: the file "
+            "in the settings, else subt-check-baseline.json)"
+        ),
+    )
+    parser.add_argument("--no-trial", action="store_true", help="skip the trial")
+    parser.add_argument(
+        "--thorough", action="store_true", help="repeat the trial at half the time step"
+    )
+    parser.add_argument("--no-cache", action="store_true", help="do not use the cache")
+    parser.add_argument("--jobs", type=positive, default=1, metavar="N", help="number of processes")
+    parser.add_argument("--color", choices=("auto", "always", "never"), default="auto")
+
+
 @collection_put_off()
-def check(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> int:
     """Check packages and print the report."""
     _refuse_together(options)
     folder = here()
@@ -160,105 +221,3 @@ def _tell(report: Report, options: argparse.Namespace) -> None:
         # Behind another format's report it would spoil it.
         tell = show if options.output or options.format == "text" else say_progress
         tell("\n" + statistics_text(report))
-
-
-def exit_code(report: Report) -> int:
-    """Return what went wrong most: unreadable input, then a crash, then findings."""
-    if any(each.failed for each in report.not_opened):
-        return EXIT_USAGE
-    if any(package.crashed for package in report.packages):
-        return EXIT_CRASH
-    return EXIT_FINDINGS if any(package.failed for package in report.packages) else EXIT_CLEAN
-
-
-def explain_rule(wanted: str) -> int:
-    """Print a rule's page."""
-    from checker.cli.rule_text import page_text
-
-    rules = all_rules()
-    rule = next((r for r in rules if wanted.upper() == r.id or wanted.lower() == r.name), None)
-    if rule is None:
-        known = [name for rule in rules for name in (rule.id, rule.name)]
-        raise CheckerError(no_such_rule(wanted, known))
-    show(page_text(rule) + "\n")
-    return EXIT_CLEAN
-
-
-def export(options: argparse.Namespace) -> int:
-    """Write a package's robot in another format."""
-    from checker.cli.export import export
-
-    output = Path(options.output) if options.output else None
-    return export(Path(options.path), options.format, output, cached=not options.no_cache)
-
-
-def migrate(options: argparse.Namespace) -> int:
-    """Make a package of a description, check it, and say what is left to do."""
-    from checker.cli.migrate import migrated_and_checked
-    from checker.migrate.options import Wishes
-
-    wishes = Wishes(
-        options.organization,
-        options.robot,
-        options.config,
-        options.left_wheels,
-        options.right_wheels,
-        options.max_velocity,
-        options.max_acceleration,
-        options.urdf,
-        dict(options.args),
-    )
-    settings = {
-        "trial": False if options.no_trial else None,
-        "cache": False if options.no_cache else None,
-    }
-    say = say_progress if sys.stderr.isatty() else say_nothing
-    source, destination = Path(options.source), Path(options.destination)
-    said, report = migrated_and_checked(source, destination, wishes, settings, say)
-    show(said)
-    return exit_code(report)
-
-
-def submit(options: argparse.Namespace) -> int:
-    """Have a service check a package, and print the report."""
-    from checker.service.client.command import submit
-
-    report = submit(options)
-    return EXIT_CRASH if report is None else exit_code(report)
-
-
-def init(options: argparse.Namespace) -> int:
-    """Write what a repository needs to be checked."""
-    from checker.cli.init import init
-
-    show(init(Path(options.path)))
-    return EXIT_CLEAN
-
-
-def list_rules(form: str) -> int:
-    """List all rules, by group."""
-    if form == "json":
-        listed = [_as_dict(rule) for rule in all_rules()]
-        show(json.dumps(listed, indent=2) + "\n")
-        return EXIT_CLEAN
-    for rule in all_rules():
-        title = parse_page(rule.page).title
-        show(f"{rule.id}  {rule.severity:<7}  {rule.name:<32}  {title}\n")
-    return EXIT_CLEAN
-
-
-def _as_dict(rule: Rule) -> dict[str, object]:
-    from checker.rulebook.options import words_of
-
-    page = parse_page(rule.page)
-    return {
-        "id": rule.id,
-        "name": rule.name,
-        "severity": str(rule.severity),
-        "title": page.title,
-        "why": page.why,
-        "fix": page.fix,
-        "source": page.source,
-        "options": rule.options,
-        "option_words": words_of(rule),
-    }

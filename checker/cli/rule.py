@@ -1,11 +1,16 @@
-"""The page of a rule as text for a terminal."""
+"""`subt-check rule`: explains a rule."""
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Mapping
 from textwrap import wrap
 
+from checker.base.errors import CheckerError
+from checker.base.output import EXIT_CLEAN, show
+from checker.engine.options import no_such_rule
 from checker.rule import Rule
+from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import Option, told_options
 from checker.rulebook.pages import parse_page
 
@@ -62,3 +67,19 @@ def _example(example: object) -> str:
 
 def _indented(text: str) -> str:
     return "\n".join(f"  {line}".rstrip() for line in text.splitlines())
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.add_argument("id", help="id or name, such as SEN005 or lidar-scan-resolution")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print a rule's page."""
+    wanted, rules = options.id, all_rules()
+    rule = next((r for r in rules if wanted.upper() == r.id or wanted.lower() == r.name), None)
+    if rule is None:
+        known = [name for rule in rules for name in (rule.id, rule.name)]
+        raise CheckerError(no_such_rule(wanted, known))
+    show(page_text(rule) + "\n")
+    return EXIT_CLEAN

@@ -1,0 +1,97 @@
+"""Arguments that several commands have, and the types of arguments."""
+
+from __future__ import annotations
+
+import argparse
+
+PROFILES = ("subt", "sdf", "urdf", "gazebo-harmonic")
+FORMAT_NAMES = ("text", "json", "sarif", "github", "junit", "markdown", "html")
+
+EXITS = """exit codes:
+  0  nothing at or above --fail-on
+  1  findings at or above --fail-on
+  2  wrong usage, or input that cannot be read
+  3  a rule could not run because of the checker itself
+"""
+
+
+def add_exit_codes(parser: argparse.ArgumentParser) -> None:
+    """Say below the help of a command what its exit codes mean."""
+    parser.epilog = EXITS
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+
+
+def add_data(parser: argparse.ArgumentParser) -> None:
+    """Add the folder of a service."""
+    parser.add_argument(
+        "--data",
+        metavar="DIR",
+        default="",
+        help=(
+            "folder for uploads and reports (default: SUBT_CHECK_DATA, else the user's data folder)"
+        ),
+    )
+
+
+def argument(text: str) -> tuple[str, str]:
+    """Return an argument of xacro, written `name:=value`."""
+    name, assigned, value = text.partition(":=")
+    if not name or not assigned:
+        raise argparse.ArgumentTypeError(f"{text!r} is not an argument, expected name:=value")
+    return name, value
+
+
+def above_zero(text: str) -> float:
+    """Return a number above 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a limit, expected a number above 0")
+    return value
+
+
+def ids(text: str) -> tuple[str, ...]:
+    """Return words with commas between."""
+    return tuple(word.strip() for word in text.split(",") if word.strip())
+
+
+def positive(text: str) -> int:
+    """Return a number of processes, 1 or more."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a number of processes, expected 1 or more"
+        )
+    return int(text)
+
+
+def count(text: str) -> int:
+    """Return a number of processes, 0 or more."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a number of processes, expected 0 or more"
+        )
+    return int(text)
+
+
+def networks(text: str) -> str:
+    """Return addresses and networks as they are: one that is misspelt would never be met."""
+    import ipaddress
+
+    for each in text.split(",") if text else ():
+        try:
+            ipaddress.ip_network(each.strip())
+        except ValueError:
+            raise argparse.ArgumentTypeError(
+                f"{each!r} is not an address or network, expected for example 127.0.0.1 or "
+                "172.30.77.0/24"
+            ) from None
+    return text
+
+
+def port(text: str) -> int:
+    """Return a port."""
+    if not (text.isascii() and text.isdecimal()) or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a port, expected a number up to 65535")
+    return int(text)

@@ -1,0 +1,36 @@
+"""`subt-check worker`: starts a further worker of a service."""
+
+from __future__ import annotations
+
+import argparse
+
+from checker.cli.arguments import add_data, positive
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.add_argument(
+        "--jobs",
+        type=positive,
+        metavar="N",
+        help=(
+            "trials at the same time in each worker process (default: the last number given, else "
+            "1)"
+        ),
+    )
+    parser.add_argument(
+        "--name",
+        default="",
+        help=(
+            "unique name of the worker process; one that restarts with the same name continues its "
+            "checks at once (default: random)"
+        ),
+    )
+    add_data(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Work until SIGTERM or SIGINT."""
+    from checker.service.processes.command import worker
+
+    return worker(options)
