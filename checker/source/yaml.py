@@ -152,7 +152,7 @@ class _Builder:
                 continue
             self._nodes += node.size
             if node.height + len(opened) > MAX_DEPTH or self._nodes > MAX_NODES:
-                self.fault(node.span, "expands to too many or too deeply nested values")
+                self.fault(node.span, "expands to too many values or too deeply nested ones")
                 return None
             if not opened:
                 return node

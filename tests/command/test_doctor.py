@@ -108,8 +108,8 @@ def test_a_missing_library_is_a_problem(run_apart: Run, tmp_path: Path) -> None:
     done = run_apart("doctor", PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
     assert (
-        "problem lxml cannot be imported (ImportError: no lxml here); install subt-check again, "
-        "with its libraries\n"
+        "problem lxml cannot be imported (ImportError: no lxml here); install subt-check "
+        "and its libraries again\n"
     ) in done.stdout
     assert "note    the self-test is skipped" in done.stdout
     assert "please report" not in done.stdout
@@ -133,7 +133,7 @@ def test_a_part_of_a_library_that_is_missing_is_to_be_installed_again(
     done = run_apart("doctor", PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
     assert re.search(
-        r"(?m)^problem the self-test fails: .*; install subt-check again, ", done.stdout
+        r"(?m)^problem the self-test fails: .*; install subt-check and its libraries ", done.stdout
     )
     assert "please report" not in done.stdout
 

@@ -180,7 +180,7 @@ class TestAKilledWorker:
         asleep.send_signal(signal.SIGCONT)
         assert site.end(id).stage is Stage.DONE
         assert again.stage is Stage.TRIAL
-        told = [event for event in site.jobs.events(id) if "begins again" not in event.words]
+        told = [event for event in site.jobs.events(id) if "starts again" not in event.words]
         assert [event.stage.value for event in told] == [stage for _, stage in WHOLE]
         assert site.end(site.submit()).stage is Stage.DONE
 

@@ -114,7 +114,7 @@ def test_names_that_other_files_cannot_hold(name: str) -> None:
     link.set("name", name)
     model = etree.Element("model")
     model.append(link)
-    with pytest.raises(NotMigrated, match="cannot hold"):
+    with pytest.raises(NotMigrated, match="cannot contain"):
         check_names(model)
 
 

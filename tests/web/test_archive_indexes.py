@@ -34,7 +34,7 @@ def test_what_an_index_holds(tmp_path: Path) -> None:
     with pytest.raises(UnreadableInput, match="leads out of the archive"):
         looked.check(archive(tmp_path, "../p/package.xml"), "a.zip")
     (tmp_path / "no.tar.gz").write_bytes(b"no archive")
-    with pytest.raises(UnreadableInput, match=r"no tar\.gz archive"):
+    with pytest.raises(UnreadableInput, match=r"not a tar\.gz archive"):
         looked.check(tmp_path / "no.tar.gz", "no.tar.gz")
     with pytest.raises(UnreadableInput, match="cannot be read"):
         looked.check(tmp_path / "none.zip", "none.zip")

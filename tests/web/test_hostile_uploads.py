@@ -74,7 +74,7 @@ ARCHIVES = {
     "a bomb of gzip": ("a.tar.gz", tarred("rover/x", size=60_000_000), "200 times"),
     "an endless gzip": ("a.tar.gz", gzip.compress(bytes(60_000_000)), ""),
     "half a gzip": ("a.tar.gz", tarred("rover/x", size=9)[:60], ""),
-    "no index": ("a.zip", GOOD[: GOOD.index(b"PK\x01\x02")], "truncated"),
+    "no index": ("a.zip", GOOD[: GOOD.index(b"PK\x01\x02")], "cut off"),
     "an index of another file": ("a.zip", GOOD[:40] + GOOD[-22:], ""),
 }
 OTHERS = {
