@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from textwrap import wrap
+from typing import Any
 
 from checker.base.errors import CheckerError
 from checker.base.output import EXIT_CLEAN, show
@@ -43,26 +44,30 @@ def _example(example: object) -> str:
     """Show an example: a fragment of model.sdf, or files by their paths."""
     if not isinstance(example, Mapping):
         return str(example).strip("\n")
-    shown = []
-    for path, text in example.items():
-        match path, text:
-            case "@reported" | "@with", _:
-                pass
-            case "@fragment", _:
-                shown.append(f"model.sdf:\n{_indented(text.strip())}")
-            case "@urdf", True:
-                shown.append("urdf/arm.urdf contains an arm with a transmission for its joint")
-            case "@urdf", _:
-                shown.append(f"urdf/arm.urdf:\n{_indented(text.strip())}")
-            case "@name", _:
-                shown.append(f"folder {text}/")
-            case "@links", _:
-                shown += [f"{link} is a link to {target}" for link, target in text.items()]
-            case _, None:
-                shown.append(f"{path} is missing")
-            case _:
-                shown.append(f"{path}:\n{_indented(text.strip())}")
-    return "\n".join(shown)
+    return "\n".join(line for path, text in example.items() for line in _lines(path, text))
+
+
+def _lines(path: str, text: Any) -> Iterator[str]:
+    """Show one entry of an example (see `checker.rule_testing`)."""
+    match path, text:
+        case "@reported" | "@with", _:
+            pass
+        case (("@fragment" | "@urdf"), str()):
+            file = "model.sdf" if path == "@fragment" else "urdf/arm.urdf"
+            yield f"{file}:\n{_indented(text.strip())}"
+        case "@urdf", _:
+            yield "urdf/arm.urdf contains an arm with a transmission for its joint"
+        case "@robot", _:
+            yield f"model.sdf is the robot {text!r} that examples share"
+        case (("@change" | "@links"), _):
+            words = "instead of" if path == "@change" else "is a link to"
+            for first, second in text.items():
+                pair = (second, first) if path == "@change" else (first, second)
+                yield f"{pair[0]} {words} {pair[1]}"
+        case "@name", _:
+            yield f"folder {text}/"
+        case _:
+            yield f"{path} is missing" if text is None else f"{path}:\n{_indented(text.strip())}"
 
 
 def _indented(text: str) -> str:

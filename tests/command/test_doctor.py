@@ -13,9 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.base.sandbox.layers import ALL, Layer
+from checker.cli import main
 from checker.cli.doctor import environment as of_sandbox
 from checker.cli.doctor import installation, self_test
-from checker.cli.doctor.command import doctor
 from checker.cli.doctor.environment import result, sandbox, surroundings
 from checker.cli.doctor.installation import numbers
 from checker.cli.doctor.result import Result, State
@@ -162,7 +162,7 @@ def test_a_robot_with_faults_fails_the_self_test(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(self_test, "sample", lambda: SAMPLES / BROKEN)
-    assert doctor() == 1
+    assert main(["doctor"]) == 1
     assert "problem the self-test fails: " in capsys.readouterr().out
 
 
