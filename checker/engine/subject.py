@@ -33,9 +33,8 @@ from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.includes import ModelIncludes
 from checker.model.sdf.links import read_plugin
-from checker.model.sdf.reader import read_sdf
+from checker.model.sdf.reader import ModelIncludes, read_sdf
 from checker.model.sensing.view import SensorViews
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.description import UrdfDescription

@@ -14,10 +14,9 @@ from hypothesis import strategies as st
 
 from checker.base.sandbox.layers import ALL, Layer
 from checker.cli import main
-from checker.cli.doctor import environment as of_sandbox
 from checker.cli.doctor import installation, self_test
-from checker.cli.doctor.environment import result, sandbox, surroundings
-from checker.cli.doctor.installation import numbers
+from checker.cli.doctor import installation as of_sandbox
+from checker.cli.doctor.installation import numbers, result, sandbox, surroundings
 from checker.cli.doctor.result import Result, State
 from tests.command.conftest import Run
 from tests.conftest import SAMPLES

@@ -55,7 +55,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ): "xacro's own, of characters that cannot break out of it",
     ("checker/expand/xacro/expression/format.py", FORMAT): "without look-ups, of plain data alone",
     ("checker/expand/xacro/yaml_values.py", YAML): "a subclass of the safe loader, bounded",
-    ("checker/service/jobs/report_paths.py", PATTERN): "a folder of ours, escaped",
+    ("checker/service/jobs/check_child.py", PATTERN): "a folder of ours, escaped",
     ("checker/migrate/new_package.py", PATTERN): "tags that are named there",
     (
         "checker/model/devices/form.py",

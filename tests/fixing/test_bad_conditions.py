@@ -16,9 +16,8 @@ import pytest
 
 from checker.base.errors import CheckerError
 from checker.cli import main
-from checker.cli.fix import fix_paths
+from checker.cli.fix import fix_paths, write_files
 from checker.finding import Safety
-from checker.fix.files import write_files
 from checker.fix.rounds import Fixed
 from checker.package.inputs import open_input
 from tests.conftest import SAMPLES

@@ -8,7 +8,7 @@ import pytest
 
 from checker.pipeline import check_paths
 from checker.report.report import NotOpened, Report
-from checker.service.jobs.report_paths import without_folder
+from checker.service.jobs.check_child import without_folder
 
 PLACE = Path("/data/incoming/4f2a")
 

@@ -15,7 +15,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse
 from starlette.types import Receive, Scope, Send
 
-from checker.service.processes.connection import Connection, ProxyConnection
+from checker.service.processes.child import Connection, ProxyConnection
 from tests.serving.conftest import Serve
 
 SIZE = 40_000_000

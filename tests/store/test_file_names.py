@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.service.store.file_names import SUFFIXES, UnknownKind, safe_name
+from checker.service.web.uploads.form import SUFFIXES, UnknownKind, safe_name
 
 HOSTILE = st.text(max_size=300) | st.sampled_from(["../" * 9, "C:\\", "\0", "\u202e", "…", "💥"])
 

@@ -12,7 +12,7 @@ from time import monotonic, sleep
 import uvicorn
 from fastapi import FastAPI
 
-from checker.service.processes.connection import Connection
+from checker.service.processes.child import Connection
 from checker.service.store.store import Store
 
 BOUNDARY = "limit-of-parts"

@@ -21,8 +21,7 @@ from checker.service.jobs.port import Event, Stage, State
 from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
-from checker.service.web.pages.first_findings import SHOWN, glance
-from checker.service.web.pages.progress import headline, package_lines, steps_of
+from checker.service.web.pages.progress import SHOWN, glance, headline, package_lines, steps_of
 from checker.settings import Settings
 from tests.conftest import SAMPLES
 from tests.effort import examples

@@ -6,8 +6,7 @@ import argparse
 from itertools import chain
 
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, show
-from checker.cli.doctor.environment import sandbox, surroundings
-from checker.cli.doctor.installation import installation
+from checker.cli.doctor.installation import installation, sandbox, surroundings
 from checker.cli.doctor.result import INSTALL_AGAIN, Result, State
 
 

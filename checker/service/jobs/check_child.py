@@ -8,8 +8,9 @@ without a name; nothing that it writes elsewhere is ever looked at.
 from __future__ import annotations
 
 import json
+import re
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from functools import cache as once
 from itertools import chain
@@ -17,14 +18,53 @@ from pathlib import Path
 from select import select
 from typing import Any
 
+from msgspec.structs import asdict, replace
+
 from checker.base.child_server import Server
+from checker.base.record import Record
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import INPUT, Answer
 from checker.physics.mesh.process import mesh_server
 from checker.report.report import Report
-from checker.service.jobs.layout import new_parts, settle
+from checker.service.jobs.layout import GIVEN, TEMPORARY, new_parts, settle
 from checker.service.jobs.limits import StageLimits, limit
 from checker.service.jobs.port import Stage
+
+# Reports that do not show where on this machine an upload lay while it was checked.
+
+
+def without_folder(report: Report, place: Path) -> Report:
+    """Return a report in which paths begin below the folder of work in progress.
+
+    Messages hold paths here and there: of settings that cannot be used, of rules that crashed.
+
+    Args:
+        report: As it came out of the check.
+        place: The folder, laid out by `checker.service.jobs.layout`.
+    """
+    folders = "|".join(re.escape(str(each)) for each in {place, place.resolve()})
+    unpacked = rf"{TEMPORARY}/[^/\s]+|{re.escape(GIVEN)}"
+    pattern = re.compile(rf"(?:{folders})(?:/(?:{unpacked}))?/?")
+    said: Report = _changed(report, lambda text: pattern.sub("", text))
+    return said
+
+
+def _changed(value: Any, change: Callable[[str], str]) -> Any:
+    """Return a value with all the texts in it changed."""
+    match value:
+        case str() if type(value) is str:
+            return change(value)
+        case tuple():
+            return tuple(_changed(each, change) for each in value)
+        case list():
+            return [_changed(each, change) for each in value]
+        case Mapping():
+            return {_changed(key, change): _changed(each, change) for key, each in value.items()}
+        case Record():
+            members = {name: _changed(part, change) for name, part in asdict(value).items()}
+            return replace(value, **members)
+    return value
+
 
 _NEEDED = ("checker.engine.review", "checker.report.files", "markdown_it", "pinocchio")
 """What nearly every check loads; some of it starts threads."""
@@ -92,7 +132,6 @@ def _checked(
     from checker.base.words import shortened
     from checker.pipeline import check_paths
     from checker.rulebook.profiles import profile_names
-    from checker.service.jobs.report_paths import without_folder
     from checker.service.jobs.summary import summary
 
     if asked["profile"] not in ("", *profile_names()):

@@ -22,10 +22,18 @@ from pathlib import Path
 from checker.base.private_files import tighten, tighten_below
 from checker.base.record import Record
 from checker.report.files import ARTEFACT_NAME
-from checker.service.store.durable import move, rename, settle, settle_below, settle_name
 from checker.service.store.incoming import Incoming, TooLarge
 from checker.service.store.place import DATABASE
-from checker.service.store.workplace import sweep, work_file, workplace
+from checker.service.store.workplace import (
+    move,
+    rename,
+    settle,
+    settle_below,
+    settle_name,
+    sweep,
+    work_file,
+    workplace,
+)
 
 __all__ = ["DEFAULT_UPLOAD_LIMIT", "SUMMARY", "Incoming", "Store", "TooLarge"]
 

@@ -20,8 +20,7 @@ from checker.engine.report_cache import program_parts
 from checker.service.jobs.children import Children
 from checker.service.jobs.durable.checks import Checks
 from checker.service.jobs.durable.database import open_database, prepare, reachable
-from checker.service.jobs.durable.retention import Retention
-from checker.service.jobs.durable.stages import Stages
+from checker.service.jobs.durable.stages import Retention, Stages
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.durable.workflows import land, launch, queues_of, recover
 from checker.service.jobs.port import SILENCE_SECONDS, JobsUnreachable

@@ -15,7 +15,7 @@ from checker.service.jobs.port import Stage, State
 from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.views import address_of
 from checker.service.web.pages import progress, rule_book
-from checker.service.web.pages.first_findings import glance
+from checker.service.web.pages.progress import glance
 from checker.service.web.pages.site import FOLDER, html, static_file
 from checker.service.web.services import Services
 from checker.service.web.uploads.transfer import new_check
