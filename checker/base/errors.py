@@ -15,7 +15,7 @@ from checker.base.record import Record
 # What a package has to offer to a rule, or why it cannot.
 
 
-class NotAtHand(Record):
+class NotAvailable(Record):
     """A part of a package that a rule asks for and that cannot be had.
 
     Attributes:
@@ -40,7 +40,7 @@ class WorkerFailed(Record):
 class Parts(Protocol):
     """Gives the parts of a package by their type."""
 
-    def part(self, kind: type) -> Sequence[object] | NotAtHand:
+    def part(self, kind: type) -> Sequence[object] | NotAvailable:
         """Return the part; several when a file holds several robots."""
         ...
 

@@ -29,7 +29,7 @@ from checker.pipeline import check_paths, settings_of
 from checker.report.files import STALE, artefacts
 from checker.report.formats import FORMATS
 from checker.report.palette import palette_for
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.report.report import Report
 from checker.report.summary import statistics_text
 from checker.rulebook.discovery import all_rules
@@ -207,7 +207,7 @@ def _tell(report: Report, options: argparse.Namespace) -> None:
     """Write the report in all the ways that are asked for."""
     stream = None if options.output else sys.stdout
     command = shlex.join(("subt-check", *options.words))
-    manner = Manner(palette_for(options.color, stream), str(here()), command)
+    manner = RenderSettings(palette_for(options.color, stream), str(here()), command)
     written = FORMATS[options.format](report, manner)
     if options.output:
         write(Path(options.output), written)

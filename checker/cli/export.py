@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from checker.base.cache import NO_CACHE, Cache, cache_folder
-from checker.base.errors import CheckerError, NotAtHand
+from checker.base.errors import CheckerError, NotAvailable
 from checker.base.output import EXIT_CLEAN, say_progress, show, write
 from checker.base.record import Record
 from checker.base.words import plain, shortened
@@ -98,7 +98,7 @@ def _exported(
     path: Path, package: Package, subject: Subject, form: str, *, apart: bool
 ) -> Exported:
     robots = subject.robots
-    if isinstance(robots, NotAtHand):
+    if isinstance(robots, NotAvailable):
         raise CheckerError(f"{path} has no robot to write: {robots.reason}")
     robot = robots[0]
     if form == "mjcf":

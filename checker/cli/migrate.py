@@ -14,7 +14,7 @@ from checker.base.words import plain, shortened
 from checker.cli.arguments import above_zero, add_exit_codes, argument, ids
 from checker.cli.exit_code import exit_code
 from checker.migrate.migration import Migrated, migrate
-from checker.migrate.options import Wishes
+from checker.migrate.options import MigrationOptions
 from checker.pipeline import check_paths
 from checker.report.palette import Palette
 from checker.report.report import PackageReport, Report
@@ -27,7 +27,7 @@ _LINE_LIMIT = 400
 def migrated_and_checked(
     source: Path,
     destination: Path,
-    wishes: Wishes,
+    wishes: MigrationOptions,
     check_wishes: dict[str, Any],
     say: Say = say_nothing,
 ) -> tuple[str, Report]:
@@ -119,7 +119,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Make a package of a description, check it, and say what is left to do."""
-    wishes = Wishes(
+    wishes = MigrationOptions(
         options.organization,
         options.robot,
         options.config,

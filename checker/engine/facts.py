@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.engine.run import Outcome
 from checker.engine.subject import Subject
 from checker.finding import Place, Severity
@@ -137,7 +137,7 @@ def facts_of(subject: Subject) -> dict[str, Any]:
     or the trial can tell is there when a rule has asked for it.
     """
     robots = subject.robots
-    if isinstance(robots, NotAtHand):
+    if isinstance(robots, NotAvailable):
         return {}
     robot = robots[0]
     known: dict[str, Any] = {

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from checker.base.cache import Cache
-from checker.base.errors import NotAtHand, Parts
+from checker.base.errors import NotAvailable, Parts
 from checker.base.garbage_collection import collection_put_off
 from checker.base.progress import Say, Stages
 from checker.base.record import Record
@@ -43,7 +43,7 @@ class _With(Record):
     parts: Parts
     last: object
 
-    def part(self, kind: type) -> Sequence[object] | NotAtHand:
+    def part(self, kind: type) -> Sequence[object] | NotAvailable:
         """Return the part."""
         return (self.last,) if isinstance(self.last, kind) else self.parts.part(kind)
 
@@ -143,7 +143,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
     package, judge = subject.package, profile(settings.profile)
     with subject.stages.stage("rules", "rules"):
         subject.start(needed_parts(all_rules(), judge, settings))
-        if settings.display and not isinstance(subject.display, NotAtHand):
+        if settings.display and not isinstance(subject.display, NotAvailable):
             subject.display.begin()
         outcome = run_and_set_aside(all_rules(), subject, judge, settings)
     blind = [
@@ -182,7 +182,7 @@ def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
-    if isinstance(subject.display, NotAtHand):
+    if isinstance(subject.display, NotAvailable):
         return None, ()
     driven = subject.provided(RobotTrial)
     try:

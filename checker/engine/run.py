@@ -10,7 +10,7 @@ from typing import Any
 from msgspec import field
 from msgspec.structs import replace
 
-from checker.base.errors import NotAtHand, Parts
+from checker.base.errors import NotAvailable, Parts
 from checker.base.record import Record
 from checker.base.words import shortened
 from checker.engine.options import options_of
@@ -156,7 +156,7 @@ def _run_isolated(
     """Run one rule; what goes wrong inside it is the checker's fault and says so."""
     try:
         arguments = _arguments(rule, parts, context)
-        if isinstance(arguments, NotAtHand):
+        if isinstance(arguments, NotAvailable):
             cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
         options = options_of(rule, settings)
@@ -172,12 +172,12 @@ def crashed(what: str, error: Exception) -> NotChecked:
     return NotChecked(what, reason, Cause.CRASHED)
 
 
-def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any]] | NotAtHand:
+def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any]] | NotAvailable:
     """Return one set of arguments for each combination of the parts that a rule asks for."""
     wanted: dict[str, Sequence[object]] = {}
     for name, kind in rule.needs.items():
         had = (context,) if kind is Context else parts.part(kind)
-        if isinstance(had, NotAtHand):
+        if isinstance(had, NotAvailable):
             return had
         wanted[name] = had
     return [dict(zip(wanted, each, strict=True)) for each in product(*wanted.values())]

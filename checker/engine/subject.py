@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_server import Server
 from checker.base.disk_file import NotReadable
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.base.progress import Stages
 from checker.base.record import Record
 from checker.expand.launch.graph import LaunchGraph
@@ -85,7 +85,7 @@ class Subject(Record, eq=False, dict=True):
     processes: StartedProcesses = NO_PROCESSES
     _provided: dict[type, Sequence[object]] = field(default_factory=dict)
 
-    def part(self, kind: type) -> Sequence[object] | NotAtHand:
+    def part(self, kind: type) -> Sequence[object] | NotAvailable:
         """Return the part that is an instance of `kind`; a file may hold several robots.
 
         Raises:
@@ -95,7 +95,7 @@ class Subject(Record, eq=False, dict=True):
         if provide is None:
             raise LookupError(f"{kind.__name__} is not a part of a package")
         had = provide(self)
-        if isinstance(had, NotAtHand):
+        if isinstance(had, NotAvailable):
             return had
         self._provided[kind] = had if isinstance(had, tuple) else (had,)
         return self._provided[kind]
@@ -110,9 +110,9 @@ class Subject(Record, eq=False, dict=True):
         driven = twice or RobotTrial in kinds
         if driven or MassProperties in kinds:
             self._begin_meshes()
-        if driven and not isinstance(self.trials, NotAtHand):
+        if driven and not isinstance(self.trials, NotAvailable):
             self.trials.begin(twice=twice)
-        if SensorViews in kinds and not isinstance(self.robot_views, NotAtHand):
+        if SensorViews in kinds and not isinstance(self.robot_views, NotAvailable):
             self.robot_views.begin()
         if UrdfFiles in kinds or UrdfDescription in kinds:
             _ = self.describing
@@ -137,7 +137,7 @@ class Subject(Record, eq=False, dict=True):
                 robot.meshes.stop()
         names = ("trials", "describing", "display", "robot_views")
         for each in map(self.__dict__.get, names):
-            if each is not None and not isinstance(each, NotAtHand):
+            if each is not None and not isinstance(each, NotAvailable):
                 each.stop()
 
     @cached_property
@@ -146,26 +146,26 @@ class Subject(Record, eq=False, dict=True):
         return Paperwork(self.package)
 
     @cached_property
-    def model(self) -> XmlDocument | NotAtHand:
+    def model(self) -> XmlDocument | NotAvailable:
         """The model file."""
         without = _WITHOUT_ROBOT.get(self.package.kind)
         if without is not None:
-            return NotAtHand(without, applicable=False)
+            return NotAvailable(without, applicable=False)
         if self.package.kind is PackageKind.URDF_DESCRIPTION:
             return self._urdf
         path = self.package.model_path
         if isinstance(path, Missing):
-            return NotAtHand(path.reason)
+            return NotAvailable(path.reason)
         document = self.document(path.path)
         if isinstance(document, XmlDocument) and document.root.tag == "robot":
             return self._urdf if self.package.only else document
         return document
 
     @property
-    def _urdf(self) -> XmlDocument | NotAtHand:
+    def _urdf(self) -> XmlDocument | NotAvailable:
         """The first description of a URDF package, or of a file."""
         found = self.descriptions
-        return found if isinstance(found, NotAtHand) else found[0].document
+        return found if isinstance(found, NotAvailable) else found[0].document
 
     @cached_property
     def describing(self) -> Describing:
@@ -173,46 +173,46 @@ class Subject(Record, eq=False, dict=True):
         return Describing(self.package, self.cache)
 
     @property
-    def urdf_files(self) -> UrdfFiles | NotAtHand:
+    def urdf_files(self) -> UrdfFiles | NotAvailable:
         """What became of the URDF files."""
         if not self.describing.applicable:
-            return NotAtHand("no URDF file is a robot", applicable=False)
+            return NotAvailable("no URDF file is a robot", applicable=False)
         return self.describing.files
 
     @cached_property
-    def descriptions(self) -> tuple[UrdfDescription, ...] | NotAtHand:
+    def descriptions(self) -> tuple[UrdfDescription, ...] | NotAvailable:
         """The robots that URDF files describe."""
         files = self.urdf_files
-        if isinstance(files, NotAtHand) or files.descriptions:
-            return files if isinstance(files, NotAtHand) else files.descriptions
+        if isinstance(files, NotAvailable) or files.descriptions:
+            return files if isinstance(files, NotAvailable) else files.descriptions
         wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
         reasons = [*wrong, *files.unread]
         said = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
-        return NotAtHand(said, applicable=bool(reasons))
+        return NotAvailable(said, applicable=bool(reasons))
 
-    def document(self, path: str) -> XmlDocument | NotAtHand:
+    def document(self, path: str) -> XmlDocument | NotAvailable:
         """Return a file as XML, or say why it cannot be had."""
         document = self.package.xml(path)
         if isinstance(document, XmlFault):
-            return NotAtHand(f"{path} is not well-formed")
+            return NotAvailable(f"{path} is not well-formed")
         if isinstance(document, NotReadable):
-            return NotAtHand(f"{path} {document.reason}")
+            return NotAvailable(f"{path} {document.reason}")
         return document
 
     @cached_property
-    def sdf(self) -> SdfDocument | NotAtHand:
+    def sdf(self) -> SdfDocument | NotAvailable:
         """The model file as SDF."""
-        if isinstance(self.model, NotAtHand):
+        if isinstance(self.model, NotAvailable):
             return self.model
         if self.model.root.tag == "robot":
-            return NotAtHand("the model is a URDF file", applicable=False)
+            return NotAvailable("the model is a URDF file", applicable=False)
         return SdfDocument(self.model, (self.model.root.get("version") or "").strip())
 
     @cached_property
-    def robots(self) -> tuple[Robot, ...] | NotAtHand:
+    def robots(self) -> tuple[Robot, ...] | NotAvailable:
         """The robots of the package with their meshes."""
         robots = self._read_robots()
-        if isinstance(robots, NotAtHand):
+        if isinstance(robots, NotAvailable):
             return robots
         return tuple(replace(robot, meshes=self._meshes(robot)) for robot in robots)
 
@@ -225,120 +225,124 @@ class Subject(Record, eq=False, dict=True):
         """The process that reads mesh files; it is started when there is one to read."""
         return self.processes.meshes or mesh_server()
 
-    def _read_robots(self) -> tuple[Robot, ...] | NotAtHand:
+    def _read_robots(self) -> tuple[Robot, ...] | NotAvailable:
         """Return the robot with the plugins that the spawner adds; of a lone file all robots."""
-        if isinstance(self.model, NotAtHand):
+        if isinstance(self.model, NotAvailable):
             return self.model
         if self.model.root.tag == "robot":
             found = self.descriptions
-            return found if isinstance(found, NotAtHand) else tuple(each.robot for each in found)
+            return found if isinstance(found, NotAvailable) else tuple(each.robot for each in found)
         robots = read_sdf(self.model, ModelIncludes(self.package))
         if self.package.kind is not PackageKind.SINGLE_FILE:
             robots = robots[:1]
         if not robots:
             nothing_to_see = self.model.root.child("world") is not None
             reason = f"{self.model.source.file} contains no model"
-            return NotAtHand(reason, applicable=not nothing_to_see)
+            return NotAvailable(reason, applicable=not nothing_to_see)
         return (self._with_spawned_plugins(robots[0]), *robots[1:])
 
     def _with_spawned_plugins(self, robot: Robot) -> Robot:
-        if isinstance(self.spawned, NotAtHand):
+        if isinstance(self.spawned, NotAvailable):
             unread = self.spawned.reason if self.spawned.applicable else ""
             return replace(robot, unread_plugins=unread)
         added = (read_plugin(element) for element in self.spawned.plugins)
         return replace(robot, plugins=(*robot.plugins, *added))
 
     @cached_property
-    def masses(self) -> tuple[MassProperties, ...] | NotAtHand:
+    def masses(self) -> tuple[MassProperties, ...] | NotAvailable:
         """The robots as Pinocchio weighs them."""
-        if isinstance(self.robots, NotAtHand):
+        if isinstance(self.robots, NotAvailable):
             return self.robots
         with self.stages.stage("weigh"):
             return tuple(weigh(robot, self.cache) for robot in self.robots)
 
     @cached_property
-    def first_configuration(self) -> FirstConfiguration | NotAtHand:
+    def first_configuration(self) -> FirstConfiguration | NotAvailable:
         """The configuration of the same robot that has the lowest number at hand."""
         package = first_configuration(self.package)
         if package is None:
-            return NotAtHand("no earlier configuration is available to compare", applicable=False)
+            return NotAvailable(
+                "no earlier configuration is available to compare", applicable=False
+            )
         robots = Subject(package)._read_robots()
-        if isinstance(robots, NotAtHand):
-            return NotAtHand(f"{package.name} cannot be compared: {robots.reason}")
+        if isinstance(robots, NotAvailable):
+            return NotAvailable(f"{package.name} cannot be compared: {robots.reason}")
         return FirstConfiguration(package.name, robots[0])
 
     @cached_property
-    def trials(self) -> RobotTrials | NotAtHand:
+    def trials(self) -> RobotTrials | NotAvailable:
         """The trials of the robots."""
-        if isinstance(self.robots, NotAtHand):
+        if isinstance(self.robots, NotAvailable):
             return self.robots
         return RobotTrials(self.robots, self.cache, self.stages)
 
     @property
-    def driven(self) -> tuple[RobotTrial, ...] | NotAtHand:
+    def driven(self) -> tuple[RobotTrial, ...] | NotAvailable:
         """The robots and their trials."""
-        return self.trials if isinstance(self.trials, NotAtHand) else self.trials.once
+        return self.trials if isinstance(self.trials, NotAvailable) else self.trials.once
 
     @property
-    def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAtHand:
+    def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAvailable:
         """The robots and their trials, also at half the time step."""
-        return self.trials if isinstance(self.trials, NotAtHand) else self.trials.twice
+        return self.trials if isinstance(self.trials, NotAvailable) else self.trials.twice
 
     @cached_property
-    def display(self) -> RobotDisplay | NotAtHand:
+    def display(self) -> RobotDisplay | NotAvailable:
         """The robot in 3D; a check that shows nothing loads none of the modules behind it."""
         from checker.engine.display import RobotDisplay
 
         had = self.robots
-        if isinstance(had, NotAtHand):
+        if isinstance(had, NotAvailable):
             return had
         return RobotDisplay(had, self.cache, self.stages, self.processes)
 
     @cached_property
-    def robot_views(self) -> RobotViews | NotAtHand:
+    def robot_views(self) -> RobotViews | NotAvailable:
         """The views of the robots' sensors."""
-        if isinstance(self.robots, NotAtHand):
+        if isinstance(self.robots, NotAvailable):
             return self.robots
         return RobotViews(self.robots, self.cache, self.stages, self.mesh_server)
 
     @property
-    def views(self) -> tuple[SensorViews, ...] | NotAtHand:
+    def views(self) -> tuple[SensorViews, ...] | NotAvailable:
         """The robots and what of themselves their sensors see."""
         return (
-            self.robot_views if isinstance(self.robot_views, NotAtHand) else self.robot_views.views
+            self.robot_views
+            if isinstance(self.robot_views, NotAvailable)
+            else self.robot_views.views
         )
 
     @cached_property
-    def spawner(self) -> Spawner | NotAtHand:
+    def spawner(self) -> Spawner | NotAvailable:
         """The spawner, read without running it."""
         if self.package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
-            return NotAtHand("the package needs no spawner", applicable=False)
+            return NotAvailable("the package needs no spawner", applicable=False)
         source = self.package.read(SPAWNER)
         if isinstance(source, NotReadable):
-            return NotAtHand(f"{SPAWNER} {source.reason}")
+            return NotAvailable(f"{SPAWNER} {source.reason}")
         files = WorkspaceFiles(self.package)
         return read_spawner(files, files.entry, source)
 
     @cached_property
-    def spawned(self) -> SpawnedXml | NotAtHand:
+    def spawned(self) -> SpawnedXml | NotAvailable:
         """What the function `spawner` emits."""
-        if isinstance(self.spawner, NotAtHand):
+        if isinstance(self.spawner, NotAvailable):
             return self.spawner
         return emitted_xml(SpawnedXml, "spawner", self.spawner.spawn)
 
     @cached_property
-    def started(self) -> StartedXml | NotAtHand:
+    def started(self) -> StartedXml | NotAvailable:
         """What the function `rosExecutables` emits."""
-        if isinstance(self.spawner, NotAtHand):
+        if isinstance(self.spawner, NotAvailable):
             return self.spawner
         return emitted_xml(StartedXml, "rosExecutables", self.spawner.executables)
 
     @cached_property
-    def launch(self) -> LaunchGraph | NotAtHand:
+    def launch(self) -> LaunchGraph | NotAvailable:
         """What the launch files start that the spawner calls for; of a URDF package, all."""
         if self.package.kind is PackageKind.URDF_DESCRIPTION:
             if not self.launch_entries.entries:
-                return NotAtHand("the package has no launch files", applicable=False)
+                return NotAvailable("the package has no launch files", applicable=False)
             return self.launch_entries.graph
         return launch_graph(self.package, self.started)
 
@@ -350,32 +354,32 @@ class Subject(Record, eq=False, dict=True):
         return launch_entries(self.package)
 
     @cached_property
-    def control(self) -> ControlSystem | NotAtHand:
+    def control(self) -> ControlSystem | NotAvailable:
         """What controls the joints of a URDF package."""
         alone = self.package.only and self.describing.applicable
         if self.package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
-            return NotAtHand("the package is not a URDF package", applicable=False)
+            return NotAvailable("the package is not a URDF package", applicable=False)
         return control_system(self.package, self.launch_entries, self.robots, self.descriptions)
 
     @cached_property
-    def specification(self) -> Specification | NotAtHand:
+    def specification(self) -> Specification | NotAvailable:
         """The specification sheet."""
         if self.package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
-            return NotAtHand("the package needs no specifications.md", applicable=False)
+            return NotAvailable("the package needs no specifications.md", applicable=False)
         part = self.package.part("specifications.md")
         if isinstance(part, Missing):
-            return NotAtHand(part.reason)
+            return NotAvailable(part.reason)
         source = self.package.read(part.path)
         if isinstance(source, NotReadable):
-            return NotAtHand(f"{part.path} {source.reason}")
+            return NotAvailable(f"{part.path} {source.reason}")
         return read_specification(source)
 
     @cached_property
-    def sensor_devices(self) -> SensorDevices | NotAtHand:
+    def sensor_devices(self) -> SensorDevices | NotAvailable:
         """The devices that sensors stand for; without the sheet, as far as the model tells."""
-        if isinstance(self.robots, NotAtHand):
+        if isinstance(self.robots, NotAvailable):
             return self.robots
-        sheet = None if isinstance(self.specification, NotAtHand) else self.specification
+        sheet = None if isinstance(self.specification, NotAvailable) else self.specification
         path = self.package.model_path
         numbers = {configuration_number(self.package)}
         if not isinstance(path, Missing):

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.convert.xml_writer import number
-from checker.migrate.options import NotMigrated, Wishes
+from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.migrate.wheels import Wheels
 from checker.migrate.xml_parts import put
 from checker.model.locomotion.locomotion import Wheel
@@ -80,7 +80,7 @@ class Drive(Record, eq=False):
         return self.wheel_base / math.tan(self.steering_limit) if self.steering else 0.0
 
 
-def drive_of(robot: Robot, wheels: Wheels, wishes: Wishes) -> Drive:
+def drive_of(robot: Robot, wheels: Wheels, wishes: MigrationOptions) -> Drive:
     """Work out the drive plugin of a robot with wheels.
 
     Raises:
@@ -115,7 +115,7 @@ def _standard() -> dict[str, float]:
     return {**limits["ugv"], "acceleration_typical": limits["acceleration_typical"]}
 
 
-def _velocity(wheels: Wheels, radius: float, wishes: Wishes) -> tuple[float, str]:
+def _velocity(wheels: Wheels, radius: float, wishes: MigrationOptions) -> tuple[float, str]:
     """Return the limit of velocity, m/s, and where it comes from."""
     if wishes.max_velocity is not None:
         return wishes.max_velocity, "from your options"

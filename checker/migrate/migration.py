@@ -10,7 +10,7 @@ from pathlib import Path
 from lxml import etree
 
 from checker.base.cache import NO_CACHE
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.base.record import Record
 from checker.convert.conversion import Conversion
 from checker.convert.sdf_to_urdf import xacro_of
@@ -33,7 +33,7 @@ from checker.migrate.names import (
     names_for,
 )
 from checker.migrate.new_package import Known, Staging, staged, texts
-from checker.migrate.options import NotMigrated, Wishes
+from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.migrate.plugins import Judged, judge_plugins
 from checker.migrate.sensors import rewrite_sensors
 from checker.migrate.servos import Servo, servos_of
@@ -96,7 +96,7 @@ class _Log:
     points: list[str] = field(default_factory=list)
 
 
-def migrate(path: Path, destination: Path, wishes: Wishes) -> Migrated:
+def migrate(path: Path, destination: Path, wishes: MigrationOptions) -> Migrated:
     """Make a package for SubT of a description for Gazebo 9.
 
     Args:
@@ -133,7 +133,9 @@ def _check_apart(source: Source, destination: Path) -> None:
         )
 
 
-def _fill(staging: Staging, source: Source, names: Names, wishes: Wishes, log: _Log) -> None:
+def _fill(
+    staging: Staging, source: Source, names: Names, wishes: MigrationOptions, log: _Log
+) -> None:
     """Write all files of the package."""
     assets = Assets(source)
     conversion, judged = _converted(source, names, assets, log)
@@ -177,7 +179,7 @@ def _converted(
     return conversion, judged
 
 
-def _drive(robot: Robot, source: Source, wishes: Wishes, judged: Judged) -> Drive | None:
+def _drive(robot: Robot, source: Source, wishes: MigrationOptions, judged: Judged) -> Drive | None:
     """Return the drive of a robot with wheels; None for one without."""
     driven = frozenset(
         end.name.value.rpartition("/")[2]
@@ -245,7 +247,7 @@ def _robot_in(staging: Staging) -> Iterator[Robot]:
         subject = Subject(opened.packages[0], NO_CACHE)
         try:
             robots = subject.robots
-            if isinstance(robots, NotAtHand):
+            if isinstance(robots, NotAvailable):
                 raise NotMigrated(f"the new model cannot be read: {robots.reason}")
             yield robots[0]
         finally:

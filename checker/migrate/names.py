@@ -9,7 +9,7 @@ from lxml import etree
 from checker.base.record import Record
 from checker.convert.conversion import Conversion
 from checker.convert.xml_writer import numbers
-from checker.migrate.options import NotMigrated, Wishes
+from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.migrate.source import Source
 from checker.migrate.xml_parts import put
 from checker.model.geometry.transform import Transform
@@ -133,7 +133,7 @@ class Names(Record):
         return f"{self.organization}_{self.robot}"
 
 
-def names_for(wishes: Wishes, source: Source) -> Names:
+def names_for(wishes: MigrationOptions, source: Source) -> Names:
     """Return the names that were asked for; else those that the source suggests.
 
     Raises:

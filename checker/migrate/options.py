@@ -14,7 +14,7 @@ class NotMigrated(CheckerError):
     """A description that cannot be migrated; its text is one sentence and says what to do."""
 
 
-class Wishes(Record):
+class MigrationOptions(Record):
     """What the author asks for; what is empty is found out.
 
     Attributes:

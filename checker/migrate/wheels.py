@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checker.base.record import Record
 from checker.convert.conversion import CarriedPlugin
-from checker.migrate.options import NotMigrated, Wishes
+from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.model.components import Joint
 from checker.model.locomotion.locomotion import Side, Wheel
 from checker.model.locomotion.wheels import WheelReader, stands_askew, tread
@@ -48,7 +48,7 @@ class Wheels(Record, eq=False):
 
 
 def find_drive_wheels(
-    robot: Robot, wishes: Wishes, plugins: Sequence[CarriedPlugin], driven: frozenset[str]
+    robot: Robot, wishes: MigrationOptions, plugins: Sequence[CarriedPlugin], driven: frozenset[str]
 ) -> Wheels:
     """Find the wheels of the converted robot; none for a robot without any.
 

@@ -8,7 +8,7 @@ from itertools import chain
 from urllib.parse import quote
 
 from checker.report.formats import FORMATS
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.report.report import PackageReport, Report
 
 Artefact = tuple[str, str | bytes]
@@ -23,12 +23,12 @@ STALE = (PAGE, INDEX, MODEL)
 """Files of an earlier run that this one may not write anew: they would tell of something else."""
 
 
-def _for_programs(report: Report, manner: Manner) -> Iterator[Artefact]:
+def _for_programs(report: Report, manner: RenderSettings) -> Iterator[Artefact]:
     yield "report.json", FORMATS["json"](report, manner)
     yield "report.sarif", FORMATS["sarif"](report, manner)
 
 
-def _for_people(report: Report, manner: Manner) -> Iterator[Artefact]:
+def _for_people(report: Report, manner: RenderSettings) -> Iterator[Artefact]:
     """Yield the page of one package; of several, a folder for each and a list of them."""
     if len(report.packages) == 1:
         yield from _package(report.packages[0], report, manner, "")
@@ -42,7 +42,7 @@ def _for_people(report: Report, manner: Manner) -> Iterator[Artefact]:
 
 
 def _package(
-    package: PackageReport, report: Report, manner: Manner, prefix: str
+    package: PackageReport, report: Report, manner: RenderSettings, prefix: str
 ) -> Iterator[Artefact]:
     from checker.report.html.page import to_html
 
@@ -67,9 +67,12 @@ def package_folders(report: Report) -> list[str]:
     return folders
 
 
-_MAKERS: tuple[Callable[[Report, Manner], Iterator[Artefact]], ...] = (_for_programs, _for_people)
+_MAKERS: tuple[Callable[[Report, RenderSettings], Iterator[Artefact]], ...] = (
+    _for_programs,
+    _for_people,
+)
 
 
-def artefacts(report: Report, manner: Manner) -> Iterator[Artefact]:
+def artefacts(report: Report, manner: RenderSettings) -> Iterator[Artefact]:
     """Yield the files one after the other; each is made when it is asked for."""
     return chain.from_iterable(maker(report, manner) for maker in _MAKERS)

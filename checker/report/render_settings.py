@@ -6,7 +6,7 @@ from checker.base.record import Record
 from checker.report.palette import Palette
 
 
-class Manner(Record):
+class RenderSettings(Record):
     """How a report is to be rendered.
 
     Attributes:

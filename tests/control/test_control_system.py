@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.engine.subject import Subject
 from checker.expand.launch.graph import LaunchGraph
 from checker.model.control.controllers import ControlSystem
@@ -26,7 +26,7 @@ def part(tmp_path: Path) -> Part:
         package = write_example({"@urdf": urdf, **changes}, tmp_path)
         with open_input(package) as opened:
             found = Subject(opened.packages[0]).part(kind)
-        return found if isinstance(found, NotAtHand) else found[0]
+        return found if isinstance(found, NotAvailable) else found[0]
 
     return part_of
 
@@ -116,7 +116,7 @@ def test_a_package_without_control(part: Part) -> None:
     nothing = {"config/control.yaml": None, "launch/control.launch": None}
     nothing["launch/spawn.launch"] = None
     found = part(ControlSystem, nothing, urdf="")
-    assert isinstance(found, NotAtHand)
+    assert isinstance(found, NotAvailable)
     assert not found.applicable
 
 

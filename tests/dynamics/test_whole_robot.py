@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
@@ -219,7 +219,7 @@ def weighed(corpus: Path) -> Iterator[MassProperties]:
     with open_input(corpus) as opened:
         for package in opened.packages:
             masses = Subject(package).masses
-            assert not isinstance(masses, NotAtHand), masses
+            assert not isinstance(masses, NotAvailable), masses
             yield from masses
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.engine.run import Outcome, run_rules
 from checker.finding import Place
 from checker.rule import Finding, Findings, Rule, Severity
@@ -23,10 +23,10 @@ class Wheel:
 
 
 class Parts:
-    def __init__(self, *wheels: Wheel, missing: NotAtHand | None = None) -> None:
-        self.answer: Sequence[object] | NotAtHand = missing or wheels
+    def __init__(self, *wheels: Wheel, missing: NotAvailable | None = None) -> None:
+        self.answer: Sequence[object] | NotAvailable = missing or wheels
 
-    def part(self, kind: type) -> Sequence[object] | NotAtHand:
+    def part(self, kind: type) -> Sequence[object] | NotAvailable:
         assert kind is Wheel
         return self.answer
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.report.report import Cause, NotChecked
 from checker.rule import Context, Findings, Rule, Severity, finding, unchecked
 from tests.engine.stage import Parts, Wheel, at, reported, rule_saying, run, subt
@@ -64,7 +64,7 @@ def test_a_rule_runs_once_for_each_of_several_parts() -> None:
 def test_a_part_that_is_not_at_hand_is_the_reason_not_to_look(
     applicable: bool, cause: Cause
 ) -> None:
-    parts = Parts(missing=NotAtHand("it lies elsewhere", applicable))
+    parts = Parts(missing=NotAvailable("it lies elsewhere", applicable))
     outcome = run(rule_of(looking), parts=parts)
     assert outcome.not_checked == (NotChecked("TST009", "it lies elsewhere", cause),)
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.engine.run import Outcome, needed_parts, run_rules
 from checker.finding import Severity
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
@@ -39,7 +39,7 @@ class Parts:
     def part(self, kind: type) -> Any:
         if kind is Wheel:
             return (Wheel(),)
-        return self.trial if isinstance(self.trial, NotAtHand) else (self.trial,)
+        return self.trial if isinstance(self.trial, NotAvailable) else (self.trial,)
 
 
 def outcome(part: object = "driven", **settings: Any) -> Outcome:
@@ -71,7 +71,7 @@ def test_what_was_ignored_was_switched_off_whether_driven_or_not() -> None:
 
 
 def test_a_trial_that_cannot_be_had_is_the_reason_not_to_look() -> None:
-    result = outcome(NotAtHand("the trial ended in a crash"))
+    result = outcome(NotAvailable("the trial ended in a crash"))
     assert result.not_checked == (
         NotChecked("TRI902", "the trial ended in a crash", Cause.NOT_AT_HAND),
     )
@@ -81,7 +81,7 @@ def test_rules_that_looked_are_named_with_the_options_they_used() -> None:
     result = outcome(options={"TRI902": {"limit": 3}})
     assert result.looked["TRI902"] == {"limit": 3.0}
     assert set(result.looked) == {"TRI902", "KIN901"}
-    assert set(outcome(NotAtHand("is broken")).looked) == {"KIN901"}
+    assert set(outcome(NotAvailable("is broken")).looked) == {"KIN901"}
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from checker.migrate.migration import migrate
-from checker.migrate.options import Wishes
+from checker.migrate.options import MigrationOptions
 from tests.migrate.conftest import Write, body, urdf
 
-ACME = Wishes(organization="acme")
+ACME = MigrationOptions(organization="acme")
 BOX = '<visual><geometry><box size="0.6 0.3 0.1"/></geometry></visual>'
 MESH = """mtllib w.mtl
 v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1

@@ -17,13 +17,13 @@ import pytest
 from checker.base.errors import UnreadableInput
 from checker.migrate.migration import migrate
 from checker.migrate.new_package import staged
-from checker.migrate.options import NotMigrated, Wishes
+from checker.migrate.options import MigrationOptions, NotMigrated
 from tests.conftest import SAMPLES
 from tests.migrate.conftest import FOUR, MANIFEST, Write, body, urdf
 
 ROBOT = urdf(body() + FOUR)
 PACKAGE = "acme_rover_sensor_config_1"
-ACME = Wishes(organization="acme")
+ACME = MigrationOptions(organization="acme")
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 pytestmark = pytest.mark.usefixtures("no_pictures")
 
@@ -79,7 +79,7 @@ def test_a_source_that_cannot_be_migrated(
 
 def test_one_of_two_robots_can_be_chosen(write: Write, tmp_path: Path) -> None:
     source = write({"urdf/a.urdf": ROBOT, "urdf/b.urdf": urdf(body(), name="box")})
-    wishes = Wishes(organization="acme", urdf="urdf/b.urdf")
+    wishes = MigrationOptions(organization="acme", urdf="urdf/b.urdf")
     made = migrate(source, tmp_path / "made", wishes)
     assert made.folder.name == "acme_box_sensor_config_1"
 
@@ -87,7 +87,7 @@ def test_one_of_two_robots_can_be_chosen(write: Write, tmp_path: Path) -> None:
 def test_a_file_that_is_chosen_and_not_there(write: Write, tmp_path: Path) -> None:
     source = write({"urdf/a.urdf": ROBOT})
     with pytest.raises(NotMigrated, match=r"other.urdf is not a file of .*; found: urdf/a.urdf"):
-        migrate(source, tmp_path / "made", Wishes(urdf="other.urdf"))
+        migrate(source, tmp_path / "made", MigrationOptions(urdf="other.urdf"))
 
 
 def test_arguments_reach_xacro(write: Write, tmp_path: Path) -> None:
@@ -95,7 +95,9 @@ def test_arguments_reach_xacro(write: Write, tmp_path: Path) -> None:
         'mass value="10.0"', 'mass value="$(arg m)"'
     )
     source = write({"urdf/rover.urdf.xacro": text})
-    made = migrate(source, tmp_path / "made", Wishes(organization="acme", args={"m": "12"}))
+    made = migrate(
+        source, tmp_path / "made", MigrationOptions(organization="acme", args={"m": "12"})
+    )
     assert "<mass>12</mass>" in (made.folder / "model.sdf").read_text("utf-8")
 
 

@@ -9,13 +9,13 @@ import pytest
 
 from checker.finding import Severity
 from checker.migrate.migration import Migrated, migrate
-from checker.migrate.options import NotMigrated, Wishes
+from checker.migrate.options import MigrationOptions, NotMigrated
 from checker.pipeline import check_package
 from checker.report.report import PackageReport
 from checker.settings import Settings
 from tests.migrate.conftest import FOUR, Write, body, knuckle, speed_ratio, wheel
 
-ACME = Wishes(organization="acme")
+ACME = MigrationOptions(organization="acme")
 pytestmark = pytest.mark.usefixtures("no_pictures")
 
 
@@ -99,14 +99,14 @@ def test_slow_wheels_limit_the_speed(write: Write, tmp_path: Path) -> None:
 
 
 def test_limits_that_are_asked_for(write: Write, tmp_path: Path) -> None:
-    wishes = Wishes(organization="acme", max_velocity=0.7, max_acceleration=1.5)
+    wishes = MigrationOptions(organization="acme", max_velocity=0.7, max_acceleration=1.5)
     text = spawner(migrate(write(body() + FOUR), tmp_path / "made", wishes))
     assert values(text, "min_velocity") == ["-0.7"]
     assert values(text, "max_acceleration") == ["1.5"]
 
 
 def test_wheels_that_the_author_names(write: Write, tmp_path: Path) -> None:
-    wishes = Wishes(
+    wishes = MigrationOptions(
         organization="acme",
         left_wheels=("left_rear_joint",),
         right_wheels=("right_rear_joint",),
@@ -130,20 +130,24 @@ def test_wheels_that_the_old_plugin_names(write: Write, tmp_path: Path) -> None:
         (body() + wheel("one", 0, 0.2), ACME, "left: one_joint; right: none"),
         (
             body() + FOUR,
-            Wishes(left_wheels=("nobody",), right_wheels=("right_rear_joint",)),
+            MigrationOptions(left_wheels=("nobody",), right_wheels=("right_rear_joint",)),
             "'nobody' is not a joint that turns a wheel; joints that turn: left_front_joint",
         ),
         (
             body() + FOUR,
-            Wishes(left_wheels=("right_rear_joint",), right_wheels=("left_rear_joint",)),
+            MigrationOptions(left_wheels=("right_rear_joint",), right_wheels=("left_rear_joint",)),
             "are the sides swapped",
         ),
-        (body() + FOUR, Wishes(left_wheels=("left_rear_joint",)), "no wheel on the right"),
+        (
+            body() + FOUR,
+            MigrationOptions(left_wheels=("left_rear_joint",)),
+            "no wheel on the right",
+        ),
     ],
     ids=["spare wheel", "one wheel", "no such joint", "swapped", "one side"],
 )
 def test_what_is_unclear_is_said(
-    write: Write, tmp_path: Path, robot: str, wishes: Wishes, said: str
+    write: Write, tmp_path: Path, robot: str, wishes: MigrationOptions, said: str
 ) -> None:
     with pytest.raises(NotMigrated, match=re.escape(said)):
         migrate(write(robot), tmp_path / "made", wishes)

@@ -8,7 +8,7 @@ import pytest
 
 from checker.finding import Severity
 from checker.migrate.migration import Migrated, migrate
-from checker.migrate.options import Wishes
+from checker.migrate.options import MigrationOptions
 from checker.pipeline import check_package
 from checker.report.report import PackageReport, VerdictKind
 from checker.settings import Settings
@@ -26,7 +26,7 @@ WITHOUT_OPENGL = {"PKG013": "thumbnails", "PKG003": "their folder"}
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Migrated:
-    wishes = Wishes(organization="Acme", config=2)
+    wishes = MigrationOptions(organization="Acme", config=2)
     return migrate(SAMPLES / "husky_description", tmp_path_factory.mktemp("made"), wishes)
 
 
@@ -148,7 +148,7 @@ def test_every_plugin_that_the_guide_names_is_decided_about(made: Migrated) -> N
 
 @pytest.mark.parametrize("sample", ["my_gurdy_description", "ouster_description"])
 def test_robots_without_wheels_come_out_too(sample: str, tmp_path: Path) -> None:
-    made = migrate(SAMPLES / sample, tmp_path / "made", Wishes(organization="acme"))
+    made = migrate(SAMPLES / sample, tmp_path / "made", MigrationOptions(organization="acme"))
     (report,) = check_package(made.folder, Settings(trial=False)).packages
     assert not [each.message for each in report.findings if each.severity is Severity.ERROR]
     assert any("joints" in each for each in made.open_points)

@@ -17,7 +17,7 @@ from checker.cli import arguments
 from checker.engine.report_cache import from_stored
 from checker.report.formats import FORMATS
 from checker.report.palette import Palette
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.report.report import Report
 from checker.report.text_report import SHOWN_LIMIT
 from tests.conftest import SAMPLES
@@ -25,7 +25,7 @@ from tests.report.any_report import REPORTS, many
 from tests.test_samples import SCHEMA
 
 GOOD, BROKEN = "my_gurdy_description", "broken_gurdy_description"
-MANNER = Manner(Palette(enabled=False), str(SAMPLES))
+MANNER = RenderSettings(Palette(enabled=False), str(SAMPLES))
 
 
 def test_the_command_offers_every_format() -> None:

@@ -16,13 +16,13 @@ from checker.report import json_report
 from checker.report.formats import FORMATS
 from checker.report.json_report import NoReport, report_from_json, to_json
 from checker.report.palette import Palette
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.report.report import PackageReport, Report, ReportedFinding
 from tests.conftest import SAMPLES
 from tests.report.any_report import REPORTS, many
 from tests.test_samples import NAMES
 
-MANNER = Manner(Palette(enabled=False), "/home/ann")
+MANNER = RenderSettings(Palette(enabled=False), "/home/ann")
 IN_WORDS = ("text", "github", "markdown")
 HOSTILE = "\x1b]0;owned\x07"
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from checker.base.cache import Cache
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.engine.subject import Subject
 from checker.expand.xacro.fault import XacroFaultKind
 from checker.model.urdf.files import UrdfFiles
@@ -20,7 +20,7 @@ BASE = '<link name="base"/>'
 
 def files_of(subject: Subject) -> UrdfFiles:
     files = subject.urdf_files
-    assert not isinstance(files, NotAtHand)
+    assert not isinstance(files, NotAvailable)
     return files
 
 
@@ -113,7 +113,7 @@ def test_macros_alone_are_no_robot_and_no_fault(describe: Describe) -> None:
     assert files_of(subject) == files_of(subject)
     assert not files_of(subject).faults
     robots = subject.robots
-    assert isinstance(robots, NotAtHand)
+    assert isinstance(robots, NotAvailable)
     assert not robots.applicable
 
 

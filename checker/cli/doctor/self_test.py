@@ -12,7 +12,7 @@ from checker.cli.doctor.result import INSTALL_AGAIN, Result, State
 from checker.pipeline import check_package
 from checker.report.formats import FORMATS
 from checker.report.palette import Palette
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.report.report import PackageReport, VerdictKind
 from checker.settings import Settings
 
@@ -27,7 +27,7 @@ def self_test() -> Result:
     try:
         report = check_package(sample(), Settings(cache=False))
         (package,) = report.packages
-        FORMATS["html"](report, Manner(Palette(enabled=False), str(sample())))
+        FORMATS["html"](report, RenderSettings(Palette(enabled=False), str(sample())))
     except ImportError as error:
         return Result(State.PROBLEM, f"the self-test fails: {plain(str(error))}", INSTALL_AGAIN)
     except Exception as error:  # noqa: BLE001 - whatever it is, it is what was looked for

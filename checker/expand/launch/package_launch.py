@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from itertools import chain
 from types import MappingProxyType
 
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.base.record import Record
 from checker.expand.launch.expansion import expand_launch
 from checker.expand.launch.graph import LaunchFaultKind, LaunchGraph, UnresolvedInclude
@@ -33,10 +33,12 @@ SAMPLE_ARGUMENTS: Mapping[str, str] = MappingProxyType(
 """What a launcher gives to every launch file."""
 
 
-def launch_graph(package: Package, started: StartedXml | NotAtHand) -> LaunchGraph | NotAtHand:
+def launch_graph(
+    package: Package, started: StartedXml | NotAvailable
+) -> LaunchGraph | NotAvailable:
     """Expand every launch file that a package's spawner starts, and those that it forgets."""
     if package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):
-        return NotAtHand("the package needs no launch files", applicable=False)
+        return NotAvailable("the package needs no launch files", applicable=False)
     files = LaunchFiles(package)
     graphs = []
     commands: list[tuple[LaunchCommand, Span]] = []
@@ -47,8 +49,10 @@ def launch_graph(package: Package, started: StartedXml | NotAtHand) -> LaunchGra
     named = {command.file for command, _ in commands}
     usual = [path for path in USUAL_FILES if posixpath.basename(path) not in named]
     graphs += _expanded(package, usual, files)
-    if isinstance(started, NotAtHand):
-        return joined(graphs, started.reason) if graphs else NotAtHand("no launch file can be read")
+    if isinstance(started, NotAvailable):
+        return (
+            joined(graphs, started.reason) if graphs else NotAvailable("no launch file can be read")
+        )
     return joined(graphs)
 
 

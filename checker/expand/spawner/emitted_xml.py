@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TypeVar
 
 from checker.base.disk_file import NotReadable
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.base.record import Record
 from checker.expand.spawner.emitted import EmittedText
 from checker.expand.spawner.signals import Unread
@@ -107,14 +107,14 @@ Emitted = TypeVar("Emitted", bound=EmittedXml)
 
 def emitted_xml(
     kind: type[Emitted], function: str, emitted: EmittedText | Unread
-) -> Emitted | NotAtHand:
+) -> Emitted | NotAvailable:
     """Parse what a function of the spawner emits; what cannot be read is not at hand."""
     if isinstance(emitted, Unread):
         place = emitted.span.place()
-        return NotAtHand(
+        return NotAvailable(
             f"{function} cannot be read at {place.file}:{place.line}: {emitted.reason}"
         )
     document = parse_fragments(emitted)
     if isinstance(document, XmlFault):
-        return NotAtHand(f"the XML that {function} emits is not well-formed: {document.message}")
+        return NotAvailable(f"the XML that {function} emits is not well-formed: {document.message}")
     return kind(emitted, document)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from checker.base.errors import NotAtHand
+from checker.base.errors import NotAvailable
 from checker.expand.launch.graph import LaunchGraph, Node, resolve_name
 from checker.expand.launch.package_launch import LaunchEntries, LaunchEntry, LaunchFiles
 from checker.expand.launch.substitution import is_known
@@ -44,9 +44,9 @@ _LONGEST = 5_000
 def control_system(
     package: Package,
     entries: LaunchEntries,
-    robots: Sequence[Robot] | NotAtHand,
-    descriptions: Sequence[UrdfDescription] | NotAtHand,
-) -> ControlSystem | NotAtHand:
+    robots: Sequence[Robot] | NotAvailable,
+    descriptions: Sequence[UrdfDescription] | NotAvailable,
+) -> ControlSystem | NotAvailable:
     """Put together what controls a URDF package's joints.
 
     Args:
@@ -61,8 +61,8 @@ def control_system(
         parameters.load(entry.graph)
         launches.append(_launch(package, entry, unread))
     parameters.look_around()
-    known = () if isinstance(robots, NotAtHand) else tuple(robots)
-    described = () if isinstance(descriptions, NotAtHand) else tuple(descriptions)
+    known = () if isinstance(robots, NotAvailable) else tuple(robots)
+    described = () if isinstance(descriptions, NotAvailable) else tuple(descriptions)
     plugins = [plugin for robot in known for plugin in robot.plugins]
     system = ControlSystem(
         robots=tuple(robot.name for robot in known),
@@ -87,12 +87,14 @@ def control_system(
     )
     controls = (system.transmissions, system.plugins, system.controllers, system.spawned)
     if not any((*controls, system.models)) and not system.unread_robot:
-        return NotAtHand("nothing in the package controls a robot or spawns one", applicable=False)
+        return NotAvailable(
+            "nothing in the package controls a robot or spawns one", applicable=False
+        )
     return system
 
 
 def _reason(part: object) -> str:
-    return part.reason if isinstance(part, NotAtHand) else ""
+    return part.reason if isinstance(part, NotAvailable) else ""
 
 
 def _called(plugins: Iterable[Plugin], stem: str) -> list[Plugin]:

@@ -10,7 +10,7 @@ from functools import cached_property
 from checker.base.background import Background, Work, work_key
 from checker.base.cache import Cache
 from checker.base.child_process import Limits
-from checker.base.errors import NotAtHand, WorkerFailed
+from checker.base.errors import NotAvailable, WorkerFailed
 from checker.base.progress import Stages
 from checker.base.record import Record
 from checker.model.robot import Robot
@@ -81,32 +81,32 @@ class RobotTrials(Record, eq=False, dict=True):
                 pending.stop()
 
     @cached_property
-    def once(self) -> tuple[RobotTrial, ...] | NotAtHand:
+    def once(self) -> tuple[RobotTrial, ...] | NotAvailable:
         """The robots and what their trials measured."""
         trials = self._collected(thorough=False)
-        if isinstance(trials, NotAtHand):
+        if isinstance(trials, NotAvailable):
             return trials
         return tuple(map(RobotTrial, self.robots, trials))
 
     @cached_property
-    def twice(self) -> tuple[RepeatedTrial, ...] | NotAtHand:
+    def twice(self) -> tuple[RepeatedTrial, ...] | NotAvailable:
         """The same with what was measured at half the time step."""
         trials, again = self._collected(thorough=False), self._collected(thorough=True)
-        if isinstance(trials, NotAtHand):
+        if isinstance(trials, NotAvailable):
             return trials
-        if isinstance(again, NotAtHand):
+        if isinstance(again, NotAvailable):
             return again
         return tuple(map(RepeatedTrial, self.robots, trials, again))
 
     @cached_property
-    def obstacle(self) -> NotAtHand | None:
+    def obstacle(self) -> NotAvailable | None:
         """Why these robots cannot be driven at all."""
         if len(self.robots) > ROBOTS_LIMIT:
             reason = (
                 f"the file contains {len(self.robots)} robots, but at most {ROBOTS_LIMIT} are "
                 "driven"
             )
-            return NotAtHand(reason)
+            return NotAvailable(reason)
         reasons = (_obstacle(robot) for robot in self.robots)
         return next((reason for reason in reasons if reason is not None), None)
 
@@ -123,7 +123,7 @@ class RobotTrials(Record, eq=False, dict=True):
         with self.stages.stage("trial", f"driving the robot on its course in MuJoCo{twice}"):
             return start_trial(robot, self.cache, thorough=thorough)
 
-    def _collected(self, *, thorough: bool) -> Sequence[Trial] | NotAtHand:
+    def _collected(self, *, thorough: bool) -> Sequence[Trial] | NotAvailable:
         if self.obstacle is not None:
             return self.obstacle
         trials: list[Trial] = []
@@ -133,19 +133,21 @@ class RobotTrials(Record, eq=False, dict=True):
             else:
                 begun = self._started(robot, thorough=thorough)
             if isinstance(begun, str):
-                return NotAtHand(begun)
+                return NotAvailable(begun)
             with self.stages.stage("trial"):
                 trial = begun.result()
             if isinstance(trial, WorkerFailed):
-                return NotAtHand(f"the trial {trial.reason}")
+                return NotAvailable(f"the trial {trial.reason}")
             trials.append(trial)
         return trials
 
 
-def _obstacle(robot: Robot) -> NotAtHand | None:
+def _obstacle(robot: Robot) -> NotAvailable | None:
     """Say why a model is nothing to drive at all."""
     if not robot.links:
-        return NotAtHand("the model has no links, so there is nothing to drive", applicable=False)
+        return NotAvailable(
+            "the model has no links, so there is nothing to drive", applicable=False
+        )
     if robot.is_static:
-        return NotAtHand("the model is static, so there is nothing to drive", applicable=False)
+        return NotAvailable("the model is static, so there is nothing to drive", applicable=False)
     return None

@@ -18,7 +18,7 @@ from checker.report.figures import facts_in_words, rows_of
 from checker.report.html.findings import groups_of
 from checker.report.html.plots import plots_of, spans_of
 from checker.report.json_report import to_json
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed, VerdictKind
 from checker.report.sarif import to_sarif
 from checker.report.summary import has_suppressed
@@ -103,7 +103,7 @@ DOWNLOADS_LIMIT = 1_500_000
 """Bytes of other reports that a page carries along; `--report` writes them beside it."""
 
 
-def to_html(package: PackageReport, report: Report, manner: Manner) -> str:
+def to_html(package: PackageReport, report: Report, manner: RenderSettings) -> str:
     """Return the page of one package.
 
     Args:

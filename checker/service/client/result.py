@@ -17,7 +17,7 @@ from checker.report.files import INDEX, PAGE, STALE
 from checker.report.formats import FORMATS
 from checker.report.json_report import NoReport, report_from_json
 from checker.report.palette import palette_for
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.report.report import Report, ReportedFinding
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.pages import Page, parse_page
@@ -50,7 +50,7 @@ def tell(check: Check, standing: Standing, options: argparse.Namespace, folder: 
         content = _file(check, *_AS_THERE[options.format]).decode("utf-8", "replace")
     else:
         palette = palette_for(options.color, None if options.output else sys.stdout)
-        content = FORMATS[options.format](_with_pages(report), Manner(palette, str(folder)))
+        content = FORMATS[options.format](_with_pages(report), RenderSettings(palette, str(folder)))
     if options.output:
         write(Path(options.output), content.encode("utf-8", "replace"))
     else:

@@ -163,11 +163,11 @@ def _files(report: Report, stage: Stage, asked: Mapping[str, Any]) -> Iterator[t
     from checker.report.files import artefacts
     from checker.report.formats import FORMATS
     from checker.report.palette import Palette
-    from checker.report.render_settings import Manner
+    from checker.report.render_settings import RenderSettings
 
     profile = ("--profile", asked["profile"]) if asked["profile"] else ()
     command = shlex.join(("subt-check", asked["name"], *profile))
-    manner = Manner(Palette(enabled=False), "/", command)
+    manner = RenderSettings(Palette(enabled=False), "/", command)
     early = [("report.json", FORMATS["json"](report, manner))]
     for name, content in early if stage is Stage.STATIC else artefacts(report, manner):
         yield name, content.encode("utf-8") if isinstance(content, str) else content

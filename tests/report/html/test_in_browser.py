@@ -12,7 +12,7 @@ import pytest
 from checker.pipeline import check_package
 from checker.report.html.page import to_html
 from checker.report.palette import Palette
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.settings import Settings
 from tests.browser import watched_page, without_webgl
 from tests.conftest import SAMPLES
@@ -36,7 +36,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], str]:
         file: Path = folder / f"{name}.html"
         if not file.exists():
             found = check_package(SAMPLES / name, Settings(display=True))
-            manner = Manner(Palette(enabled=False), str(SAMPLES))
+            manner = RenderSettings(Palette(enabled=False), str(SAMPLES))
             file.write_text(to_html(found.packages[0], found, manner), "utf-8")
         return file.as_uri()
 

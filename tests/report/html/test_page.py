@@ -14,7 +14,7 @@ from checker.base.words import plain
 from checker.finding import Edit, Fix, Place, Safety, Severity
 from checker.report.html.page import to_html, to_index, with_code
 from checker.report.palette import Palette
-from checker.report.render_settings import Manner
+from checker.report.render_settings import RenderSettings
 from checker.report.report import (
     Cause,
     InheritedPart,
@@ -62,7 +62,7 @@ def package(text: str, findings: int = 1) -> PackageReport:
 
 
 def rendered(package: PackageReport, command: str = "") -> str:
-    manner = Manner(Palette(enabled=False), "/work", command)
+    manner = RenderSettings(Palette(enabled=False), "/work", command)
     return to_html(package, Report((package,), VERSIONS), manner)
 
 
@@ -178,5 +178,5 @@ def test_what_was_not_opened_is_named() -> None:
     report = Report(
         (package("rover"),), VERSIONS, (NotOpened("nothere", "is missing", failed=True),)
     )
-    said = to_html(report.packages[0], report, Manner(Palette(enabled=False), "/work"))
+    said = to_html(report.packages[0], report, RenderSettings(Palette(enabled=False), "/work"))
     assert "nothere" in said
