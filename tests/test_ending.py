@@ -9,7 +9,7 @@ import pytest
 
 BEGIN = """
 import signal, threading
-from checker.ending import on_requests_to_end
+from checker.base.signals import on_requests_to_end
 first, second = threading.Event(), threading.Event()
 on_requests_to_end([signal.SIGTERM, signal.SIGINT], first.set, second.set)
 """

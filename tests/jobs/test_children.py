@@ -30,8 +30,8 @@ pytestmark = pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="the sys
 WAITS = """
 import sys, time
 from pathlib import Path
-from checker.jobs.children import Children
-from checker.store.store import Store
+from checker.service.jobs.children import Children
+from checker.service.store.store import Store
 children = Children(Store(Path(sys.argv[1])))
 children.get_ready()
 time.sleep(600)

@@ -19,8 +19,8 @@ from tests.web.server import eventually
 WORKER = """
 import sys
 from pathlib import Path
-from checker.jobs.durable.worker import WorkerOptions, work
-from checker.store.store import Store
+from checker.service.jobs.durable.worker import WorkerOptions, work
+from checker.service.store.store import Store
 work(WorkerOptions(sys.argv[1], Store(Path(sys.argv[2])), "slot-1"))
 """
 MODEL = "broken_ouster_description"

@@ -15,7 +15,7 @@ from checker.service.store.store import Store
 UPLOADS = """
 import os, sys
 from pathlib import Path
-from checker.store.store import Store
+from checker.service.store.store import Store
 store = Store(Path(sys.argv[1]))
 print(flush=True)
 while True:
@@ -27,7 +27,7 @@ while True:
 RESULTS = """
 import secrets, sys
 from pathlib import Path
-from checker.store.store import Store
+from checker.service.store.store import Store
 store = Store(Path(sys.argv[1]))
 print(flush=True)
 while True:
@@ -40,7 +40,7 @@ while True:
 HALF = """
 import sys
 from pathlib import Path
-from checker.store.store import Store
+from checker.service.store.store import Store
 with Store(Path(sys.argv[1])).incoming() as incoming:
     incoming.write(b"half")
     print(flush=True)

@@ -36,7 +36,7 @@ def shown(trial: Trial, **settings: Any) -> dict[str, Any]:
     parts = Parts(trial)
     outcome = run_rules(OF_TRIAL, parts, profile("subt"), Settings(**settings))
     said = json.loads(json.dumps(measured(parts.driven, outcome)))
-    jsonschema.validate(said, {**SCHEMA["$defs"]["trial"], "$defs": SCHEMA["$defs"]})
+    jsonschema.validate(said, {**SCHEMA["$defs"]["TrialJson"], "$defs": SCHEMA["$defs"]})
     return dict(said)
 
 

@@ -165,7 +165,7 @@ def test_the_histogram_adds_up(seconds: list[float]) -> None:
 
 COUNTING = """
 import sys
-from checker.web.metrics import Metrics
+from checker.service.web.metrics import Metrics
 metrics = Metrics()
 metrics.count("GET", "/", 200, 0.01)
 metrics.uploads.inc()

@@ -250,6 +250,7 @@ def trickle(port: int, stop: Event) -> None:
             sleep(0.004)
 
 
+@pytest.mark.service
 def test_slow_senders_keep_nobody_waiting(store: Store) -> None:
     stop = Event()
     with served(create_app(BoardJobs(), store, Config())) as port, ExitStack() as stack:
