@@ -164,7 +164,7 @@ def test_a_link_to_a_result_is_refused(store: Store, tmp_path: Path) -> None:
 def test_what_no_result_holds_is_refused(store: Store) -> None:
     with pytest.raises(ValueError, match=r"'evil\.svg' is not a file of a result"):
         made(store, {"evil.svg": "<svg/>"})
-    with pytest.raises(ValueError, match="is no key"):
+    with pytest.raises(ValueError, match="is not the key"):
         made(store, {"report.json": "{}"}, key="../../secret")
     assert not store.has(KEY)
 
