@@ -60,8 +60,8 @@ def test_a_sample_is_checked_though_its_worker_is_killed(
     first = worker(site)
     id = site.jobs.submit(order)
     site.until(id, lambda state: state.stage is Stage.STATIC)
+    assert eventually(lambda: bool(tasks(first.pid)))
     children = tasks(first.pid)
-    assert children
     first.kill()
     first.wait()
     assert eventually(lambda: not any(map(is_alive, children)))

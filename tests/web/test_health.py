@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 import logging
-import os
-import subprocess
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -22,7 +19,7 @@ from checker.service.store.store import Store
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from checker.service.web.logs import FIELDS, JsonLines, short
-from checker.service.web.metrics import BOUNDS, FOLDER, Metrics
+from checker.service.web.metrics import BOUNDS, Metrics
 from tests.web.board import DONE, ID, BoardJobs
 
 
@@ -161,36 +158,6 @@ def test_the_histogram_adds_up(seconds: list[float]) -> None:
         le = "+Inf" if bound == float("inf") else str(bound)
         expected = sum(each <= bound for each in seconds)
         assert read["subt_check_request_seconds_bucket", le, "/"] == expected
-
-
-COUNTING = """
-import sys
-from checker.service.web.metrics import Metrics
-metrics = Metrics()
-metrics.count("GET", "/", 200, 0.01)
-metrics.uploads.inc()
-metrics.refused.labels("size").inc(2)
-sys.stdout.buffer.write(metrics.text(None))
-"""
-
-
-def test_each_of_several_processes_answers_for_all(tmp_path: Path) -> None:
-    environment = {**os.environ, FOLDER: str(tmp_path)}
-    for number in (1, 2, 3):
-        command = [sys.executable, "-c", COUNTING]
-        done = subprocess.run(command, capture_output=True, check=True, env=environment)
-        assert figures(done.stdout.decode()) == {
-            ("subt_check_requests_total", "GET", "/", "200"): number,
-            **{
-                ("subt_check_request_seconds_bucket", le, "/"): number * (le != "0.005")
-                for le in ("+Inf", *map(str, BOUNDS))
-            },
-            ("subt_check_request_seconds_count", "/"): number,
-            ("subt_check_request_seconds_sum", "/"): pytest.approx(number / 100),
-            ("subt_check_uploads_total",): number,
-            ("subt_check_refused_total", "size"): 2 * number,
-            ("subt_check_engine_up",): 0,
-        }
 
 
 @pytest.mark.parametrize(

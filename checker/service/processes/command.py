@@ -42,11 +42,11 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
     store = _data_made(options)
     _refuse_without_database()
     environment = _environment(options)
-    with listening(options.host, options.port) as bound, store.workplace() as counts:
+    with listening(options.host, options.port) as bound:
         for warning in filter(None, _warnings(bound, environment, store)):
             _say(warning)
         stop, at_once = _signals()
-        processes = _processes(options, bound, environment, counts)
+        processes = _processes(options, bound, environment)
         for each in processes:
             each.start()
         try:
@@ -152,7 +152,6 @@ def _processes(
     options: argparse.Namespace,
     bound: socket.socket,
     environment: Mapping[str, str],
-    counts: Path,
 ) -> Sequence[Process]:
     number = options.workers
     if number is None:
@@ -164,9 +163,7 @@ def _processes(
         Process(f"worker {n}", (*child, "worker", f"worker-{group}-{n}"), environment)
         for n in range(1, number + 1)
     ]
-    # Where web processes add up what they count; see `checker.service.web.metrics`.
-    counting = {**environment, "PROMETHEUS_MULTIPROC_DIR": str(counts)}
-    return [Process("the web server", web, counting, (descriptor,)), *workers]
+    return [Process("the web server", web, environment, (descriptor,)), *workers]
 
 
 def _signals() -> tuple[threading.Event, threading.Event]:

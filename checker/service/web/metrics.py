@@ -1,31 +1,19 @@
-"""What is counted of requests, for Prometheus.
-
-Where several web processes share a port, each answers for all: `PROMETHEUS_MULTIPROC_DIR` names the
-folder in which the library keeps what each of them has counted.
-"""
+"""What the web process counts of requests, for Prometheus, from zero when it starts."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import Any
 
 from prometheus_client import CollectorRegistry, Counter, Histogram, generate_latest
 from prometheus_client.core import GaugeMetricFamily
-from prometheus_client.multiprocess import MultiProcessCollector
 
-from checker.base.errors import CheckerError
 from checker.base.record import Record
 from checker.service.jobs.port import Alive
 
-FOLDER = "PROMETHEUS_MULTIPROC_DIR"
-"""The variable that has to be set before this module is loaded, as the library looks then."""
 BOUNDS = (0.005, 0.02, 0.1, 0.5, 2.0, 10.0)
 """Upper bounds of the histogram of durations, in seconds."""
 _OURS = "subt_check"
-_ROOM = 1 << 18
-"""Bytes for the counts of one process; less than two hundred are needed for each."""
 
 
 class Metrics:
@@ -37,8 +25,6 @@ class Metrics:
     """
 
     def __init__(self) -> None:
-        if FOLDER in os.environ:
-            _make_room(Path(os.environ[FOLDER]))
         self._registry = CollectorRegistry()
         own: dict[str, Any] = {"namespace": _OURS, "registry": self._registry}
         self._requests = Counter(
@@ -77,26 +63,7 @@ class Metrics:
         Args:
             alive: What is known of the engine; None if it does not answer.
         """
-        counted: Any = self._registry
-        if FOLDER in os.environ:
-            counted = MultiProcessCollector(None)  # type: ignore[no-untyped-call]
-        return generate_latest(counted) + generate_latest(_Engine(alive))
-
-
-def _make_room(folder: Path) -> None:
-    """Have the disk hold what this process will count.
-
-    The library maps these files into memory: a full disk would end the process by a signal.
-
-    Raises:
-        CheckerError: It has no room.
-    """
-    try:
-        for kind in ("counter", "histogram"):
-            with (folder / f"{kind}_{os.getpid()}.db").open("ab") as file:
-                os.posix_fallocate(file.fileno(), 0, _ROOM)
-    except OSError as error:
-        raise CheckerError(f"{folder} cannot hold the metrics ({error.strerror})") from None
+        return generate_latest(self._registry) + generate_latest(_Engine(alive))
 
 
 class _Engine(Record):
