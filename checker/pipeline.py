@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import InvalidSettings, UnreadableInput
 from checker.base.garbage_collection import collection_put_off
-from checker.base.progress import Say, say_nothing
+from checker.base.output import Say, say_nothing
 from checker.base.record import Record
 from checker.base.resources import versions
 from checker.base.words import shortened

@@ -15,8 +15,8 @@ from typing import Any
 from msgspec import field
 from msgspec.structs import replace
 
-from checker.base.disk_file import NotReadable
 from checker.base.errors import InvalidSettings
+from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match

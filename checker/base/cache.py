@@ -17,7 +17,7 @@ from functools import cache as once
 from pathlib import Path
 from typing import Any
 
-from checker.base.private_files import make_folder
+from checker.base.files import make_folder
 from checker.base.record import Record
 
 SIZE_LIMIT = 300_000_000

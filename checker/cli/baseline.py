@@ -17,7 +17,7 @@ from checker.rulebook.suppression.baseline import (
     read_baseline,
 )
 from checker.rulebook.suppression.baseline_match import matched
-from checker.rulebook.suppression.spots import spots_of
+from checker.rulebook.suppression.finding_places import spots_of
 
 
 def baseline_to_renew(file: Path) -> Baseline:

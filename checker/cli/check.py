@@ -15,11 +15,11 @@ from checker.base.output import (
     EXIT_FINDINGS,
     empty_of,
     here,
+    say_nothing,
     say_progress,
     show,
     write,
 )
-from checker.base.progress import say_nothing
 from checker.base.words import plain, shortened
 from checker.cli.arguments import FORMAT_NAMES, PROFILES, add_exit_codes, ids, positive
 from checker.cli.baseline import baseline_to_renew, write_baseline
@@ -28,8 +28,7 @@ from checker.finding import Safety, Severity
 from checker.pipeline import check_paths, settings_of
 from checker.report.files import STALE, artefacts
 from checker.report.formats import FORMATS
-from checker.report.palette import palette_for
-from checker.report.render_settings import RenderSettings
+from checker.report.render_settings import RenderSettings, palette_for
 from checker.report.report import Report
 from checker.report.summary import statistics_text
 from checker.rulebook.discovery import all_rules
@@ -123,7 +122,7 @@ def run(options: argparse.Namespace) -> int:
     }
     paths = [Path(path) for path in options.paths]
     if options.files:
-        from checker.package.changed_files import changed_packages
+        from checker.package.kind import changed_packages
 
         paths = changed_packages(paths, folder)
         if not paths:

@@ -14,8 +14,8 @@ from pathlib import Path
 from textwrap import indent
 from typing import Any
 
-from checker.base.disk_file import NotReadable, read_bytes
 from checker.base.errors import CheckerError, UnreadableInput
+from checker.base.files import NotReadable, read_bytes
 from checker.base.output import EXIT_CLEAN, show
 from checker.base.record import Record
 from checker.base.resources import templates

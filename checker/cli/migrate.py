@@ -8,15 +8,14 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from checker.base.output import say_progress, show
-from checker.base.progress import Say, say_nothing
+from checker.base.output import Say, say_nothing, say_progress, show
 from checker.base.words import plain, shortened
 from checker.cli.arguments import above_zero, add_exit_codes, argument, ids
 from checker.cli.exit_code import exit_code
 from checker.migrate.migration import Migrated, migrate
 from checker.migrate.options import MigrationOptions
 from checker.pipeline import check_paths
-from checker.report.palette import Palette
+from checker.report.render_settings import Palette
 from checker.report.report import PackageReport, Report
 from checker.report.text_report import to_text
 

@@ -13,8 +13,8 @@ from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
 from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.lumping import Lumping
-from checker.physics.mass.hanging import hang
+from checker.model.urdf.fixed_joints import Lumping
+from checker.physics.mass.mechanism import hang
 
 
 class PartOfBody(Record, eq=False):

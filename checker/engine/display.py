@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from checker.base.cache import Cache
-from checker.base.progress import Stages
+from checker.base.output import Stages
 from checker.base.record import Record
 from checker.model.robot import Robot
 from checker.physics.mesh.package_meshes import PackageMeshes
@@ -18,11 +18,10 @@ from checker.physics.trial.trial import Trial
 from checker.report.report import Display
 from checker.report.scene.builder import scene_of
 from checker.report.scene.glb import glb_of
-from checker.report.scene.mesh_files import MeshFiles
+from checker.report.scene.mesh_files import MeshFiles, NoSurfaces, Surfaces
 from checker.report.scene.pictures import Drawing
 from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.report.scene.scene import DisplayScene, Layer
-from checker.report.scene.surfaces import NoSurfaces, Surfaces
 
 if TYPE_CHECKING:
     from checker.physics.trial.trial import Trial

@@ -28,8 +28,8 @@ from checker.report.report import NO_TRIAL, Cause, NotChecked, ReportedFinding, 
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
 from checker.rulebook.profiles import Profile
+from checker.rulebook.suppression.finding_places import Spot, spot
 from checker.rulebook.suppression.silencer import Silencer, parted
-from checker.rulebook.suppression.spots import Spot, spot
 from checker.settings import Settings
 
 TEXT_LIMIT = 1000

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.base.sandbox.files import Content, Files
 
 WIDTH, HEIGHT = 640, 480

@@ -20,7 +20,7 @@ from checker.engine.review import findings_of
 from checker.engine.subject import Subject
 from checker.finding import Safety
 from checker.fix.rounds import fix_package
-from checker.migrate.assets import Assets
+from checker.migrate.assets import Assets, thumbnails_of
 from checker.migrate.bridges import sensor_bridges
 from checker.migrate.drive import Drive, drive_of, turn_forward
 from checker.migrate.measured_facts import facts_of
@@ -38,7 +38,6 @@ from checker.migrate.plugins import Judged, judge_plugins
 from checker.migrate.sensors import rewrite_sensors
 from checker.migrate.servos import Servo, servos_of
 from checker.migrate.source import Source, opened_source, original_text, papers_of
-from checker.migrate.thumbnails import thumbnails_of
 from checker.migrate.wheels import find_drive_wheels
 from checker.migrate.xml_parts import sharpen_angles
 from checker.model.robot import Robot

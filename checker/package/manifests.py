@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.package.package import Package
 from checker.source.cmake import CMakeFile, read_cmake

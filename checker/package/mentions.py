@@ -12,7 +12,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 
 if TYPE_CHECKING:
     from checker.package.package import Package

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from msgspec import field
 
-from checker.base.disk_file import NotReadable, read_bytes
+from checker.base.files import NotReadable, read_bytes
 from checker.base.record import Record
 from checker.finding import Place
 from checker.package.index import (

@@ -10,7 +10,7 @@ from pathlib import Path
 from lxml import etree
 from msgspec import field
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.package.kind import looks_like_package
 from checker.package.package import Package

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from checker.base.words import count, plain, shortened
 from checker.finding import Place, Severity
-from checker.report.palette import Palette
+from checker.report.render_settings import Palette
 from checker.report.report import PackageReport, ReportedFinding
 
 MORE_PLACES = 3

@@ -27,13 +27,13 @@ def _sarif(report: Report, manner: RenderSettings) -> str:
 
 
 def _github(report: Report, _: RenderSettings) -> str:
-    from checker.report.github import to_github
+    from checker.report.ci_formats import to_github
 
     return to_github(report)
 
 
 def _junit(report: Report, _: RenderSettings) -> str:
-    from checker.report.junit import to_junit
+    from checker.report.ci_formats import to_junit
 
     return to_junit(report)
 

@@ -19,8 +19,7 @@ from checker.report.report import (
     ReportedFinding,
     Suppressed,
 )
-from checker.report.summary import ready_of_all, summary_markdown
-from checker.report.verdict import sentence
+from checker.report.summary import ready_of_all, sentence, summary_markdown
 
 SIZE_LIMIT = 65_000
 """Bytes; GitHub takes comments of up to 65 536 characters."""

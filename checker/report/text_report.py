@@ -11,7 +11,7 @@ from checker.finding import Severity
 from checker.report.figures import facts_in_words, rows_of
 from checker.report.finding_text import MESSAGE_LIMIT, finding_text
 from checker.report.ownership import Identity, owners, share_of
-from checker.report.palette import Palette
+from checker.report.render_settings import Palette
 from checker.report.report import (
     IN_BASELINE,
     USUAL_PROFILE,
@@ -24,8 +24,7 @@ from checker.report.report import (
     Suppressed,
     SuppressedBy,
 )
-from checker.report.summary import summary_text
-from checker.report.verdict import sentence
+from checker.report.summary import sentence, summary_text
 
 # The trial for a person at a terminal: one line for each figure that matters.
 

@@ -6,7 +6,7 @@ import codecs
 import re
 from pathlib import Path
 
-from checker.base.disk_file import NotReadable, read_bytes
+from checker.base.files import NotReadable, read_bytes
 from checker.source.text import SourceText
 
 # Bytes to text: byte order marks, XML declarations, and what is no text at all.

@@ -10,12 +10,12 @@ Source: SubT reviews ask authors to remove struck-through text and the template'
 
 import re
 
-from checker.model.specification.leftovers import (
+from checker.model.specification.sheet import Specification
+from checker.model.specification.sheet_text import (
     links_without_target,
     placeholders,
     struck_through,
 )
-from checker.model.specification.sheet import Specification
 from checker.rule import Findings, Severity, finding, rule
 
 SHOWN = 60

@@ -13,9 +13,9 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import islice
 
-from checker.model.specification.line_references import LineReference
 from checker.model.specification.motion import Limit
 from checker.model.specification.sheet import Specification
+from checker.model.specification.sheet_text import LineReference
 from checker.package.package import Package
 from checker.rule import Findings, Severity, finding, rule, unchecked
 from checker.source.text import SourceText

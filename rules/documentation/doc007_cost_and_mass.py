@@ -12,7 +12,7 @@ that were accepted does not add up.
 import re
 from collections.abc import Iterator
 
-from checker.model.specification.mass_and_cost import Price, prices
+from checker.model.specification.mass_cost_endurance import Price, prices
 from checker.model.specification.sheet import Specification
 from checker.rule import Finding, Findings, Severity, finding, rule
 

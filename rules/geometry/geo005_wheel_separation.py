@@ -13,7 +13,7 @@ a skid-steer robot to 1 to 2 times the distance. Set `<wheel_base>` to the dista
 Source: parameters of Gazebo's DiffDrive, AckermannSteering, MecanumDrive and TrackedVehicle.
 """
 
-from checker.model.locomotion.wheel_distances import CountedDistance, counted_distances
+from checker.model.locomotion.wheel_positions import CountedDistance, counted_distances
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule, unchecked
 

@@ -8,7 +8,7 @@ Fix: correct the height of the wheel's link, or the radius of its collision.
 Source: geometry of collisions in the robot's initial pose.
 """
 
-from checker.model.locomotion.wheel_heights import Foot, uneven_wheels
+from checker.model.locomotion.wheel_positions import Foot, uneven_wheels
 from checker.model.robot import Robot
 from checker.rule import Findings, Severity, finding, rule
 

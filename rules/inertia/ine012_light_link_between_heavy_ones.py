@@ -11,8 +11,8 @@ Source: general experience with iterative contact solvers; the ratio is a starti
 from collections.abc import Iterator
 
 from checker.model.tree import WORLD, Tie, rigid_bodies
-from checker.physics.mass.hanging import Hanging, hang
 from checker.physics.mass.mass_properties import MassProperties
+from checker.physics.mass.mechanism import Hanging, hang
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 

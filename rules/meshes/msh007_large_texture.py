@@ -15,7 +15,7 @@ from checker.model.mesh import Mesh
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.rule import Findings, Severity, finding, rule, unchecked
-from checker.source.pictures import picture_size
+from checker.source.binary_headers import picture_size
 from checker.source.text import Located
 
 

@@ -10,10 +10,10 @@ order of the views is this rule's own.
 
 import posixpath
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.package.package import Package
 from checker.rule import Findings, Severity, finding, rule
-from checker.source.pictures import png_fault
+from checker.source.binary_headers import png_fault
 
 FOLDER = "thumbnails"
 VIEWS = {"1.png": "iso", "2.png": "top", "3.png": "side", "4.png": "front", "5.png": "rear"}

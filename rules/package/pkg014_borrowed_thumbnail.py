@@ -10,7 +10,7 @@ Source: common practice.
 
 from functools import cache
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.package.package import Package
 from checker.package.submissions import robot_of
 from checker.rule import Findings, Severity, finding, rule

@@ -12,12 +12,12 @@ import re
 import struct
 from collections.abc import Iterator
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.finding import Place
 from checker.model.plugin_library import release_major
 from checker.package.package import Package
 from checker.rule import Context, Finding, Findings, Severity, finding, rule, unchecked
-from checker.source.elf import SharedLibrary, read_shared_library
+from checker.source.binary_headers import SharedLibrary, read_shared_library
 
 _SIMULATOR = re.compile(r"lib(?P<name>ignition-gazebo|gz-sim)(?P<major>\d{1,4})\b.*")
 

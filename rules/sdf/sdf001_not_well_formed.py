@@ -10,7 +10,7 @@ Source: Extensible Markup Language 1.0, "well-formed documents".
 
 from collections.abc import Iterator
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.rule import Finding, Findings, Severity, finding, rule

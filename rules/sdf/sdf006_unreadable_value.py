@@ -13,10 +13,9 @@ Source: SDFormat specification, type, min and max of each element.
 from collections.abc import Iterator, Mapping, Sequence
 
 from checker.base.resources import table
-from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.document import QUATERNION_POSE, SdfDocument, misread, out_of_bounds
 from checker.model.sdf.poses import in_degrees
 from checker.model.sdf.schema import ElementType
-from checker.model.sdf.value_types import QUATERNION_POSE, misread, out_of_bounds
 from checker.rule import Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element

@@ -15,10 +15,8 @@ models are not yet supported."
 from collections.abc import Iterator
 
 from checker.finding import Edit, Fix
-from checker.fix.flattening.flatten import Flattening
-from checker.fix.flattening.mentions import SUFFIXES, mentions
-from checker.fix.flattening.names import FlatNames
-from checker.fix.flattening.obstacles import obstacle
+from checker.fix.flattening.flatten import Flattening, obstacle
+from checker.fix.flattening.names import SUFFIXES, FlatNames, mentions
 from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
 from checker.package.package import Package

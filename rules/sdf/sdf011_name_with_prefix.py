@@ -14,8 +14,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from checker.finding import Fix
-from checker.fix.flattening.mentions import SUFFIXES, topic_mentions
-from checker.fix.flattening.names import FlatNames
+from checker.fix.flattening.names import SUFFIXES, FlatNames, topic_mentions
 from checker.fix.flattening.renames import Renaming
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot

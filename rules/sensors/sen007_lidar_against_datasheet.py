@@ -17,8 +17,7 @@ from checker.base.record import Record
 from checker.base.words import either
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevice, SensorDevices
-from checker.model.devices.known import KnownDevices
-from checker.model.devices.lidar_shape import devices_of_shape, vertical_degrees
+from checker.model.devices.known import KnownDevices, devices_of_shape, vertical_degrees
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Lidar
 from checker.rule import Finding, Findings, HasSpan, Severity, finding, rule

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from checker.model.components import Link
 from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.lumping import Lumping
+from checker.model.urdf.fixed_joints import Lumping
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 _NO_LINK = "world"

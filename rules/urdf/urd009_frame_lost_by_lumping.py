@@ -16,7 +16,7 @@ from collections.abc import Iterator
 
 from checker.model.components import Plugin, Sensor
 from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.lumping import Lumping
+from checker.model.urdf.fixed_joints import Lumping
 from checker.rule import Finding, Findings, Severity, finding, rule
 
 OF_LINKS = ("bodyName", "linkName", "link_name", "body_name")

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from checker.model.robot import Robot
 from checker.physics.mesh.surface import Surface
 from checker.report.scene.builder import ITEMS, scene_of
+from checker.report.scene.mesh_files import NoSurfaces
 from checker.report.scene.scene import DisplayScene, Item, Layer
-from checker.report.scene.surfaces import NoSurfaces
 from checker.source.text import Located
 from tests.effort import examples
 from tests.model.robots import sdf, urdf

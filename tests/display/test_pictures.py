@@ -19,7 +19,7 @@ from checker.base.sandbox.launcher import OwnLauncher
 from checker.model.geometry.transform import Transform
 from checker.physics.mesh.surface import Surface
 from checker.report.report import Picture
-from checker.report.scene.drawing.camera import FIELD_OF_VIEW, framed
+from checker.report.scene.drawing.request import FIELD_OF_VIEW, framed
 from checker.report.scene.drawing.worker import LARGEST
 from checker.report.scene.pictures import HEIGHT, MOMENTS, WIDTH, Drawing, shots_of
 from checker.report.scene.scene import DisplayScene, Item, Layer, LinkNode, Tracks

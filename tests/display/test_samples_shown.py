@@ -20,9 +20,8 @@ from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.trial import Trial
 from checker.report.scene.builder import scene_of
 from checker.report.scene.glb import glb_of
-from checker.report.scene.mesh_files import MeshFiles
+from checker.report.scene.mesh_files import MeshFiles, NoSurfaces
 from checker.report.scene.scene import Layer
-from checker.report.scene.surfaces import NoSurfaces
 from tests.conftest import SAMPLES
 from tests.display.glb_reader import Glb, read_glb
 from tests.trial.machines import trial_in_child

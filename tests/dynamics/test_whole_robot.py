@@ -17,10 +17,9 @@ from checker.base.errors import NotAvailable
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
-from checker.physics.mass.gravity import GRAVITY
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.pinocchio_model import pin_model
-from checker.physics.mass.robot_mass import weigh
+from checker.physics.mass.robot_mass import GRAVITY, weigh
 from tests.dynamics.bodies import (
     Matrix,
     box,

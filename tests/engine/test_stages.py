@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from time import sleep
 
-from checker.base.progress import Stages
+from checker.base.output import Stages
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh
 from checker.package.inputs import open_input

@@ -26,7 +26,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ("checker/base/sandbox/seccomp.py", BYTES): "system calls that enter the sandbox",
     ("checker/base/sandbox/task.py", BYTES): "a system call that ends it with its parent",
     ("checker/base/sandbox/launcher_process.py", MODULE): "named by who starts it",
-    ("checker/base/sandbox/orphans.py", BYTES): "a system call that hands orphans over",
+    ("checker/base/sandbox/launcher_process.py", BYTES): "a system call that hands orphans over",
     ("checker/base/sandbox/task.py", MODULE): "named by the parent, before anything is read",
     ("checker/rulebook/discovery.py", MODULE): "the modules of installed packages of rules",
     ("checker/cli/doctor/library_imports.py", MODULE): "what our own distribution requires",
@@ -42,7 +42,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
     ): "warnings of MuJoCo that are named there",
     ("checker/service/web/logs.py", ATTRIBUTE): "a constant",
     ("checker/expand/xacro/processor.py", ATTRIBUTE): "functions of xacro, named there",
-    ("checker/expand/xacro/expression/mathematics.py", ATTRIBUTE): "functions of math, named there",
+    ("checker/expand/xacro/symbols.py", ATTRIBUTE): "functions of math, named there",
     ("checker/expand/xacro/expression/nodes.py", ATTRIBUTE): "keys of YAML, as xacro looks them up",
     (
         "checker/expand/xacro/expression/evaluation.py",

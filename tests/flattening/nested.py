@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from hypothesis import strategies as st
 
 from checker.finding import Fix, Safety
-from checker.fix.flattening.flatten import Flattening
+from checker.fix.flattening.flatten import Flattening, obstacle
 from checker.fix.flattening.names import FlatNames
-from checker.fix.flattening.obstacles import obstacle
 from checker.fix.rounds import EditedText, take
 from checker.model.robot import Robot
 from checker.model.sdf.reader import read_sdf

@@ -8,9 +8,8 @@ import pytest
 
 from checker.cli.fix import fix_paths
 from checker.finding import Safety
-from checker.fix.flattening.mentions import mentions
-from checker.fix.flattening.names import FlatNames
-from checker.fix.flattening.obstacles import obstacle
+from checker.fix.flattening.flatten import obstacle
+from checker.fix.flattening.names import FlatNames, mentions
 from checker.rule_testing import write_example
 from checker.source.text import SourceText
 from tests.flattening.nested import flattened, read

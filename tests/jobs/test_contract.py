@@ -13,8 +13,7 @@ import sqlalchemy as sa
 from msgspec.structs import replace
 
 from checker.service.jobs.check import result_key
-from checker.service.jobs.durable.keys import key_of_check
-from checker.service.jobs.durable.tables import CHECKS
+from checker.service.jobs.durable.tables import CHECKS, key_of_check
 from checker.service.jobs.port import Stage, State
 from tests.jobs.quick_worker import DEATH, PACKAGE, REFUSAL, WORDS
 from tests.jobs.site import Site, site_in

@@ -7,7 +7,7 @@ import hashlib
 from pathlib import Path
 
 from checker.service.jobs.durable.client import durable_jobs
-from checker.service.jobs.durable.keys import LENGTH, key_of_check
+from checker.service.jobs.durable.tables import LENGTH, key_of_check
 from checker.service.jobs.port import Order
 from checker.service.store.store import Store
 

@@ -16,8 +16,8 @@ from checker.report.report import (
     Report,
     ReportedFinding,
 )
+from checker.service.jobs.exchange import read_summary, summary
 from checker.service.jobs.outcome import Checked
-from checker.service.jobs.summary import read_summary, summary
 
 FINDING = ReportedFinding("XML001", "odd", Severity.WARNING, "is odd", "f", ())
 PACKAGE = {"name": "a", "folder": "", "verdict": "ready", "errors": 0, "warnings": 1, "infos": 0}

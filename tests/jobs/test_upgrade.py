@@ -12,7 +12,7 @@ import sqlalchemy as sa
 
 from checker.service.jobs.durable.client import durable_jobs
 from checker.service.jobs.durable.database import open_database, prepare
-from checker.service.jobs.durable.keys import key_of_check
+from checker.service.jobs.durable.tables import key_of_check
 from checker.service.jobs.durable.workflows import queues_of
 from checker.service.jobs.port import Stage
 from checker.service.store.store import Store

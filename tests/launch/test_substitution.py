@@ -8,9 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.expand.launch.expression import ExpressionFault, Unknown, evaluate
 from checker.expand.launch.graph import LaunchFaultKind as Kind
-from checker.expand.launch.substitution import is_known, substitute
+from checker.expand.launch.substitution import (
+    ExpressionFault,
+    Unknown,
+    evaluate,
+    is_known,
+    substitute,
+)
 
 ARGS = {"name": "X1", "n": "3", "f": "1.5", "on": "true", "empty": "", "env": "$(env HOME)"}
 TEXT = st.text(alphabet=string.printable, max_size=60)

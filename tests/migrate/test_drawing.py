@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from checker.base.child_process import Limits, ask
-from checker.migrate.thumbnails import thumbnails_of
+from checker.migrate.assets import thumbnails_of
 from checker.model.sdf.reader import read_sdf
 from tests.model.robots import document
 

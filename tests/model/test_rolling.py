@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from checker.model.geometry.interpenetration import interpenetrations
 from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts
-from checker.model.locomotion.wheel_heights import uneven_wheels
+from checker.model.locomotion.wheel_positions import uneven_wheels
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.source.text import Located

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.base.errors import UnreadableInput
-from checker.package.changed_files import changed_packages
+from checker.package.kind import changed_packages
 
 Write = Callable[[Mapping[str, str]], Path]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.package.inheritance import Found, Missing, Part
 from checker.package.inputs import open_input
 from checker.package.kind import PackageKind

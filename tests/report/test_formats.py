@@ -16,8 +16,7 @@ from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS
 from checker.cli import arguments
 from checker.engine.report_cache import from_stored
 from checker.report.formats import FORMATS
-from checker.report.palette import Palette
-from checker.report.render_settings import RenderSettings
+from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import Report
 from checker.report.text_report import SHOWN_LIMIT
 from tests.conftest import SAMPLES

@@ -15,8 +15,7 @@ from checker.finding import Edit, Fix
 from checker.report import json_report
 from checker.report.formats import FORMATS
 from checker.report.json_report import NoReport, report_from_json, to_json
-from checker.report.palette import Palette
-from checker.report.render_settings import RenderSettings
+from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import PackageReport, Report, ReportedFinding
 from tests.conftest import SAMPLES
 from tests.report.any_report import REPORTS, many

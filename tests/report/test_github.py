@@ -8,7 +8,7 @@ from hypothesis import given
 from msgspec.structs import replace
 
 from checker.finding import Place, Severity
-from checker.report.github import LINES_LIMIT, to_github
+from checker.report.ci_formats import LINES_LIMIT, to_github
 from checker.report.report import NotOpened, Report
 from tests.report.any_report import REPORTS, many
 

@@ -8,7 +8,7 @@ from lxml import etree
 from msgspec.structs import replace
 
 from checker.finding import Place, Severity
-from checker.report.junit import FINDINGS_LIMIT, to_junit
+from checker.report.ci_formats import FINDINGS_LIMIT, to_junit
 from checker.report.report import Cause, NotChecked, NotOpened, PackageReport, Report
 from tests.report.any_report import REPORTS, many
 

@@ -9,10 +9,9 @@ from msgspec.structs import replace
 
 from checker.finding import Place, Severity
 from checker.report.html.page import to_index
-from checker.report.palette import Palette
+from checker.report.render_settings import Palette
 from checker.report.report import PackageReport, Report, Suppressed, SuppressedBy
-from checker.report.summary import statistics_text, summary_markdown, summary_text
-from checker.report.verdict import sentence
+from checker.report.summary import sentence, statistics_text, summary_markdown, summary_text
 from tests.report.any_report import many
 
 (PACKAGE,) = many(3).packages

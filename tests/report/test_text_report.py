@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from checker.base.words import count, listed, plain, shortened
 from checker.finding import Place, Severity
-from checker.report.palette import Palette
+from checker.report.render_settings import Palette
 from checker.report.report import (
     Cause,
     InheritedPart,

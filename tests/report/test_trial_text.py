@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from checker.report.palette import Palette
+from checker.report.render_settings import Palette
 from checker.report.report import NO_TRIAL, Cause, NotChecked, PackageReport, Report
 from checker.report.text_report import to_text
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.source.elf import SharedLibrary, read_shared_library
+from checker.source.binary_headers import SharedLibrary, read_shared_library
 
 X64, X86, AARCH64 = 62, 3, 183
 STRINGS = 0x300

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.source.pictures import picture_size
+from checker.source.binary_headers import picture_size
 
 
 @pytest.mark.parametrize("kind", ["PNG", "JPEG"])

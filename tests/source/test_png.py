@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.source.pictures import png_fault
+from checker.source.binary_headers import png_fault
 
 
 def chunk(kind: bytes, data: bytes) -> bytes:

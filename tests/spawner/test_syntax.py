@@ -5,8 +5,7 @@ import subprocess
 
 import pytest
 
-from checker.expand.spawner.syntax import syntax_faults
-from checker.source.ruby import parse_ruby
+from checker.source.ruby import parse_ruby, syntax_faults
 from checker.source.text import SourceText
 
 CERTAIN = {

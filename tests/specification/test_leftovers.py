@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.specification.leftovers import (
+from checker.model.specification.links import relative_links, without_datasheet
+from checker.model.specification.sheet import read_specification
+from checker.model.specification.sheet_text import (
     links_without_target,
     placeholders,
     struck_through,
 )
-from checker.model.specification.links import relative_links, without_datasheet
-from checker.model.specification.sheet import read_specification
 from checker.source.markdown import Markdown, read_markdown
 from checker.source.text import SourceText
 from tests.effort import limited

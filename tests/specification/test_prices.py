@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.model.specification.mass_and_cost import Price, prices
+from checker.model.specification.mass_cost_endurance import Price, prices
 from checker.source.text import SourceText, Span
 
 

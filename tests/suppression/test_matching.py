@@ -11,7 +11,7 @@ from checker.finding import Place, Severity
 from checker.report.report import ReportedFinding
 from checker.rulebook.suppression.baseline import BaselineEntry
 from checker.rulebook.suppression.baseline_match import Held, Matched, matched
-from checker.rulebook.suppression.spots import (
+from checker.rulebook.suppression.finding_places import (
     NAME_LIMIT,
     Spot,
     place_name,

@@ -7,7 +7,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from checker.service.jobs.durable.keys import key_of_check
+from checker.service.jobs.durable.tables import key_of_check
 from tests.conftest import SAMPLES
 from tests.postgres import dump
 from tests.serving.conftest import SECONDS, Serve, Serving

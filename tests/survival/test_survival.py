@@ -9,7 +9,7 @@ from pathlib import Path
 
 import httpx
 
-from checker.service.jobs.durable.keys import key_of_check
+from checker.service.jobs.durable.tables import key_of_check
 from tests.conftest import SAMPLES
 from tests.serving.conftest import SECONDS, Serve, wait_for
 from tests.survival.conftest import (

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from checker.base.cache import NO_CACHE
-from checker.base.progress import say_nothing
+from checker.base.output import say_nothing
 from checker.engine.review import judged
-from checker.model.urdf.lumping import Lumping
+from checker.model.urdf.fixed_joints import Lumping
 from checker.package.inputs import open_input
 from checker.settings import Settings
 from tests.urdf.conftest import NAME, Describe, robot

@@ -15,8 +15,7 @@ from starlette.requests import HTTPConnection
 from checker.base.errors import InvalidSettings
 from checker.report.html.page import text_of
 from checker.service.store.store import Store
-from checker.service.web.answers.files import file_response
-from checker.service.web.answers.headers import NOTHING, PAGE, POLICY
+from checker.service.web.answers.headers import NOTHING, PAGE, POLICY, file_response
 from checker.service.web.app import create_app
 from checker.service.web.config import Config, config_from
 from checker.service.web.limits.admission import Admission

@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from checker.service.jobs.port import Alive, Event, JobsUnreachable, Stage, State
 from checker.service.store.store import SUMMARY, Store
-from checker.service.web.answers.files import file_response
+from checker.service.web.answers.headers import file_response
 from checker.service.web.app import create_app
 from checker.service.web.config import Config
 from tests.effort import examples

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from checker.base.disk_file import NotReadable, read_bytes
+from checker.base.files import NotReadable, read_bytes
 
 FILES_LIMIT = 2_000_000_000
 """Bytes of all files of one message."""

@@ -6,8 +6,14 @@ import argparse
 from itertools import chain
 
 from checker.base.output import EXIT_CLEAN, EXIT_FINDINGS, show
-from checker.cli.doctor.installation import installation, sandbox, surroundings
-from checker.cli.doctor.result import INSTALL_AGAIN, Result, State
+from checker.cli.doctor.installation import (
+    INSTALL_AGAIN,
+    Result,
+    State,
+    installation,
+    sandbox,
+    surroundings,
+)
 
 
 def add_arguments(_parser: argparse.ArgumentParser) -> None:

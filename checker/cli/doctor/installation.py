@@ -10,6 +10,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import closing
+from enum import StrEnum
 from importlib.metadata import PackageNotFoundError, requires
 from itertools import islice
 from pathlib import Path
@@ -17,13 +18,45 @@ from pathlib import Path
 from checker.base.cache import SIZE_LIMIT, cache_folder
 from checker.base.child_process import Limits, ask
 from checker.base.errors import WorkerFailed
+from checker.base.record import Record
 from checker.base.resources import UNKNOWN, templates, tool_version, version_of
 from checker.base.sandbox.launcher import OwnLauncher
 from checker.base.sandbox.layers import ACCOUNT, LANDLOCK, NAMESPACES, SECCOMP, Layer
 from checker.base.sandbox.namespaces import bubblewrap
 from checker.base.words import plain, shortened
 from checker.cli.doctor.library_imports import import_troubles
-from checker.cli.doctor.result import INSTALL_AGAIN, Result, State
+
+# What is found out about one thing that the checker needs, or would like to have.
+
+
+INSTALL_AGAIN = "install subt-check and its libraries again"
+
+
+class State(StrEnum):
+    """`NOTE`: something is missing that the checker can do without."""
+
+    OK = "ok"
+    NOTE = "note"
+    PROBLEM = "problem"
+
+
+class Result(Record):
+    """What was found.
+
+    Attributes:
+        state: Whether it is as it should be.
+        what: The thing, and what is so.
+        advice: What to do; empty when all is well.
+    """
+
+    state: State
+    what: str
+    advice: str = ""
+
+    def __str__(self) -> str:
+        """Give it in a line."""
+        return f"{self.state:<8}{self.what}" + (f"; {self.advice}" if self.advice else "")
+
 
 # Looks at what makes reports quicker or richer: the cache, OpenGL, the 3D viewer.
 

@@ -8,11 +8,10 @@ from pathlib import Path
 from time import perf_counter
 
 from checker.base.words import plain, shortened
-from checker.cli.doctor.result import INSTALL_AGAIN, Result, State
+from checker.cli.doctor.installation import INSTALL_AGAIN, Result, State
 from checker.pipeline import check_package
 from checker.report.formats import FORMATS
-from checker.report.palette import Palette
-from checker.report.render_settings import RenderSettings
+from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import PackageReport, VerdictKind
 from checker.settings import Settings
 

@@ -25,10 +25,9 @@ from checker.expand.spawner.signals import (
     Unread,
     Unreadable,
 )
-from checker.expand.spawner.syntax import SyntaxFault, syntax_faults
 from checker.expand.spawner.traced import computed
 from checker.expand.spawner.values import RubyString, Value, class_name
-from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
+from checker.source.ruby import ParsesTooSlowly, RubyNode, SyntaxFault, parse_ruby, syntax_faults
 from checker.source.text import SourceText
 
 Argument = str | int | float | bool | None

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.expand.xacro.paths import ROOT, local_path, package_in, path_of
 from checker.package.package import Package
 from checker.source.text import SourceText

@@ -6,17 +6,19 @@ Elements are moved as they are written, and only what depends on where they stan
 from __future__ import annotations
 
 import posixpath
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 
 from checker.base.record import Record
 from checker.finding import Edit
-from checker.fix.flattening import frames, poses
-from checker.fix.flattening.draft import Draft
-from checker.fix.flattening.holder import Holder
-from checker.fix.flattening.names import SEPARATOR, FlatNames
-from checker.fix.flattening.references import named_by
-from checker.model.components import Model
+from checker.fix.flattening import poses
+from checker.fix.flattening.draft import Draft, Holder, written
+from checker.fix.flattening.names import SEPARATOR, FlatNames, named_by
+from checker.fix.flattening.poses import pose_text
+from checker.model.components import Frame, Joint, Link, Model
+from checker.model.faults import FaultKind
+from checker.model.frames import MODEL_FRAME
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.model.sdf.document import sdf_version
@@ -24,6 +26,86 @@ from checker.model.sdf.links import read_plugin
 from checker.source.text import Located, SourceText
 from checker.source.xml import Element
 from checker.source.xml_insertion import indentation_of, newline_of, with_blanks
+
+# Why a robot cannot be flattened by text edits that surely mean the same.
+
+
+LIMIT = 20_000_000
+"""Characters of all nested models together: files that include each other often grow fast."""
+
+_NO_NAMES = ("", MODEL_FRAME, "world")
+
+_MEANINGS = ((1, 5), (1, 7))
+"""SDF versions that changed which frame an axis or a pose is written in."""
+
+
+def obstacle(robot: Robot) -> str:
+    """Return the reason, as the end of a sentence; empty when it can be flattened."""
+    return next(_obstacles(robot), "")
+
+
+def _obstacles(robot: Robot) -> Iterator[str]:
+    if robot.missing_parts:
+        yield robot.missing_parts
+    posed: tuple[Link | Frame | Model | Joint, ...] = (*robot.links, *robot.frames, *robot.models)
+    for parts in (posed, robot.joints):
+        if any(part.name.value in _NO_NAMES for part in parts):
+            yield "a part has no name of its own"
+        names = Counter(part.scoped_name for part in parts)
+        for name in (name for name, number in names.items() if number > 1):
+            yield f"two parts are called {name}"
+    for fault in robot.faults:
+        if fault.kind in (FaultKind.FRAME, FaultKind.INCLUDE):
+            yield fault.message
+    yield from _other_versions(robot)
+    for name in robot.frame_graph.nodes:
+        if robot.pose_of(name) is None:
+            yield f"the place of {name} is not known"
+    if sum(len(model.definition.whole_span.text) for model in robot.models) > LIMIT:
+        yield f"its nested models have more than {LIMIT} characters"
+
+
+def _other_versions(robot: Robot) -> Iterator[str]:
+    own = sdf_version(robot.document)
+    for model in robot.models:
+        version = sdf_version(model.definition.document)
+        newer = version > own >= _MEANINGS[-1]
+        if newer or any((version < change) is not (own < change) for change in _MEANINGS):
+            said = ".".join(map(str, version)), ".".join(map(str, own))
+            yield f"{model.definition.source.file} is written in SDF {said[0]}, not in {said[1]}"
+
+
+# From SDF 1.7 on: what was written in a nested model's frame names a frame that stands for it.
+
+
+def move_part(draft: Draft, part: Element, holder: Holder, names: FlatNames) -> None:
+    """Have a link or frame say that it stands in the frame of the model that it stood in."""
+    frame = names.flat(holder.frame)
+    if part.tag == "frame" and not part.get("attached_to"):
+        draft.attribute(part, "attached_to", frame)
+    elif part.tag == "link":
+        pose = part.child("pose")
+        if pose is None:
+            draft.insert(part, f'<pose relative_to="{written(frame)}">0 0 0 0 0 0</pose>')
+        elif not pose.get("relative_to"):
+            draft.attribute(pose, "relative_to", frame)
+
+
+def standing_frame(name: str, pose: Transform, attached_to: str) -> list[str]:
+    """Return the lines of the frame that stands where a model stood.
+
+    Args:
+        name: What it is called.
+        pose: In the robot's frame.
+        attached_to: The model's canonical link; empty for none.
+    """
+    tied = f' attached_to="{written(attached_to)}"' if attached_to else ""
+    return [
+        f'<frame name="{written(name)}"{tied}>',
+        f'  <pose relative_to="{MODEL_FRAME}">{pose_text(pose)}</pose>',
+        "</frame>",
+    ]
+
 
 # Lines moved from one depth, or one file, to another.
 
@@ -133,7 +215,7 @@ class Flattening(Record, dict=True):
     def _standing_frame(self, model: Model) -> list[str]:
         pose = self.robot.pose_of(model.scoped_name) or Transform()
         name = self.names.flat(model.scoped_name)
-        return frames.standing_frame(name, pose, next(self._links_of(model), ""))
+        return standing_frame(name, pose, next(self._links_of(model), ""))
 
     def _links_of(self, model: Model) -> Iterator[str]:
         """Yield the new names of a model's canonical link and of all its links."""
@@ -149,7 +231,7 @@ class Flattening(Record, dict=True):
         if holder.nested and not self._by_frames:
             poses.move_part(draft, part, holder, self.robot)
         elif holder.nested:
-            frames.move_part(draft, part, holder, self.names)
+            move_part(draft, part, holder, self.names)
         holder.rename(draft, part, self.names)
         if holder.element.source is not self.robot.document.source:
             self._move_uris(draft, part)

@@ -2,12 +2,49 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
-from checker.model.components import Frame, Joint, Link, Model
+from checker.base.resources import table
+from checker.finding import Edit
+from checker.model.components import Frame, Joint, Link, Model, Plugin
 from checker.model.frames import MODEL_FRAME
 from checker.model.robot import Robot
+from checker.source.text import Located, SourceText, Span
+
+# What names a link, a joint or a frame in the parameters of a plugin.
+
+
+_NAMING = re.compile("joint|link", re.IGNORECASE)
+
+
+def named_by(plugin: Plugin) -> Iterator[Located[str]]:
+    """Yield the texts that may name a part of the robot.
+
+    Of a plugin whose parameters are not known, those that are called after joints or links, and
+    names that lead into a nested model.
+    """
+    known = table("plugin_references")["plugins"].get(plugin.class_name)
+    sure = [named for path in known or () for named in plugin.at(path)]
+    yield from sure
+    places = {named.span.start for named in sure}
+    for name, text in _texts(plugin):
+        naming = "::" in text.value or (known is None and _NAMING.search(name) is not None)
+        if naming and text.span.start not in places:
+            yield text
+
+
+def _texts(plugin: Plugin) -> Iterator[tuple[str, Located[str]]]:
+    """Yield all texts and attributes below a plugin with the names they have."""
+    for element in plugin.element.descendants():
+        if element.text.stated:
+            yield element.tag, element.text
+        for name in element.attributes:
+            attribute = element.attribute(name)
+            if attribute is not None:
+                yield name, attribute
+
 
 SEPARATOR = "__"
 """Between the name of a model and those of its parts, as in `arm__wrist`."""
@@ -47,3 +84,59 @@ def _names(robot: Robot, *, nested: bool) -> Iterator[str]:
         stays = part.element.parent is robot.element and not isinstance(part, Model)
         if nested is not stays:
             yield part.scoped_name
+
+
+# Names of nested parts in other files of a package: topics of bridges, frames of transforms.
+
+
+SUFFIXES = (".launch", ".rb", ".yaml", ".yml", ".urdf", ".xacro")
+"""Files that name parts of the robot."""
+
+_DEPTH = 8
+_SCOPED = re.compile(r"(?<![\w.:-])[\w.-]+(?:::[\w.-]+){1,40}")
+_TOPIC = re.compile(r"((?:(?<![\w-])model/[^/\s\"'<>]{1,200}/){1,8})(link|joint)/([\w.-]{1,200})")
+_STEPS = re.compile(r"(?<![\w-])(?:link|joint)/([\w./-]{1,300})")
+
+
+def mentions(source: SourceText, names: FlatNames) -> Iterator[tuple[str, Edit]]:
+    """Yield the nested parts that a text names, each with the edit that gives it its new name.
+
+    A part is named `arm::wrist`, or `model/arm/link/wrist` as in the topics of its sensors.
+    """
+    for found in _SCOPED.finditer(source.text):
+        for scoped, start in _suffixes(found.group()):
+            if scoped in names.changed:
+                span = Span(source, found.start() + start, found.end())
+                yield scoped, span.replaced_by(names.flat(scoped))
+                break
+    for found in _TOPIC.finditer(source.text):
+        steps = found.group(1).removesuffix("/").split("/")[1::2]
+        for number in range(len(steps)):
+            scoped = "::".join((*steps[number:], found.group(3)))
+            if scoped in names.changed:
+                before = sum(len(f"model/{step}/") for step in steps[:number])
+                span = Span(source, found.start() + before, found.end())
+                yield scoped, span.replaced_by(f"{found.group(2)}/{names.flat(scoped)}")
+                break
+
+
+def topic_mentions(source: SourceText, names: FlatNames) -> Iterator[Edit]:
+    """Yield edits of topics that name a part directly, such as `link/X1/base_link/sensor/imu`."""
+    for found in _STEPS.finditer(source.text):
+        steps = found.group(1).split("/")
+        for number in range(min(len(steps), _DEPTH), 0, -1):
+            named = "/".join(steps[:number])
+            if named in names.changed:
+                span = Span(source, found.start(1), found.start(1) + len(named))
+                yield span.replaced_by(names.flat(named))
+                break
+
+
+def _suffixes(scoped: str) -> Iterator[tuple[str, int]]:
+    """Yield a scoped name, then without the names in front, each with where it starts."""
+    start = 0
+    for _ in range(_DEPTH):
+        yield scoped[start:], start
+        start = scoped.find("::", start) + 2
+        if start < 2 or "::" not in scoped[start:]:
+            return

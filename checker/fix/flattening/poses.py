@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from checker.fix.flattening.draft import Draft
-from checker.fix.flattening.holder import Holder
+from checker.fix.flattening.draft import Draft, Holder
 from checker.model.components import Joint
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot

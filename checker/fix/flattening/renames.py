@@ -6,10 +6,8 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.finding import Edit
-from checker.fix.flattening.draft import Draft
-from checker.fix.flattening.holder import Holder
-from checker.fix.flattening.names import FlatNames
-from checker.fix.flattening.references import named_by
+from checker.fix.flattening.draft import Draft, Holder
+from checker.fix.flattening.names import FlatNames, named_by
 from checker.model.robot import Robot
 
 _PARTS = ("link", "joint", "frame", "gripper")

@@ -14,7 +14,7 @@ from checker.model.locomotion.locomotion import (
     Rotor,
     RotorEntry,
 )
-from checker.model.locomotion.plugin_limits import symmetric_limits
+from checker.model.locomotion.motion_limits import symmetric_limits
 from checker.model.values import parse_number, stated_number
 from checker.source.text import Located
 from checker.source.xml import Element

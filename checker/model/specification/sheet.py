@@ -8,10 +8,8 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from checker.base.record import Record
-from checker.model.specification.endurance import durations, endurance
-from checker.model.specification.line_references import LineReference, line_references
 from checker.model.specification.links import validation_links
-from checker.model.specification.mass_and_cost import masses, total_mass
+from checker.model.specification.mass_cost_endurance import durations, endurance, masses, total_mass
 from checker.model.specification.motion import (
     Limit,
     MotionQuantity,
@@ -21,6 +19,7 @@ from checker.model.specification.motion import (
 )
 from checker.model.specification.quantities import Quantity
 from checker.model.specification.sensors import ListedSensor, listed_sensors
+from checker.model.specification.sheet_text import LineReference, line_references
 from checker.source.markdown import MAX_LENGTH, Markdown, Passage, PassageKind, read_markdown
 from checker.source.text import SourceText, Span
 

@@ -12,11 +12,11 @@ from msgspec import field
 from msgspec.structs import replace
 
 from checker.base.cache import Cache
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.expand.launch.expansion import expand_launch
+from checker.expand.launch.launch_file import Load, loads
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
-from checker.expand.xacro.description_loads import Load, loads
 from checker.expand.xacro.expansion import Expansions, Outcome, Unread, Wanted
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.expand.xacro.paths import local_path

@@ -10,9 +10,8 @@ from checker.model.components import Link
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
-from checker.physics.mass.hanging import Hanging, hang
 from checker.physics.mass.inertia import inertial_pose, se3, spatial_inertia
-from checker.physics.mass.joint_motion import Freedom, Motion, motions_of
+from checker.physics.mass.mechanism import Freedom, Hanging, Motion, hang, motions_of
 
 if TYPE_CHECKING:
     import numpy as np

@@ -15,8 +15,8 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from checker.base.disk_file import NotReadable
 from checker.base.errors import WorkerFailed
+from checker.base.files import NotReadable
 from checker.base.forked_work import Forks
 from checker.base.sandbox.files import Files
 from checker.physics.mesh.content import NoSurface, Piece, by_material

@@ -15,7 +15,7 @@ from checker.base.background import Work, work_key
 from checker.base.cache import Cache
 from checker.base.child_process import Limits
 from checker.base.child_server import Server
-from checker.base.disk_file import read_bytes
+from checker.base.files import read_bytes
 from checker.package.index import FileEntry
 from checker.package.package import Package
 

@@ -15,8 +15,8 @@ from typing import Any
 
 from msgspec import to_builtins
 
-from checker.base.disk_file import NotReadable
 from checker.base.errors import WorkerFailed
+from checker.base.files import NotReadable
 from checker.base.forked_work import Forks, in_forks
 from checker.base.sandbox.files import Files
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble

@@ -12,8 +12,7 @@ from msgspec.structs import replace
 from checker.base.sandbox.files import NO_FILES, Files
 from checker.physics.trial.course import VERSION
 from checker.physics.trial.measures.measurement import measured
-from checker.physics.trial.measures.motion import Motion
-from checker.physics.trial.measures.series import replay_of, series_of, too_many
+from checker.physics.trial.measures.motion import Motion, replay_of, series_of, too_many
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.simulation.contacts import overlaps

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.base.sandbox.files import Content
 from checker.physics.mesh.content import NoSurface
 from checker.physics.mesh.reader import read_content

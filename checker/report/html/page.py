@@ -21,8 +21,7 @@ from checker.report.json_report import to_json
 from checker.report.render_settings import RenderSettings
 from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed, VerdictKind
 from checker.report.sarif import to_sarif
-from checker.report.summary import has_suppressed
-from checker.report.verdict import sentence
+from checker.report.summary import has_suppressed, sentence
 
 if TYPE_CHECKING:
     from jinja2 import Environment

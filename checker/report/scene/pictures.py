@@ -17,8 +17,7 @@ from checker.base.errors import WorkerFailed
 from checker.model.geometry.transform import Transform
 from checker.physics.mesh.surface import Surface
 from checker.report.report import Picture
-from checker.report.scene.drawing.camera import Camera, framed
-from checker.report.scene.drawing.request import Shot, drawn_items, request_of
+from checker.report.scene.drawing.request import Camera, Shot, drawn_items, framed, request_of
 from checker.report.scene.processes import (
     DRAWING_LIMITS,
     PLATFORMS,

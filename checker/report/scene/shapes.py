@@ -13,6 +13,7 @@ from checker.model.geometry.transform import Rotation, Transform, Vector
 from checker.model.mesh import MeshFault
 from checker.physics.mesh.surface import Surface
 from checker.physics.trial.mjcf.names import FAR, usable
+from checker.report.scene.mesh_files import short
 from checker.report.scene.primitives import (
     box,
     capsule,
@@ -22,7 +23,6 @@ from checker.report.scene.primitives import (
     sphere,
 )
 from checker.report.scene.shown_robot import Showing
-from checker.report.scene.surfaces import short
 
 _NOTHING = ("", "empty")
 

@@ -12,8 +12,8 @@ from checker.model.components import Link, Part, Pose
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.physics.trial.mjcf.names import well_placed
+from checker.report.scene.mesh_files import Notes, Surfaces, short
 from checker.report.scene.scene import Item
-from checker.report.scene.surfaces import Notes, Surfaces, short
 
 Hung = Iterator[tuple[str, Item]]
 """Items, each with the scoped name of the link that it hangs on."""

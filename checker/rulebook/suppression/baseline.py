@@ -9,7 +9,7 @@ from typing import Any
 
 from msgspec import field, to_builtins
 
-from checker.base.disk_file import NotReadable, read_bytes
+from checker.base.files import NotReadable, read_bytes
 from checker.base.record import Record
 from checker.base.words import shortened
 from checker.finding import Severity, fingerprint

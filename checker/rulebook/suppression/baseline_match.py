@@ -8,8 +8,8 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, 
 from checker.base.record import Record
 from checker.finding import Severity
 from checker.rulebook.suppression.baseline import BaselineEntry
+from checker.rulebook.suppression.finding_places import Spot, by_element, by_words
 from checker.rulebook.suppression.parts import StaleEntries
-from checker.rulebook.suppression.spots import Spot, by_element, by_words
 
 _Tell = Callable[[str, str, str, str], Hashable]
 _TELLS: tuple[_Tell, ...] = (by_words, by_element)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
-from checker.base.disk_file import NotReadable
+from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.base.words import Suggestions
 from checker.finding import Place
@@ -21,13 +21,13 @@ from checker.rulebook.suppression.comments import (
     comments_of,
 )
 from checker.rulebook.suppression.entries import SettingsEntry
+from checker.rulebook.suppression.finding_places import Spot
 from checker.rulebook.suppression.parts import (
     Suppressions,
     UnknownName,
     UnusedComment,
     UnusedEntries,
 )
-from checker.rulebook.suppression.spots import Spot
 from checker.source.text_file import TEXT_LIMIT
 
 SEARCHED_LIMIT = 100_000_000

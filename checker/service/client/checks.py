@@ -11,7 +11,7 @@ from urllib.parse import quote, unquote
 from msgspec import Meta, Struct
 
 from checker.base.errors import CheckerError
-from checker.base.progress import Say
+from checker.base.output import Say
 from checker.base.record import Record
 from checker.base.words import count, plain, shortened
 from checker.report.files import ARTEFACT_NAME, INDEX

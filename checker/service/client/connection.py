@@ -15,7 +15,7 @@ import httpx
 import msgspec
 
 from checker.base.errors import CheckerError
-from checker.base.progress import Say, say_nothing
+from checker.base.output import Say, say_nothing
 from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.service.client.server import Server

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from checker.base.errors import CheckerError, UnreadableInput
-from checker.base.progress import Say, say_nothing
+from checker.base.output import Say, say_nothing
 from checker.base.record import Record
 from checker.base.words import count, listed, plain, shortened
 from checker.package.archives.archive import ARCHIVE_SUFFIXES

@@ -19,15 +19,14 @@ from msgspec import to_builtins
 
 from checker.base.cache import key_of
 from checker.base.child_process import from_json
-from checker.base.disk_file import NotReadable, read_bytes
-from checker.base.private_files import make_folder
+from checker.base.files import NotReadable, make_folder, read_bytes
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import FAULT_LIMIT, OUT_OF_MEMORY
 from checker.base.words import plain
 from checker.engine.report_cache import program_parts
 from checker.report.files import ARTEFACT_NAME
 from checker.service.jobs.children import ANSWER_LIMIT, Children, Ended
-from checker.service.jobs.layout import CACHE, UPLOAD, is_part
+from checker.service.jobs.exchange import CACHE, UPLOAD, is_part, read_summary
 from checker.service.jobs.limits import StageLimits
 from checker.service.jobs.outcome import (
     FAILED_INSIDE,
@@ -39,7 +38,6 @@ from checker.service.jobs.outcome import (
     Refused,
 )
 from checker.service.jobs.port import Order, Stage
-from checker.service.jobs.summary import read_summary
 from checker.service.store.store import RESULT_LIMIT, SUMMARY, Store
 
 LIMITS: Mapping[Stage, StageLimits] = {

@@ -26,7 +26,7 @@ from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import INPUT, Answer
 from checker.physics.mesh.process import mesh_server
 from checker.report.report import Report
-from checker.service.jobs.layout import GIVEN, TEMPORARY, new_parts, settle
+from checker.service.jobs.exchange import GIVEN, TEMPORARY, new_parts, settle
 from checker.service.jobs.limits import StageLimits, limit
 from checker.service.jobs.port import Stage
 
@@ -40,7 +40,7 @@ def without_folder(report: Report, place: Path) -> Report:
 
     Args:
         report: As it came out of the check.
-        place: The folder, laid out by `checker.service.jobs.layout`.
+        place: The folder, laid out by `checker.service.jobs.exchange`.
     """
     folders = "|".join(re.escape(str(each)) for each in {place, place.resolve()})
     unpacked = rf"{TEMPORARY}/[^/\s]+|{re.escape(GIVEN)}"
@@ -102,7 +102,7 @@ def answer(request: bytes, files: Files) -> Answer:
 
     Args:
         request: JSON: `name` of the uploaded file, `profile`, `stage` and `limits`.
-        files: The upload, and parts of an earlier check of it; see `checker.service.jobs.layout`.
+        files: The upload, and parts of an earlier check of it; see `checker.service.jobs.exchange`.
 
     Returns:
         JSON: why the upload is `refused`, or the summary of the result; and the files of the
@@ -132,7 +132,7 @@ def _checked(
     from checker.base.words import shortened
     from checker.pipeline import check_paths
     from checker.rulebook.profiles import profile_names
-    from checker.service.jobs.summary import summary
+    from checker.service.jobs.exchange import summary
 
     if asked["profile"] not in ("", *profile_names()):
         known = ", ".join(profile_names())
@@ -162,8 +162,7 @@ def _files(report: Report, stage: Stage, asked: Mapping[str, Any]) -> Iterator[t
     """Yield the result: of the static stage the JSON alone, since the trial's follows soon."""
     from checker.report.files import artefacts
     from checker.report.formats import FORMATS
-    from checker.report.palette import Palette
-    from checker.report.render_settings import RenderSettings
+    from checker.report.render_settings import Palette, RenderSettings
 
     profile = ("--profile", asked["profile"]) if asked["profile"] else ()
     command = shlex.join(("subt-check", asked["name"], *profile))

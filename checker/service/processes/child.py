@@ -17,8 +17,8 @@ from dataclasses import dataclass, field
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from checker.base.errors import CheckerError
+from checker.base.files import UMASK
 from checker.base.output import EXIT_CRASH, EXIT_USAGE, say_progress
-from checker.base.private_files import UMASK
 from checker.base.sandbox.task import end_with_parent, tighter
 from checker.service.jobs.port import JobsUnreachable
 from checker.service.web.limits.rates import network_of

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from checker.base.errors import CheckerError
+from checker.base.files import UMASK
 from checker.base.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
-from checker.base.private_files import UMASK
 from checker.base.sandbox.launcher import module_path
 from checker.base.signals import on_requests_to_end
 from checker.service.processes.child import CHILD

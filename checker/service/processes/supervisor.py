@@ -11,7 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from time import monotonic
 
-from checker.base.progress import Say
+from checker.base.output import Say
 from checker.base.record import Record
 
 _LOOK_SECONDS = 0.2

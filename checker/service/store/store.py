@@ -19,12 +19,13 @@ from collections.abc import Collection, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from checker.base.private_files import tighten, tighten_below
+from checker.base.files import tighten, tighten_below
 from checker.base.record import Record
 from checker.report.files import ARTEFACT_NAME
-from checker.service.store.incoming import Incoming, TooLarge
 from checker.service.store.place import DATABASE
 from checker.service.store.workplace import (
+    Incoming,
+    TooLarge,
     move,
     rename,
     settle,

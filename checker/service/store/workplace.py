@@ -10,11 +10,75 @@ from __future__ import annotations
 import fcntl
 import os
 import secrets
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from checker.base.private_files import make_folder
+from checker.base.files import make_folder
+
+# An upload while it comes in.
+
+
+class TooLarge(Exception):
+    """More bytes than an upload may have.
+
+    Attributes:
+        limit: Bytes that it may have.
+    """
+
+    def __init__(self, limit: int) -> None:
+        super().__init__(f"the upload is larger than the {limit / 1e6:g} MB allowed")
+        self.limit = limit
+
+
+class Incoming:
+    """Takes an upload piece by piece; used by one thread at a time.
+
+    Attributes:
+        path: Where the bytes lie meanwhile.
+        size: Bytes so far.
+    """
+
+    def __init__(
+        self, path: Path, descriptor: int, limit: int, admit: Callable[[Path, str], None]
+    ) -> None:
+        """Begin.
+
+        Args:
+            path: Of an empty file.
+            descriptor: To write it; its owner closes it.
+            limit: Bytes.
+            admit: Takes the finished file and its hash.
+        """
+        from blake3 import blake3
+
+        self.path, self.size, self._hash = path, 0, blake3()
+        self._descriptor, self._limit, self._admit = descriptor, limit, admit
+
+    def write(self, chunk: bytes) -> None:
+        """Take the next bytes.
+
+        Raises:
+            TooLarge: There are more than allowed; the chunk is not written.
+        """
+        if self.size + len(chunk) > self._limit:
+            raise TooLarge(self._limit)
+        self.size += len(chunk)
+        self._hash.update(chunk)
+        left = memoryview(chunk)
+        while left:  # a disk that is nearly full takes a part of it
+            left = left[os.write(self._descriptor, left) :]
+
+    def finish(self) -> str:
+        """Put the upload into the store, and return its hash; see `Store.admit`.
+
+        The hash is BLAKE3, 256 bits in hexadecimal: of a megabyte it takes 0.3 ms, where SHA-256
+        takes 4.6 on processors without instructions for it.
+        """
+        hash = self._hash.hexdigest()
+        self._admit(self.path, hash)
+        return hash
+
 
 # Moves of files and folders that a power failure does not undo or leave half done.
 

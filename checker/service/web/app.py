@@ -24,13 +24,12 @@ from checker.service.web.answers.problems import CAUSE, Problem, say_no_by
 from checker.service.web.api import routes as api
 from checker.service.web.config import Config, config_from
 from checker.service.web.limits.admission import Admission
-from checker.service.web.limits.origin import OwnOrigin
+from checker.service.web.limits.middleware import OwnOrigin, UnreadBodies
 from checker.service.web.logs import FIELDS, LOGGER, log_to_stderr, short
 from checker.service.web.metrics import Metrics
 from checker.service.web.pages import routes as pages
 from checker.service.web.services import Services
 from checker.service.web.uploads.archive_indexes import ArchiveIndexes
-from checker.service.web.uploads.unread_bodies import UnreadBodies
 
 if TYPE_CHECKING:
     from fastapi import FastAPI

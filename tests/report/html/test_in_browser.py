@@ -11,8 +11,7 @@ import pytest
 
 from checker.pipeline import check_package
 from checker.report.html.page import to_html
-from checker.report.palette import Palette
-from checker.report.render_settings import RenderSettings
+from checker.report.render_settings import Palette, RenderSettings
 from checker.settings import Settings
 from tests.browser import watched_page, without_webgl
 from tests.conftest import SAMPLES

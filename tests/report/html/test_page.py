@@ -13,8 +13,7 @@ from msgspec.structs import replace
 from checker.base.words import plain
 from checker.finding import Edit, Fix, Place, Safety, Severity
 from checker.report.html.page import to_html, to_index, with_code
-from checker.report.palette import Palette
-from checker.report.render_settings import RenderSettings
+from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import (
     Cause,
     InheritedPart,

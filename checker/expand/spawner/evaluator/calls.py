@@ -11,8 +11,7 @@ from checker.expand.spawner.evaluator.variables import variable
 from checker.expand.spawner.files import absolute
 from checker.expand.spawner.limits import MAX_CALLS
 from checker.expand.spawner.methods.call import Call, check_arity
-from checker.expand.spawner.methods.classes import invoke_method
-from checker.expand.spawner.methods.kernel import KERNEL
+from checker.expand.spawner.methods.classes import KERNEL, invoke_method
 from checker.expand.spawner.scope import Function, Parameter, Scope
 from checker.expand.spawner.signals import Broken, Returned, RubyError, Unreadable
 from checker.expand.spawner.values import NIL, Block, Value

@@ -6,10 +6,13 @@ with the separation and the radius of the plugin: what is wrong in either shows 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 
 from checker.model.locomotion.locomotion import Locomotion, Side, Wheel, WheelDrive
+from checker.model.robot import Robot
 from checker.physics.trial.course import (
+    TURN,
     angular_command,
     driving_legs,
     full_speed,
@@ -19,6 +22,7 @@ from checker.physics.trial.course import (
 from checker.physics.trial.plan import DrivenWheel, Plan
 from checker.physics.trial.profile import Knots, Limits, mixed
 from checker.physics.trial.trial import Leg
+from checker.source.text import Located
 
 
 def plan_wheels(locomotion: Locomotion) -> Plan:
@@ -88,3 +92,121 @@ def _speed(drive: WheelDrive, wheel: Wheel, legs: Sequence[Leg]) -> Knots:
     arm = drive.wheel_separation.value / 2 * (-1 if wheel.side is Side.LEFT else 1)
     radius = drive.wheel_radius.value
     return mixed((linear, angular), lambda v, w: (v + w * arm) / radius if radius else 0.0)
+
+
+# Ackermann steering, as Gazebo's AckermannSteering does it: from the figures that it is given.
+#
+# Angles come from its wheel base and kingpin width, wheel rates from wheel separation and radius,
+# and no turn is tighter than its steering limit allows; so wrong figures show on the course.
+
+
+_SHARE_OF_LIMIT = 0.6
+"""Of the steering limit, so that the inner wheel stays within it as well."""
+_STEERING_SECONDS = 1.0
+_USUAL_BASE = 1.0
+_USUAL_LIMIT = 0.5
+_OUTWARDS = {Side.LEFT: -1.0, Side.RIGHT: 1.0}
+"""In a turn to the left, the left wheels have the shorter way."""
+_GRID = 0.05
+"""Seconds between corners of commands that follow the steering."""
+
+
+def plan_ackermann(robot: Robot, locomotion: Locomotion) -> Plan:
+    """Return the plan of a robot whose wheels steer; it turns on a circle."""
+    drives = locomotion.wheel_drives
+    linear, _ = strictest(drives)
+    steered = [drive for drive in drives if drive.steering]
+    bend = _curvature(robot, steered[0])
+    speed = gentle_speed(linear.fastest)
+    legs = driving_legs(linear, (speed, speed * bend))
+    ahead, curve = linear_command(legs, linear), _curve(legs, bend)
+    speeds: dict[str, Knots] = {}
+    places: dict[str, Knots] = {}
+    wheels: dict[str, DrivenWheel] = {}
+    for drive in drives:
+        reached = _within_reach(drive, curve)
+        speeds |= _speeds(drive, ahead, reached)
+        places |= dict(_angles(drive, reached))
+        wheels |= {w.joint.scoped_name: driven_wheel(drive, w) for w in drive.wheels}
+    return Plan(
+        kind=locomotion.kind.value,
+        legs=legs,
+        linear=ahead,
+        angular=mixed((ahead, curve), lambda v, k: v * k, _GRID),
+        speeds=speeds,
+        places=places,
+        wheels=tuple(wheels.values()),
+        speed_limit=stated(linear.fastest),
+        acceleration_limit=stated(linear.speeding),
+        turns_in_place=False,
+    )
+
+
+def _curve(legs: Sequence[Leg], bend: float) -> Knots:
+    """Return the curvature over time, 1/m: it comes and goes within the first second of a leg."""
+    knots: list[tuple[float, float]] = []
+    value = 0.0
+    for leg in legs:
+        knots.append((leg.start, value))
+        value = bend if leg.name == TURN else 0.0
+        knots.append((min(leg.start + _STEERING_SECONDS, leg.end), value))
+    return tuple(knots)
+
+
+def _curvature(robot: Robot, drive: WheelDrive) -> float:
+    """Return the curvature of the circle, 1/m: well within reach of the steering joints."""
+    limits = [_number(drive.steering_limit, _USUAL_LIMIT)]
+    for joint, _ in drive.steering:
+        for axis in joint.axes[:1]:
+            limits += [abs(axis.lower.value), abs(axis.upper.value)]
+    limit = min((each for each in limits if 0.0 < each < math.pi / 2), default=_USUAL_LIMIT)
+    return math.tan(_SHARE_OF_LIMIT * limit) / _true_base(robot, drive)
+
+
+def _true_base(robot: Robot, drive: WheelDrive) -> float:
+    """Return the distance of the steered axle from the other one in the model, metres."""
+    poses = (robot.pose_of_joint(joint) for joint, _ in drive.steering)
+    steered = [pose.translation[0] for pose in poses if pose is not None]
+    fixed = [w.centre[0] for w in drive.wheels if w.steering is None and w.centre is not None]
+    stated = abs(_number(drive.wheel_base, _USUAL_BASE)) or _USUAL_BASE
+    if not steered or not fixed:
+        return stated
+    return abs(sum(steered) / len(steered) - sum(fixed) / len(fixed)) or stated
+
+
+def _number(stated: Located[float] | None, usual: float) -> float:
+    return usual if stated is None or math.isnan(stated.value) else stated.value
+
+
+def _within_reach(drive: WheelDrive, curve: Knots) -> Knots:
+    """Keep a curvature within the tightest that the plugin allows: sin(limit) / wheel base."""
+    base = abs(_number(drive.wheel_base, _USUAL_BASE)) or _USUAL_BASE
+    limit = min(max(_number(drive.steering_limit, _USUAL_LIMIT), 0.0), math.pi / 2)
+    tightest = math.sin(limit) / base
+    return mixed((curve,), lambda k: max(-tightest, min(k, tightest)), _GRID)
+
+
+def _speeds(drive: WheelDrive, ahead: Knots, curve: Knots) -> dict[str, Knots]:
+    """Return the rates of the wheels: all of a side turn alike, as of a simple differential."""
+    radius = drive.wheel_radius.value
+    speeds: dict[str, Knots] = {}
+    for wheel in drive.wheels:
+        arm = _OUTWARDS[wheel.side] * drive.wheel_separation.value / 2
+
+        def speed(v: float, k: float, arm: float = arm) -> float:
+            return v * (1.0 + arm * k) / radius if radius else 0.0
+
+        speeds[wheel.joint.scoped_name] = mixed((ahead, curve), speed, _GRID)
+    return speeds
+
+
+def _angles(drive: WheelDrive, curve: Knots) -> Iterator[tuple[str, Knots]]:
+    """Yield the angles of the steering joints, by the plugin's wheel base and kingpin width."""
+    base = _number(drive.wheel_base, _USUAL_BASE)
+    for joint, side in drive.steering:
+        arm = _OUTWARDS[side] * _number(drive.kingpin_width, 0.0) / 2
+
+        def angle(k: float, arm: float = arm) -> float:
+            return math.atan2(base * k, 1.0 + arm * k)
+
+        yield joint.scoped_name, mixed((curve,), angle, _GRID)

@@ -9,7 +9,7 @@ from checker.model.components import Axis, Joint
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.values import parse_number
-from checker.physics.mass.joint_motion import AXES, Freedom, Motion, motions_of
+from checker.physics.mass.mechanism import AXES, Freedom, Motion, motions_of
 from checker.physics.trial.mjcf.names import LARGEST, bounded, numbers
 from checker.physics.trial.mjcf.repairs import Ledger
 

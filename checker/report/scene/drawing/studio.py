@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from checker.physics.mesh.surface import Surface, surface_from_json
 from checker.physics.trial.mjcf.names import numbers
-from checker.report.scene.drawing.camera import FIELD_OF_VIEW
+from checker.report.scene.drawing.request import FIELD_OF_VIEW
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

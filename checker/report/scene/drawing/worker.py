@@ -16,7 +16,7 @@ from typing import Any
 
 from checker.base.sandbox.files import NO_FILES, Files
 from checker.physics.mesh.surface import Surface, surface_to_json
-from checker.report.scene.drawing.camera import Camera
+from checker.report.scene.drawing.request import Camera
 from checker.report.scene.drawing.studio import (
     GROUND_GROUP,
     drawn_size,

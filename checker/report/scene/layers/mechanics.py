@@ -13,11 +13,11 @@ from checker.model.geometry.transform import Rotation, Transform, Vector
 from checker.physics.mass.inertia import moments_of
 from checker.physics.mesh.surface import Colour, Surface
 from checker.physics.trial.mjcf.names import FAR, usable, well_placed
+from checker.report.scene.mesh_files import short
 from checker.report.scene.primitives import bar, box, joined, revolved, sphere, tapered, tube
 from checker.report.scene.scene import Item, Layer
 from checker.report.scene.shapes import turn_to
 from checker.report.scene.shown_robot import Hung, Showing
-from checker.report.scene.surfaces import short
 
 # The layer of joints: an arrow along each axis.
 

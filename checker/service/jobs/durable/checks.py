@@ -2,7 +2,7 @@
 
 Every change is one transaction that holds only if the check is where it was thought to be: what a
 worker says that was taken for dead and comes back is not written. Checks go by their keys here and
-in all that follows (`checker.service.jobs.durable.keys`): a copy of the table opens no report.
+in all that follows (`checker.service.jobs.durable.tables`): a copy of the table opens no report.
 """
 
 from __future__ import annotations

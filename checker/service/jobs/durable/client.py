@@ -13,7 +13,7 @@ from checker.base.record import Record
 from checker.service.jobs.check import stored_result
 from checker.service.jobs.durable.checks import Checks, Step
 from checker.service.jobs.durable.database import open_database, prepare, reachable
-from checker.service.jobs.durable.keys import key_of_check
+from checker.service.jobs.durable.tables import key_of_check
 from checker.service.jobs.durable.workers import Workers
 from checker.service.jobs.durable.workflows import WAITS, Queues, queues_of
 from checker.service.jobs.outcome import Checked

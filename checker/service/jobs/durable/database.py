@@ -11,10 +11,9 @@ from urllib.parse import quote
 
 import sqlalchemy as sa
 
-from checker.base.private_files import tighten
+from checker.base.files import tighten
 from checker.base.words import plain, shortened
-from checker.service.jobs.durable.keys import LENGTH, key_of_check
-from checker.service.jobs.durable.tables import CHECKS, EVENTS, make_tables
+from checker.service.jobs.durable.tables import CHECKS, EVENTS, LENGTH, key_of_check, make_tables
 from checker.service.jobs.durable.workflows import WAITS, Queues, queues_of
 from checker.service.jobs.port import JobsUnreachable, Stage
 from checker.service.store.place import DATABASE, data_folder

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
 from starlette.datastructures import MutableHeaders
+from starlette.responses import Response, StreamingResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from checker.base.record import Record
@@ -55,3 +62,58 @@ def _add(headers: MutableHeaders, *, secure: bool) -> None:
     headers.setdefault("cache-control", _PRIVATE)
     if secure:
         headers["strict-transport-security"] = f"max-age={_HTTPS_SECONDS}"
+
+
+# The files of a result, each with a policy that lets it do nothing else.
+
+
+KINDS = {
+    "report.json": "application/json",
+    "report.sarif": "application/sarif+json",
+    "report.html": "text/html; charset=utf-8",
+    "index.html": "text/html; charset=utf-8",
+    "robot.glb": "model/gltf-binary",
+}
+"""Media types by name."""
+_HEAD = 4_096
+"""Bytes of a page that hold its own policy."""
+_PIECE = 262_144
+"""Bytes that are sent at once."""
+_SCRIPT = re.compile(rb"script-src '(sha256-[A-Za-z0-9+/]{43}=)'")
+_REPORT = (
+    "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; connect-src 'none'; "
+    "form-action 'none'; base-uri 'none'; frame-ancestors 'none'; "
+    # In an origin of its own, it could not reach the service even if it ran what it should not.
+    "sandbox allow-scripts allow-downloads allow-popups allow-popups-to-escape-sandbox; "
+    "script-src "
+)
+
+
+def file_response(path: Path) -> Response:
+    """Return the answer that sends a file of a result, as what its name says.
+
+    The file is open from here on: deleted meanwhile, it is sent all the same.
+
+    Raises:
+        FileNotFoundError: It has been deleted.
+    """
+    kind, file = KINDS[path.name], path.open("rb")
+    headers = {"content-length": str(os.fstat(file.fileno()).st_size)}
+    if kind.startswith("text/html"):
+        headers[POLICY] = _policy(file)
+    if path.name == "robot.glb":
+        headers["content-disposition"] = f'attachment; filename="{path.name}"'
+    return StreamingResponse(_pieces(file), media_type=kind, headers=headers)
+
+
+def _pieces(file: BinaryIO) -> Iterator[bytes]:
+    with file:
+        while piece := file.read(_PIECE):
+            yield piece
+
+
+def _policy(page: BinaryIO) -> str:
+    """Return the policy of a report: its own script runs, which its head names by hash."""
+    found = _SCRIPT.search(page.read(_HEAD))
+    page.seek(0)
+    return _REPORT + (f"'{found[1].decode('ascii')}'" if found else "'none'")

@@ -13,11 +13,17 @@ from starlette.responses import RedirectResponse, Response
 
 from checker.base.record import Record
 from checker.service.jobs.port import State
-from checker.service.web.answers.files import KINDS, file_response
+from checker.service.web.answers.headers import KINDS, file_response
 from checker.service.web.answers.problems import Problem
 from checker.service.web.answers.refusal import Refused
-from checker.service.web.api.events import HIGHEST, event_stream
-from checker.service.web.api.views import CheckView, Created, address_of, check_view
+from checker.service.web.api.views import (
+    HIGHEST,
+    CheckView,
+    Created,
+    address_of,
+    check_view,
+    event_stream,
+)
 from checker.service.web.services import Services
 from checker.service.web.uploads.transfer import new_check
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Mapping
+from functools import cache, partial
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
@@ -10,11 +12,13 @@ from checker.base.words import count, plain
 from checker.package.archives.archive import ARCHIVE_SUFFIXES
 from checker.package.archives.index import ArchiveLimits
 from checker.package.inputs import SINGLE_FILE_SUFFIXES
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.pages import about, escaped, parse_page, told
 from checker.rulebook.profiles import profile, profile_names
 from checker.service.jobs.port import Stage, State
 from checker.service.web.answers.refusal import not_found
 from checker.service.web.api.views import address_of
-from checker.service.web.pages import progress, rule_book
+from checker.service.web.pages import progress
 from checker.service.web.pages.progress import glance
 from checker.service.web.pages.site import FOLDER, html, static_file
 from checker.service.web.services import Services
@@ -22,8 +26,85 @@ from checker.service.web.uploads.transfer import new_check
 
 if TYPE_CHECKING:
     from fastapi import APIRouter
+    from markdown_it import MarkdownIt
+    from markupsafe import Markup
     from starlette.requests import Request
     from starlette.responses import Response
+
+
+# The rule book as the site shows it: a list by groups, and a page for each rule.
+
+
+class RuleEntry(Record):
+    """A rule in the list.
+
+    Attributes:
+        title: What is wrong, one line of HTML.
+    """
+
+    id: str
+    name: str
+    severity: str
+    title: Markup
+
+
+class RuleGroup(Record):
+    """Rules of one group.
+
+    Attributes:
+        title: What they are about, one line of HTML.
+    """
+
+    letters: str
+    title: Markup
+    rules: tuple[RuleEntry, ...]
+
+
+class RulePage(Record):
+    """All that is told of a rule; `body` is HTML."""
+
+    entry: RuleEntry
+    body: Markup
+
+
+@cache
+def rule_groups() -> tuple[RuleGroup, ...]:
+    """Return all rules by group."""
+    found = []
+    for letters, members in groupby(all_rules(), lambda rule: rule.group):
+        rules = list(members)
+        entries = tuple(rule_pages()[rule.id].entry for rule in rules)
+        found.append(RuleGroup(letters, _line(about(rules)), entries))
+    return tuple(found)
+
+
+@cache
+def rule_pages() -> Mapping[str, RulePage]:
+    """Return the page of each rule by its id."""
+    from markupsafe import Markup
+
+    made = {}
+    for rule in all_rules():
+        title = _line(escaped(parse_page(rule.page).title))
+        entry = RuleEntry(rule.id, rule.name, str(rule.severity), title)
+        # Markdown without HTML in it: what is rendered is safe, whoever wrote the rule.
+        body = Markup(_markdown().render("\n\n".join(told(rule))))  # noqa: S704
+        made[rule.id] = RulePage(entry, body)
+    return made
+
+
+def _line(markdown: str) -> Markup:
+    from markupsafe import Markup
+
+    return Markup(_markdown().renderInline(markdown))  # noqa: S704
+
+
+@cache
+def _markdown() -> MarkdownIt:
+    from markdown_it import MarkdownIt
+
+    return MarkdownIt("commonmark", {"html": False}).enable("table")
+
 
 _PACKAGES_SHOWN = 500
 _FILES = {
@@ -119,13 +200,13 @@ class _Pages(Record):
 
 
 def _rules(_: Request) -> Response:
-    groups = rule_book.groups()
+    groups = rule_groups()
     number = sum(len(each.rules) for each in groups)
     return html("rules.html.j2", here="rules", groups=groups, number=number)
 
 
 def _rule(request: Request) -> Response:
-    page = rule_book.pages().get(request.path_params["id"].upper())
+    page = rule_pages().get(request.path_params["id"].upper())
     if page is None:
         raise not_found()
     return html("rule.html.j2", entry=page.entry, body=page.body)

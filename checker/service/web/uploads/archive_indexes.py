@@ -13,8 +13,8 @@ from time import monotonic
 from typing import Any
 
 from checker.base.child_process import from_json
-from checker.base.disk_file import open_file
 from checker.base.errors import UnreadableInput
+from checker.base.files import open_file
 from checker.base.sandbox.launcher import Launcher, Order, OwnLauncher
 
 _MODULE = "checker.package.archives.index_process"

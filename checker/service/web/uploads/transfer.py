@@ -21,8 +21,8 @@ from checker.base.words import plain
 from checker.package.archives.archive import ARCHIVE_SUFFIXES
 from checker.rulebook.profiles import profile_names
 from checker.service.jobs.port import Order
-from checker.service.store.incoming import Incoming, TooLarge
 from checker.service.store.store import Store
+from checker.service.store.workplace import Incoming, TooLarge
 from checker.service.web.answers.refusal import Refused, sentence
 from checker.service.web.config import Config
 from checker.service.web.services import Services

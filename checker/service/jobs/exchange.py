@@ -1,0 +1,143 @@
+"""What goes to and fro between a worker and the process that checks, and where that one works."""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from checker.base.files import NotReadable, read_bytes
+from checker.base.sandbox.files import Content, Files
+from checker.base.words import listed, plain, shortened
+from checker.finding import Severity
+from checker.report.files import package_folders
+from checker.report.report import Report, VerdictKind
+from checker.report.summary import sentence
+from checker.service.jobs.outcome import Checked
+
+# What the state of a check says of its packages: made by the child, read by the worker.
+
+
+_PACKAGES_LIMIT = 5_000
+_TEXT_LIMIT = 1_000
+_TEXTS, _NUMBERS = ("name", "folder"), ("errors", "warnings", "infos")
+
+
+def summary(report: Report) -> dict[str, Any]:
+    """Return what a report says in short.
+
+    "packages", as in `State.packages`; "words": what came out, one sentence; "crashed": whether a
+    rule could not run because of the checker itself.
+    """
+    packages = [
+        {
+            "name": shortened(plain(package.name), _TEXT_LIMIT),
+            "verdict": package.verdict.value,
+            "errors": package.count(Severity.ERROR),
+            "warnings": package.count(Severity.WARNING),
+            "infos": package.count(Severity.INFO),
+            "folder": folder,
+        }
+        for package, folder in zip(report.packages, package_folders(report), strict=True)
+    ]
+    words = shortened(_words(report), _TEXT_LIMIT)
+    crashed = any(package.crashed for package in report.packages)
+    return {"packages": packages, "words": words, "crashed": crashed}
+
+
+def _words(report: Report) -> str:
+    if len(report.packages) == 1:
+        return str(sentence(report.packages[0]))
+    kinds = Counter(package.verdict for package in report.packages)
+    said = [f"{kinds[kind]} {kind.replace('_', ' ')}" for kind in VerdictKind if kinds[kind]]
+    return f"{len(report.packages)} packages: {listed(said)}"
+
+
+def read_summary(key: str, said: Any) -> Checked | None:
+    """Return what a summary says; None for what is none."""
+    match said:
+        case {"packages": list(packages), "words": str(words)} if len(
+            packages
+        ) <= _PACKAGES_LIMIT and all(map(_is_package, packages)):
+            names = (*_TEXTS, "verdict", *_NUMBERS)
+            kept = tuple({name: each[name] for name in names} for each in packages)
+            return Checked(key, kept, shortened(plain(words), _TEXT_LIMIT))
+    return None
+
+
+def _is_package(said: Any) -> bool:
+    return (
+        isinstance(said, Mapping)
+        and all(_is_text(said.get(name)) for name in _TEXTS)
+        and said.get("verdict") in list(VerdictKind)
+        and all(type(said.get(name)) is int and said[name] >= 0 for name in _NUMBERS)
+    )
+
+
+def _is_text(said: Any) -> bool:
+    return isinstance(said, str) and len(said) <= _TEXT_LIMIT
+
+
+UPLOAD = "upload"
+"""Name of the upload among the files of a request."""
+GIVEN = "given/upload"
+"""Folder of the upload, in which the process runs; reports show neither."""
+TEMPORARY = "temporary"
+"""Folder of what is unpacked."""
+CACHE = "cache"
+"""Folder of what was worked out, kept from the first stage of a check for its second."""
+_PART = re.compile(r"cache/([a-z]{1,40})/([0-9a-f]{2})/(\2[0-9a-f]{62})\.json")
+_PART_LIMIT = 200_000_000
+_LOOKED_AT = 20_000
+
+
+def settle(place: Path, name: str, files: Files) -> None:
+    """Lay out what was handed over, and work there.
+
+    Args:
+        place: An empty folder.
+        name: Of the uploaded file.
+        files: The upload, and parts of an earlier check of it.
+    """
+    given = place / GIVEN
+    for folder in (given, place / TEMPORARY):
+        folder.mkdir(parents=True)
+    # The search for settings ends at the root of a repository: none of this machine's shall judge.
+    (given.parent / ".git").touch()
+    _write(given / name, files, UPLOAD)
+    for part in filter(is_part, files.names):
+        (place / part).parent.mkdir(parents=True, exist_ok=True)
+        _write(place / part, files, part)
+    os.chdir(given)
+    os.environ["TMPDIR"] = str(place / TEMPORARY)
+    os.environ["SUBT_CHECK_CACHE"] = str(place / CACHE)
+    tempfile.tempdir = None  # a library may have asked for it before
+
+
+def _write(path: Path, files: Files, name: str) -> None:
+    with path.open("wb") as file:
+        files.copy(name, file)
+
+
+def is_part(name: str) -> bool:
+    """Say whether a name is that of a part of a check in its cache."""
+    return _PART.fullmatch(name) is not None
+
+
+def new_parts(place: Path, known: Iterable[str]) -> Iterator[tuple[str, Content]]:
+    """Yield what a check has worked out: names, and what is in them.
+
+    Args:
+        place: Where it worked.
+        known: Names of what was known before.
+    """
+    before = set(known)
+    for path in sorted((place / CACHE).glob("*/??/*.json"))[:_LOOKED_AT]:
+        name = path.relative_to(place).as_posix()
+        content = read_bytes(path, name, _PART_LIMIT)
+        if is_part(name) and name not in before and not isinstance(content, NotReadable):
+            yield name, content
