@@ -18,8 +18,7 @@ from typing import Any
 
 from checker.base.errors import WorkerFailed
 from checker.base.forked_work import in_fork
-from checker.expand.xacro.included_texts import Gathered
-from checker.expand.xacro.paths import path_of
+from checker.expand.xacro.files import Gathered, path_of
 from checker.package.inputs import open_input
 
 ROOT = Path(__file__).parent.parent

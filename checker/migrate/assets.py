@@ -62,7 +62,7 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     request = json.dumps({"shapes": shapes}).encode()
     files = dict.fromkeys((str(each["file"]) for each in shapes if each["file"]), SIZE_LIMIT)
     limits = Limits(_SECONDS, _MEMORY, draws=True)
-    said = ask("checker.migrate.drawing", request, limits, from_disk(files.items()))
+    said = ask("checker.migrate.thumbnail_worker", request, limits, from_disk(files.items()))
     if isinstance(said, WorkerFailed):
         return Thumbnails(trouble=_trouble(f"the process that draws {said.reason}"))
     try:

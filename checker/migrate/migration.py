@@ -34,9 +34,8 @@ from checker.migrate.names import (
 )
 from checker.migrate.new_package import Known, Staging, staged, texts
 from checker.migrate.options import MigrationOptions, NotMigrated
-from checker.migrate.plugins import Judged, judge_plugins
+from checker.migrate.plugins import Judged, Servo, judge_plugins, servos_of
 from checker.migrate.sensors import rewrite_sensors
-from checker.migrate.servos import Servo, servos_of
 from checker.migrate.source import Source, opened_source, original_text, papers_of
 from checker.migrate.wheels import find_drive_wheels
 from checker.migrate.xml_parts import sharpen_angles

@@ -22,7 +22,7 @@ from checker.migrate.drive import LATERAL_COMPLIANCE, Drive
 from checker.migrate.measured_facts import Facts, sensor_lines
 from checker.migrate.names import Names
 from checker.migrate.options import NotMigrated
-from checker.migrate.servos import Servo
+from checker.migrate.plugins import Servo
 from checker.migrate.source import Papers
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import placed, union
 from checker.model.robot import Robot
-from checker.model.sensing.mounting import Mounted, mounted_sensors
+from checker.model.sensing.mounts import Mounted, mounted_sensors
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

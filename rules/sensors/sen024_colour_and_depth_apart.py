@@ -15,7 +15,7 @@ import math
 
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.model.sensing.mounting import Mounted, mounted_sensors
+from checker.model.sensing.mounts import Mounted, mounted_sensors
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 _COMPARED = 100

@@ -11,7 +11,7 @@ Source: SDFormat specification, sensor/pose; REP 103 (x forward, y left, z up).
 import math
 
 from checker.model.robot import Robot
-from checker.model.sensing.mounting import called_directions, mounted_sensors
+from checker.model.sensing.mounts import called_directions, mounted_sensors
 from checker.rule import Findings, Severity, finding, rule, unchecked
 
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from checker.base.sandbox.layers import ALL, Layer
 from checker.cli import main
-from checker.cli.doctor import command, installation
+from checker.cli.doctor import command, installation, self_test
 from checker.cli.doctor import installation as of_sandbox
 from checker.cli.doctor.installation import Result, State, numbers, result, sandbox, surroundings
 from tests.command.conftest import Run
@@ -159,7 +159,7 @@ def test_without_an_installation_the_versions_are_unknown(monkeypatch: pytest.Mo
 def test_a_robot_with_faults_fails_the_self_test(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(command, "sample", lambda: SAMPLES / BROKEN)
+    monkeypatch.setattr(self_test, "sample", lambda: SAMPLES / BROKEN)
     assert main(["doctor"]) == 1
     assert "problem the self-test fails: " in capsys.readouterr().out
 
@@ -167,7 +167,7 @@ def test_a_robot_with_faults_fails_the_self_test(
 def test_a_sample_that_is_not_there_fails_the_self_test(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(command, "sample", lambda: tmp_path / "gone")
+    monkeypatch.setattr(self_test, "sample", lambda: tmp_path / "gone")
     assert command.self_test().state is State.PROBLEM
 
 

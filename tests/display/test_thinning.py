@@ -7,8 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.physics.mesh.surface import GREY, Surface, appearance_from_json, appearance_to_json
-from checker.physics.mesh.thinning import joined, shares, thinned
+from checker.physics.mesh.surface import (
+    GREY,
+    Surface,
+    appearance_from_json,
+    appearance_to_json,
+    joined,
+    shares,
+    thinned,
+)
 from tests.mesh.files import box, cylinder
 
 COUNTS = st.lists(st.integers(0, 10**9), min_size=1, max_size=50)

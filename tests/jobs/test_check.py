@@ -17,7 +17,7 @@ import pytest
 
 from checker.service.jobs.check import check_upload, stored_result
 from checker.service.jobs.children import Children
-from checker.service.jobs.limits import StageLimits
+from checker.service.jobs.exchange import StageLimits
 from checker.service.jobs.outcome import Cancelled, Checked, Died, Outcome, Refused
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import SUMMARY, Store

@@ -16,7 +16,7 @@ from checker.base.sandbox.launcher import OwnLauncher
 from checker.base.sandbox.layers import NAMESPACES
 from checker.service.jobs.check import check_upload
 from checker.service.jobs.children import Children
-from checker.service.jobs.limits import NICENESS
+from checker.service.jobs.exchange import NICENESS
 from checker.service.jobs.outcome import Checked, Outcome
 from checker.service.jobs.port import Order, Stage
 from checker.service.store.store import Store

@@ -7,7 +7,7 @@ import sys
 
 BEGIN = """
 import os, socket, sys
-from checker.service.jobs.limits import StageLimits, limit
+from checker.service.jobs.exchange import StageLimits, limit
 limit(StageLimits(seconds=7.5, memory=2_000_000_000, file_bytes=1000, open_files=64))
 """
 

@@ -47,7 +47,7 @@ def test_a_mesh_that_cannot_be_drawn_is_not_a_lack_of_opengl(
     tmp_path: Path, mesh: str, said: str
 ) -> None:
     request, path = request_of(tmp_path, mesh), str(tmp_path / "a.obj")
-    drawn = ask("checker.migrate.drawing", request, LIMITS, [(path, mesh.encode())])
+    drawn = ask("checker.migrate.thumbnail_worker", request, LIMITS, [(path, mesh.encode())])
     assert isinstance(drawn, bytes)
     unable = json.loads(drawn)["unable"]
     assert said in unable or unable == NO_OPENGL

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from checker.model.sensing.mounting import Mounted, called_directions, mounted_sensors
+from checker.model.sensing.mounts import Mounted, called_directions, mounted_sensors
 from tests.model.robots import sdf
 
 

@@ -27,7 +27,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from checker.base.sandbox.system_calls import architecture, number_of
+from checker.base.sandbox.seccomp import architecture
 
 Assets = dict[str, Any]
 ATTEMPTS: dict[str, Callable[[Assets], object]] = {}
@@ -94,7 +94,7 @@ def call(name: str, *arguments: object) -> int:
     """
     machine = architecture()
     assert machine is not None
-    number = number_of(name, machine)
+    number = machine.calls[name]
     if number is None:
         raise OSError(errno.ENOSYS, "there is no such call")
     return called(number, *arguments)

@@ -11,7 +11,7 @@ import sys
 
 from checker import cli
 from checker.base.sandbox import seccomp
-from checker.base.sandbox.system_calls import architecture, number_of
+from checker.base.sandbox.seccomp import architecture
 
 _CREATE_RULESET = 444
 _SETGROUPS = {"x86_64": 116, "aarch64": 159}
@@ -23,7 +23,7 @@ def tear_down() -> None:
     assert machine is not None
     steps = [(seccomp._LOAD, 0, 0, seccomp._NUMBER)]
     for number in (
-        number_of("unshare", machine),
+        machine.calls["unshare"],
         _CREATE_RULESET,
         _SETGROUPS[platform.machine()],
     ):

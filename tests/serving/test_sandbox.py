@@ -19,8 +19,8 @@ from checker.base.sandbox.layers import (
     Layer,
     hides_files,
 )
+from checker.service.exposure import risk_of
 from checker.service.jobs.sandbox import layers_of_checks
-from checker.service.processes.exposure import risk_of
 from checker.service.store.store import Store
 from tests.serving.conftest import Serve, wait_for
 from tests.serving.test_serve import get, refused

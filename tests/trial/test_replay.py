@@ -10,8 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.model.robot import Robot
-from checker.physics.trial.mjcf.carriers import TRACKED, carriers_of
-from checker.physics.trial.mjcf.scene import build_scene
+from checker.physics.trial.mjcf.scene import TRACKED, build_scene, carriers_of
 from checker.physics.trial.trial import Replay, Trial
 from tests.model.robots import sdf
 from tests.trial.machines import four_wheels, trial_in_child

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from checker.base.cache import NO_CACHE
 from checker.expand.xacro.expanded import expanded_document
-from checker.expand.xacro.included_texts import Gathered
+from checker.expand.xacro.files import Gathered
 from checker.model.components import Link
 from checker.source.text import SourceText, Span
 from checker.source.xml import XmlDocument, parse_xml

@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from checker.physics.views.obstacles import SOLIDS, entered, met
 from checker.physics.views.rays import Grid, Steps
-from checker.physics.views.solids import SOLIDS, entered
-from checker.physics.views.triangles import met
 from tests.effort import examples
 from tests.mesh.files import box
 

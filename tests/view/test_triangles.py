@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from checker.physics.views.obstacles import ball_around, in_view, met
 from checker.physics.views.rays import Grid, Steps
-from checker.physics.views.triangles import ball_around, in_view, met
 from tests.effort import examples
 from tests.mesh.files import box
 

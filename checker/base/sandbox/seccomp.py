@@ -9,10 +9,39 @@ from __future__ import annotations
 
 import ctypes
 import os
+import platform
 import struct
-from collections.abc import Iterable, Iterator
+import sys
+from collections.abc import Iterable, Iterator, Mapping
 
-from checker.base.sandbox.system_calls import Architecture, architecture, number_of
+from checker.base.record import Record
+from checker.base.resources import table
+
+# Numbers of Linux system calls, by architecture (`checker/data/system_calls.json`).
+
+
+_32_BITS = 2**32
+
+
+class Architecture(Record):
+    """How one kind of processor calls the kernel.
+
+    Attributes:
+        audit: Its AUDIT_ARCH number, which a filter of system calls is told.
+        foreign: Least number of calls by another convention (x32); 0 where there is none.
+        calls: Number of each call by its name; None where it has no such call.
+    """
+
+    audit: int
+    foreign: int
+    calls: Mapping[str, int | None]
+
+
+def architecture() -> Architecture | None:
+    """Return that of this process; None where its calls are not known."""
+    known = table("system_calls")["architectures"].get(platform.machine())
+    return Architecture(**known) if known and sys.maxsize > _32_BITS else None
+
 
 FORBIDDEN = (
     # Other machines, and other processes of this one.
@@ -149,7 +178,7 @@ def program(machine: Architecture, also: Iterable[str], own: int | None) -> list
 
 def _on(name: str, machine: Architecture, then: list[Step]) -> list[Step]:
     """Return the steps that do something about one call."""
-    number = number_of(name, machine)
+    number = machine.calls[name]
     return [] if number is None else [(_EQUAL, 0, len(then), number), *then]
 
 

@@ -15,7 +15,7 @@ from checker.expand.launch.attributes import Reader, truth_of
 from checker.expand.launch.graph import LaunchGraph, UnresolvedInclude
 from checker.expand.launch.scope import HERE, Scope
 from checker.expand.launch.substitution import is_known
-from checker.expand.xacro.paths import ROOT
+from checker.expand.xacro.files import ROOT
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 

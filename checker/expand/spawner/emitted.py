@@ -6,7 +6,7 @@ from bisect import bisect_right
 from functools import cached_property
 from itertools import accumulate
 
-from checker.expand.spawner.traced import NO_PARAMETERS, Piece, TracedString
+from checker.expand.spawner.literals import NO_PARAMETERS, Piece, TracedString
 from checker.finding import Place
 from checker.source.text import SourceText, Span
 

@@ -14,8 +14,8 @@ from checker.expand.spawner.limits import (
     MAX_NUMBER_LENGTH,
     MAX_PATH_LENGTH,
 )
+from checker.expand.spawner.literals import computed
 from checker.expand.spawner.methods.call import Call, Methods
-from checker.expand.spawner.traced import computed
 from checker.expand.spawner.values import RubyArray, RubyHash, RubyString, Value, key_of
 from checker.source.text import SourceText, Span
 

@@ -16,6 +16,7 @@ from checker.expand.spawner.evaluator.statements import STATEMENTS, function_of
 from checker.expand.spawner.evaluator.variables import VARIABLES
 from checker.expand.spawner.files import SpawnerFiles
 from checker.expand.spawner.limits import MAX_FILE_LENGTH, LimitReached
+from checker.expand.spawner.literals import computed
 from checker.expand.spawner.scope import Function, Scope
 from checker.expand.spawner.signals import (
     Broken,
@@ -25,7 +26,6 @@ from checker.expand.spawner.signals import (
     Unread,
     Unreadable,
 )
-from checker.expand.spawner.traced import computed
 from checker.expand.spawner.values import RubyString, Value, class_name
 from checker.source.ruby import ParsesTooSlowly, RubyNode, SyntaxFault, parse_ruby, syntax_faults
 from checker.source.text import SourceText

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from checker.base.record import Record
 from checker.expand.spawner.limits import CHARACTERS_PER_STEP, Budget
-from checker.expand.spawner.traced import NO_PARAMETERS, TracedString
+from checker.expand.spawner.literals import NO_PARAMETERS, TracedString
 from checker.source.ruby import RubyNode
 
 if TYPE_CHECKING:

@@ -7,9 +7,8 @@ from functools import cached_property
 from typing import Any
 
 from checker.expand.spawner.emitted import EmittedText
-from checker.expand.spawner.traced import Piece
-from checker.expand.xacro.included_texts import Gathered
-from checker.expand.xacro.paths import ROOT
+from checker.expand.spawner.literals import Piece
+from checker.expand.xacro.files import ROOT, Gathered
 from checker.finding import Place
 from checker.source.text import SourceText, Span
 from checker.source.xml import Element, XmlDocument, parse_xml

@@ -13,8 +13,7 @@ from checker.base.errors import WorkerFailed
 from checker.base.record import Record
 from checker.expand.xacro.expanded import expanded_document
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
-from checker.expand.xacro.included_texts import Gathered
-from checker.expand.xacro.paths import path_of
+from checker.expand.xacro.files import Gathered, path_of
 from checker.expand.xacro.worker import SECONDS_FOR_ALL
 from checker.package.package import Package
 from checker.source.text import Span

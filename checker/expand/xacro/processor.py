@@ -30,7 +30,7 @@ from checker.expand.xacro.expression.bounds import (
 from checker.expand.xacro.expression.evaluation import evaluate
 from checker.expand.xacro.expression.function import functions
 from checker.expand.xacro.expression.interpreter import Names
-from checker.expand.xacro.paths import ROOT
+from checker.expand.xacro.files import ROOT
 from checker.expand.xacro.symbols import EvalNames, global_symbols, text_value
 from checker.expand.xacro.yaml_values import read
 

@@ -16,8 +16,7 @@ from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
 from checker.model.sdf.document import parse_version, sdf_version
 from checker.model.sdf.frame_faults import unknown_frames
-from checker.model.sdf.joints import read_frame, read_joint
-from checker.model.sdf.links import read_link, read_plugin
+from checker.model.sdf.links import read_frame, read_joint, read_link, read_plugin
 from checker.model.sdf.scope import Scope
 from checker.model.values import ValueReader
 from checker.package.manifests import SdfEntry, read_model_config

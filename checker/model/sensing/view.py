@@ -5,7 +5,7 @@ from __future__ import annotations
 from checker.base.record import Record
 from checker.model.components import Link, Visual
 from checker.model.robot import Robot
-from checker.model.sensing.mounting import Mounted
+from checker.model.sensing.mounts import Mounted
 
 
 class View(Record, eq=False):

@@ -19,7 +19,7 @@ from checker.expand.launch.launch_file import Load, loads
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
 from checker.expand.xacro.expansion import Expansions, Outcome, Unread, Wanted
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
-from checker.expand.xacro.paths import local_path
+from checker.expand.xacro.files import local_path
 from checker.model.urdf.description import read_description
 from checker.model.urdf.files import UrdfFiles
 from checker.package.kind import PackageKind

@@ -21,8 +21,14 @@ from checker.base.forked_work import Forks
 from checker.base.sandbox.files import Files
 from checker.physics.mesh.content import NoSurface, Piece, by_material
 from checker.physics.mesh.reader import read_content
-from checker.physics.mesh.surface import Appearance, Surface, appearance_to_json
-from checker.physics.mesh.thinning import joined, shares, thinned
+from checker.physics.mesh.surface import (
+    Appearance,
+    Surface,
+    appearance_to_json,
+    joined,
+    shares,
+    thinned,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from checker.base.record import Record
@@ -11,6 +12,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[Any]
+
 
 Colour = tuple[float, float, float, float]
 """Red, green, blue and alpha as sRGB has them, 0 to 1."""
@@ -101,3 +103,107 @@ def _unpacked(packed: str, kind: str, width: int) -> Array:
 
     # binascii.Error is a ValueError.
     return np.frombuffer(base64.b64decode(packed), kind).reshape(-1, width)
+
+
+# Surfaces with few enough triangles: equal corners made one, then edges collapsed.
+
+
+SMALL = 2000
+"""Triangles; what has no more keeps all of them where there is room."""
+
+
+def shares(counts: Sequence[int], budget: int, small: int = SMALL) -> list[int]:
+    """Return how many triangles each of several parts may have, `budget` in all.
+
+    Each keeps up to `small` of its own, and the same share of the others.
+
+    Args:
+        counts: How many each of them has.
+        budget: For all of them.
+        small: At most.
+    """
+    if sum(counts) <= budget:
+        return list(counts)
+    kept = [min(count, small, budget // len(counts)) for count in counts]
+    left = sum(counts) - sum(kept)
+    room = budget - sum(kept)
+    return [low + room * (count - low) // left for count, low in zip(counts, kept, strict=True)]
+
+
+def joined(corners: Array, colour: Colour, colours: Array | None, places: Array | None) -> Surface:
+    """Return triangles that share their corners.
+
+    Args:
+        corners: Metres (n × 3 × 3).
+        colour: Of all of them.
+        colours: Of the corners (n × 3 × 4, uint8), averaged where corners become one.
+        places: In a picture (n × 3 × 2); corners with different ones stay apart.
+    """
+    import numpy as np
+
+    # Adding 0 makes -0 equal to it.
+    points = np.ascontiguousarray(corners, np.float32).reshape(-1, 3) + np.float32(0.0)
+    rows = points
+    if colours is not None and places is not None:
+        rows = np.hstack([points, places.reshape(-1, 2).astype(np.float32)])
+    as_bytes = np.ascontiguousarray(rows).view(np.dtype((np.void, rows.shape[1] * 4))).ravel()
+    _, first, number = np.unique(as_bytes, return_index=True, return_inverse=True)
+    mixed = None if colours is None else _averaged(colours.reshape(-1, 4), number, len(first))
+    faces = number.reshape(-1, 3).astype(np.uint32)
+    three = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    return Surface(points[first], faces[three], colour, mixed)
+
+
+def _averaged(colours: Array, number: Array, count: int) -> Array:
+    import numpy as np
+
+    uses = np.bincount(number, minlength=count)
+    sums = [np.bincount(number, channel, count) / uses for channel in colours.T]
+    return np.stack(sums, axis=1).round().astype(np.uint8)
+
+
+def thinned(surface: Surface, most: int) -> Surface:
+    """Return a surface with at most some number of triangles.
+
+    Edges are collapsed where that changes the surface least (quadric error metrics, Garland and
+    Heckbert 1997). Where nothing more can be collapsed, the smallest triangles are left out.
+    """
+    import numpy as np
+
+    if len(surface.faces) <= most:
+        return surface
+    vertices, faces, colours = _collapsed(surface, most)
+    if len(faces) > most:
+        a, b, c = vertices[faces].transpose(1, 0, 2)
+        area = (np.cross(b - a, c - a) ** 2).sum(axis=1)
+        faces = faces[np.sort(np.argsort(-area, kind="stable")[:most])]
+    used, number = np.unique(faces, return_inverse=True)
+    return Surface(
+        vertices[used],
+        number.reshape(-1, 3).astype(np.uint32),
+        surface.colour,
+        None if colours is None else colours[used],
+    )
+
+
+def _collapsed(surface: Surface, most: int) -> tuple[Array, Array, Array | None]:
+    """Return corners, triangles and the corners' colours once edges are collapsed."""
+    import fast_simplification
+    import numpy as np
+
+    # Far from 1 the library's own limits of what is small do not hold.
+    middle = surface.vertices.mean(axis=0, dtype=np.float64)
+    size = float(np.abs(surface.vertices - middle).max()) or 1.0
+    points, faces = (surface.vertices - middle) / size, surface.faces.astype(np.int32)
+    least, corners, collapses = fast_simplification.simplify(
+        points, faces, target_count=most, return_collapses=True
+    )
+    colours = surface.vertex_colours
+    if colours is not None:
+        least, corners, number = fast_simplification.replay_simplification(points, faces, collapses)
+        mixed = np.zeros((len(least), 4), np.uint8)
+        mixed[number] = colours
+        colours = mixed
+    sound = np.isfinite(least).all(axis=1)
+    corners = corners[sound[corners].all(axis=1)]
+    return (least * size + middle).astype(np.float32), corners, colours

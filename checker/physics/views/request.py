@@ -11,10 +11,10 @@ from checker.model.components import Link, Visual
 from checker.model.geometry.transform import Transform
 from checker.model.mesh import MeshFault
 from checker.model.robot import Robot
-from checker.model.sensing.mounting import Mounted, mounted_sensors
+from checker.model.sensing.mounts import Mounted, mounted_sensors
 from checker.physics.mesh.uris import MeshFile
+from checker.physics.views.obstacles import SOLIDS
 from checker.physics.views.rays import grid_of
-from checker.physics.views.solids import SOLIDS
 from checker.source.text import Located
 
 SENSORS, VISUALS = 60, 3000

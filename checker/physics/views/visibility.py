@@ -14,9 +14,8 @@ from checker.base.files import NotReadable
 from checker.base.sandbox.files import Content
 from checker.physics.mesh.content import NoSurface
 from checker.physics.mesh.reader import read_content
+from checker.physics.views.obstacles import ball_around, entered, in_view, met
 from checker.physics.views.rays import Grid, grid_from_json
-from checker.physics.views.solids import entered
-from checker.physics.views.triangles import ball_around, in_view, met
 
 if TYPE_CHECKING:
     from numpy import bool_, float64

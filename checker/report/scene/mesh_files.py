@@ -22,8 +22,7 @@ from checker.package.package import Package
 from checker.physics.mesh import process
 from checker.physics.mesh.obj import MATERIAL_LIMIT
 from checker.physics.mesh.package_meshes import PackageMeshes
-from checker.physics.mesh.surface import Appearance, Surface, appearance_from_json
-from checker.physics.mesh.thinning import shares
+from checker.physics.mesh.surface import Appearance, Surface, appearance_from_json, shares
 from checker.physics.mesh.uris import MeshFile
 from checker.source.text import Located
 

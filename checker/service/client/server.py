@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 from checker.base.errors import CheckerError
 from checker.base.record import Record
 from checker.base.words import plain, shortened
-from checker.service.loopback import is_loopback
+from checker.service.exposure import is_loopback
 
 _PORTS = {"http": 80, "https": 443}
 _HOST = re.compile(r"[A-Za-z0-9._:-]+")

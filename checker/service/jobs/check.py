@@ -26,8 +26,7 @@ from checker.base.words import plain
 from checker.engine.report_cache import program_parts
 from checker.report.files import ARTEFACT_NAME
 from checker.service.jobs.children import ANSWER_LIMIT, Children, Ended
-from checker.service.jobs.exchange import CACHE, UPLOAD, is_part, read_summary
-from checker.service.jobs.limits import StageLimits
+from checker.service.jobs.exchange import CACHE, UPLOAD, StageLimits, is_part, read_summary
 from checker.service.jobs.outcome import (
     FAILED_INSIDE,
     UNFINISHED,

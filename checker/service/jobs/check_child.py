@@ -26,8 +26,7 @@ from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import INPUT, Answer
 from checker.physics.mesh.process import mesh_server
 from checker.report.report import Report
-from checker.service.jobs.exchange import GIVEN, TEMPORARY, new_parts, settle
-from checker.service.jobs.limits import StageLimits, limit
+from checker.service.jobs.exchange import GIVEN, TEMPORARY, StageLimits, limit, new_parts, settle
 from checker.service.jobs.port import Stage
 
 # Reports that do not show where on this machine an upload lay while it was checked.

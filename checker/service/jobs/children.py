@@ -14,7 +14,7 @@ from checker.base.child_process import Child, Limits
 from checker.base.record import Record
 from checker.base.sandbox.files import NO_FILES, Content, Files
 from checker.base.sandbox.launcher import OwnLauncher
-from checker.service.jobs.limits import NICENESS, StageLimits
+from checker.service.jobs.exchange import NICENESS, StageLimits
 from checker.service.store.store import Store
 
 MODULE = "checker.service.jobs.check_child"

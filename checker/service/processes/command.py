@@ -18,8 +18,8 @@ from checker.base.files import UMASK
 from checker.base.output import EXIT_CLEAN, EXIT_CRASH, say_progress, show
 from checker.base.sandbox.launcher import module_path
 from checker.base.signals import on_requests_to_end
+from checker.service.exposure import address_of, listening, risk_of, warning_of
 from checker.service.processes.child import CHILD
-from checker.service.processes.exposure import address_of, listening, risk_of, warning_of
 from checker.service.processes.supervisor import Pace, Process, keep_running, stop_all
 from checker.service.store.place import data_folder
 

@@ -14,8 +14,8 @@ from starlette.responses import Response
 
 from checker.base.record import Record
 from checker.base.sandbox.layers import hides_files
+from checker.service.exposure import is_loopback
 from checker.service.jobs.port import SILENCE_SECONDS, Alive, JobsUnreachable
-from checker.service.loopback import is_loopback
 from checker.service.web.answers.problems import Problem
 from checker.service.web.answers.refusal import Refused, not_found
 from checker.service.web.limits.admission import bearer

@@ -11,12 +11,12 @@ from checker.expand.spawner.literals import (
     DOUBLE_QUOTED,
     RAW,
     Range,
+    TracedString,
     decoded,
     heredoc_parts,
     single_quoted,
 )
 from checker.expand.spawner.signals import Unreadable
-from checker.expand.spawner.traced import TracedString
 from checker.expand.spawner.values import (
     RubyArray,
     RubyHash,

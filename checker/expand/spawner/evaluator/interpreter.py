@@ -15,9 +15,9 @@ from checker.expand.spawner.limits import (
     Budget,
     LimitReached,
 )
+from checker.expand.spawner.literals import NO_PARAMETERS, TracedString, computed, joined
 from checker.expand.spawner.scope import Function, Scope
 from checker.expand.spawner.signals import Unreadable
-from checker.expand.spawner.traced import NO_PARAMETERS, TracedString, computed, joined
 from checker.expand.spawner.value_text import NotWritable, to_s
 from checker.expand.spawner.values import NIL, Data, RubyArray, RubyString, Value, equal
 from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby

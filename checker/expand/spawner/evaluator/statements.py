@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from checker.expand.spawner.evaluator.expressions import elements
 from checker.expand.spawner.evaluator.interpreter import Handler, Interpreter
 from checker.expand.spawner.evaluator.variables import assign, mark_untaken
+from checker.expand.spawner.literals import NO_PARAMETERS
 from checker.expand.spawner.methods.enumerable import items_of
 from checker.expand.spawner.scope import Function, parameters_of
 from checker.expand.spawner.signals import (
@@ -16,7 +17,6 @@ from checker.expand.spawner.signals import (
     RubyError,
     Unreadable,
 )
-from checker.expand.spawner.traced import NO_PARAMETERS
 from checker.expand.spawner.values import (
     NIL,
     Constant,

@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
+from checker.expand.spawner.literals import TracedString
 from checker.expand.spawner.scope import Scope
 from checker.expand.spawner.signals import Continued, RubyError, Unreadable
-from checker.expand.spawner.traced import TracedString
 from checker.expand.spawner.values import (
     NIL,
     Block,

@@ -6,6 +6,7 @@ import posixpath
 from collections.abc import Mapping
 
 from checker.expand.spawner.files import FILE, YAML, absolute, folder_of, resolve, workspace_path
+from checker.expand.spawner.literals import TracedString
 from checker.expand.spawner.methods.call import Call, Method, Methods, check_arity
 from checker.expand.spawner.methods.collections import ARRAY, HASH, HASH_WITH_BLOCK
 from checker.expand.spawner.methods.enumerable import (
@@ -21,7 +22,6 @@ from checker.expand.spawner.methods.number import (
 )
 from checker.expand.spawner.methods.string import STRING
 from checker.expand.spawner.signals import ERROR_CLASSES, RubyError, Unreadable
-from checker.expand.spawner.traced import TracedString
 from checker.expand.spawner.value_text import formatted
 from checker.expand.spawner.values import (
     NIL,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
+from checker.expand.spawner.literals import TracedString, joined
 from checker.expand.spawner.methods.call import Call, Method, Methods
 from checker.expand.spawner.methods.enumerable import ENUMERABLE_WITH_BLOCK, last
 from checker.expand.spawner.signals import RubyError
-from checker.expand.spawner.traced import TracedString, joined
 from checker.expand.spawner.values import (
     NIL,
     RubyArray,

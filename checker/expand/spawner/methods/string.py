@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Iterator
 
 from checker.expand.spawner.limits import MAX_INTEGER_BITS, LimitReached
+from checker.expand.spawner.literals import TracedString, joined
 from checker.expand.spawner.methods.call import Call, Method, Methods
 from checker.expand.spawner.signals import RubyError
-from checker.expand.spawner.traced import TracedString, joined
 from checker.expand.spawner.value_text import formatted
 from checker.expand.spawner.values import (
     NIL,

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.physics.trial.measures.motion import Motion
-from checker.physics.trial.measures.touches import Touches
 from checker.physics.trial.profile import Knots, value_at
+from checker.physics.trial.simulation.contacts import Touches
 
 if TYPE_CHECKING:
     import numpy as np

@@ -6,11 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from checker.physics.trial.measures.touches import Touches
-from checker.physics.trial.mjcf.carriers import TRACKED, carriers_of
-from checker.physics.trial.mjcf.scene import Scene
+from checker.physics.trial.mjcf.scene import TRACKED, Scene, carriers_of
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.profile import value_at
+from checker.physics.trial.simulation.contacts import Touches
 from checker.physics.trial.simulation.simulation import Run
 from checker.physics.trial.trial import POSE_NUMBERS, Leg, Replay
 

@@ -12,7 +12,7 @@ from checker.base.record import Record
 from checker.model.geometry.transform import Transform
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
-from checker.model.tree import canonical_link
+from checker.model.tree import WORLD, canonical_link
 from checker.physics.trial.mjcf.layout import BodyWriter, Layout
 from checker.physics.trial.mjcf.names import Names, numbers, quaternion
 from checker.physics.trial.mjcf.repairs import Ledger
@@ -72,6 +72,8 @@ Pair = tuple[str, str]
 
 GROUND = "ground"
 """Name of the ground's geom."""
+TRACKED = 200
+"""Links whose motion is kept; of a robot with more of them, none is."""
 DROP = 0.01
 """Metres between the lowest collision point and the ground at the start."""
 
@@ -230,3 +232,22 @@ def _document(timestep: float, assets: str, bodies: str, servos: str) -> str:
 
 def _seven(pose: Transform) -> tuple[float, ...]:
     return (*pose.translation, *quaternion(pose.rotation))
+
+
+def carriers_of(scene: Scene) -> dict[str, str]:
+    """Return the link that carries each link, by scoped names; itself for one that moves.
+
+    What is fixed to the world is carried by the first such link. Nothing of a robot with more than
+    `TRACKED` moving links.
+    """
+    fixed = next((name for name, base in scene.welded.items() if _stays(name, base)), WORLD)
+    carriers = {
+        name: fixed if base == WORLD else base
+        for name, base in scene.welded.items()
+        if name != WORLD
+    }
+    return carriers if len(set(carriers.values())) <= TRACKED else {}
+
+
+def _stays(name: str, base: str) -> bool:
+    return base == WORLD and name != WORLD

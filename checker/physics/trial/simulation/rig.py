@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from checker.physics.trial.mjcf.carriers import carriers_of
-from checker.physics.trial.mjcf.scene import Scene
+from checker.physics.trial.mjcf.scene import Scene, carriers_of
 from checker.physics.trial.plan import Plan
 
 if TYPE_CHECKING:

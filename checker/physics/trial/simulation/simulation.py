@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from checker.physics.trial.course import HOVER, SETTLE, TURN
-from checker.physics.trial.measures.touches import ContactLog
 from checker.physics.trial.mjcf.scene import Scene
 from checker.physics.trial.plan import Plan
 from checker.physics.trial.profile import Knots
+from checker.physics.trial.simulation.contacts import ContactLog
 from checker.physics.trial.simulation.flight import PILOT_SECONDS, Pilot
 from checker.physics.trial.simulation.rig import Rig
 

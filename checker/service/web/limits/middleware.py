@@ -13,7 +13,7 @@ from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from checker.base.record import Record
-from checker.service.loopback import is_loopback
+from checker.service.exposure import is_loopback
 from checker.service.web.answers.problems import refusal_answer
 from checker.service.web.answers.refusal import Refused
 from checker.service.web.config import Config

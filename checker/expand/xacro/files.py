@@ -1,4 +1,7 @@
-"""Which texts xacro needs to expand some files: what they include, followed without running it."""
+"""Files as xacro sees them: below a made-up folder, `<ROOT>/<package>/<path>`.
+
+Texts that it needs to expand some files, what they include, are found without running it.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +9,49 @@ import posixpath
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from checker.base.files import NotReadable
-from checker.expand.xacro.paths import ROOT, local_path, package_in, path_of
-from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+ROOT = "/subt-check-packages"
+
+
+def path_of(package: Package, path: str) -> str:
+    """Return how xacro sees a file of a package.
+
+    Args:
+        package: That is checked.
+        path: As it lists the file; `../other/…` is a sibling's.
+    """
+    return posixpath.normpath(f"{ROOT}/{package.root.name}/{path}")
+
+
+def package_in(path: str) -> str:
+    """Return the name of the package in a path that xacro sees; empty outside all of them."""
+    if not path.startswith(f"{ROOT}/"):
+        return ""
+    return posixpath.normpath(path).removeprefix(f"{ROOT}/").partition("/")[0]
+
+
+def local_path(package: Package, path: str) -> str | None:
+    """Return a path that xacro sees as the package lists it; None if no package at hand has it."""
+    name = package_in(path)
+    rest = posixpath.normpath(path).removeprefix(f"{ROOT}/{name}").lstrip("/")
+    if not name:
+        return None
+    if name == package.root.name:
+        return rest
+    found = package.workspace.package(name)
+    if found is None:
+        return None
+    return rest if found is package else f"../{found.name}/{rest}"
+
 
 FILES_LIMIT = 400
 SIZE_LIMIT = 20_000_000

@@ -5,14 +5,24 @@ What others upload is read in a sandbox (`checker.base.sandbox`), unless somebod
 
 from __future__ import annotations
 
+import ipaddress
 import socket
 from collections.abc import Callable, Mapping, Sequence
 
 from checker.base.errors import CheckerError
 from checker.base.sandbox.layers import SECCOMP, Layer, hides_files
 from checker.base.words import plain, shortened
-from checker.service.loopback import is_loopback
 from checker.service.web.config import config_from
+
+# Whether a host is the machine itself: nobody stands on the way to it.
+
+
+def is_loopback(host: str) -> bool:
+    """Whether a name or address, in brackets or without, stands for the machine itself."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return host == "localhost" or host.endswith(".localhost")
 
 
 def listening(host: str, port: int) -> socket.socket:
