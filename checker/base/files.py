@@ -1,4 +1,4 @@
-"""Bounded reading of one file on disk: its bytes, or the reason why not."""
+"""Bounded reading of one file on disk, and files and folders for their owner alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where results go: standard output, files, and the exit code."""
+"""Where results and progress go: standard output, files, and the exit code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Meshes and pictures that the robot uses, each with its place in the new package."""
+"""Meshes and pictures that the robot uses, in the new package, and pictures drawn of it."""
 
 from __future__ import annotations
 

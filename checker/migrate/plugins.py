@@ -1,4 +1,4 @@
-"""Plugins of Gazebo 9 judged one by one, by the table of what takes their place."""
+"""Plugins of Gazebo 9 and joints that its controllers held: what takes their place."""
 
 from __future__ import annotations
 

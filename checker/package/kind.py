@@ -1,4 +1,4 @@
-"""What kind of package it is: a rule must not ask a plugin for its spawner."""
+"""What kind of package it is, and which packages changed files belong to."""
 
 from __future__ import annotations
 

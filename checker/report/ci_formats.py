@@ -1,4 +1,4 @@
-"""The report as workflow commands, which GitHub Actions turns into annotations of lines."""
+"""Reports for build servers: GitHub's annotations of lines, and JUnit XML."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""All packages of a run at a glance: a line each, and which rules found how much."""
+"""All packages of a run at a glance, and the verdict on each as one sentence."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shared libraries (`.so`): the machine they are built for and the libraries they need.
+"""What headers of binary files say: the size of a picture, the machine of a shared library.
 
 Only headers and the dynamic section are read. The file is a stranger's, so its reader gets a
 budget: offsets and counts in it may say anything.

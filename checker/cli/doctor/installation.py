@@ -1,4 +1,4 @@
-"""Looks at what is installed: the tool, Python, and the libraries in their versions."""
+"""What is installed: the tool, Python, libraries in their versions, the sandbox, the viewer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`<include>`: which file is meant, and what is handed over to it."""
+"""Which launch file is meant, what is handed over to it, and which robots it loads."""
 
 from __future__ import annotations
 

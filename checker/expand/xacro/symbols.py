@@ -1,4 +1,4 @@
-"""The names that every expression of a xacro file finds: those that xacro itself lists."""
+"""The names that every expression of a xacro file finds, `math` among them."""
 
 from __future__ import annotations
 

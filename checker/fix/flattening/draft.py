@@ -1,4 +1,4 @@
-"""What is to become of one element's text: changes gathered, then written out at once."""
+"""A model whose parts are moved, and the changes of one element's text, written out at once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the parts of nested models are called once all stand in one model."""
+"""Names of nested parts: in the flat model, in plugins, and in other files of the package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Devices that are known by name: those of a user's settings, then those of `devices.json`."""
+"""Devices that are known by name or shape: of a user's settings, then those of `devices.json`."""
 
 from __future__ import annotations
 

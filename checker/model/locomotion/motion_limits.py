@@ -1,4 +1,4 @@
-"""The motions of a robot that its drive plugins bound, one by one."""
+"""Limits of velocity and acceleration that drive plugins set."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The distances that drive plugins count on, each with the one that the robot has."""
+"""Where wheels are: their distances as drive plugins count on them, and their heights."""
 
 from __future__ import annotations
 

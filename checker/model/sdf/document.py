@@ -1,4 +1,4 @@
-"""An SDF file as the rules on syntax and schema see it."""
+"""An SDF file as the rules on syntax and schema see it, and whether a text has its type."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Links of SDF, and what hangs on them."""
+"""Links, shapes, joints and frames of SDF."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Masses in the sheet, and which of them is the robot's."""
+"""What a sheet says of mass, cost and endurance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is left of a template or of a draft in a sheet: placeholders, struck-through text."""
+"""Placeholders, struck-through text and line numbers in the text of a sheet."""
 
 from __future__ import annotations
 

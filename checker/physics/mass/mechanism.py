@@ -1,4 +1,4 @@
-"""Which link hangs on which when each hangs on one other at most, as a tree of bodies needs it."""
+"""Which link hangs on which, and how a joint lets it move."""
 
 from __future__ import annotations
 

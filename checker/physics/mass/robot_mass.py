@@ -1,4 +1,4 @@
-"""Puts a robot on the scales."""
+"""Mass, centre of mass and inertia of a robot, and what its joints hold against gravity."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Triangles of one colour or with coloured corners, and how JSON expresses them."""
+"""Triangles of one colour or with coloured corners: as JSON, and made fewer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the mesh files of a robot look like: thinned out to a budget, read in a child process."""
+"""What mesh files look like, within a budget of triangles, and what is said of those not shown."""
 
 from __future__ import annotations
 

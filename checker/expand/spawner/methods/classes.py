@@ -1,4 +1,4 @@
-"""From a receiver's class and a method's name to the function that answers."""
+"""From a receiver's class and a method's name to the function that answers; and Ruby's Kernel."""
 
 from __future__ import annotations
 

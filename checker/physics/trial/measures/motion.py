@@ -1,4 +1,4 @@
-"""The samples of a run as arrays, cut into the legs of its course."""
+"""The samples of a run as arrays, cut into legs; and how links moved, for plots and replays."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a scene is made of: which links hang together, where, what they weigh and touch with."""
+"""The links of a robot as nested bodies of MuJoCo, with what they weigh and touch with."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parts of a robot inside each other: a query of its own, since in motion they do not collide.
+"""Contacts with the ground, and parts of a robot inside each other.
 
 Links that are fixed to each other count as one, and those that a joint ties may overlap: wheels sit
 on hubs. How deep shapes are inside each other is the way by which one would have to be moved out.

@@ -1,4 +1,4 @@
-"""What the child that draws is asked: shapes in groups, and shots of them at moments."""
+"""What the child that draws is asked: groups of shapes, shots, and where cameras stand."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Our tables, beside those of DBOS in the same database."""
+"""Our tables, beside those of DBOS in the same database, and the digests that are their keys."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every answer says to browsers: load nothing else, keep nothing, tell nobody."""
+"""What every answer, and every file of a result, says to browsers: load nothing else."""
 
 from __future__ import annotations
 

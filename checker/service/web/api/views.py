@@ -1,4 +1,4 @@
-"""What the API tells of a check."""
+"""What the API tells of a check, at once and as events."""
 
 from __future__ import annotations
 

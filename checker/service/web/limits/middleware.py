@@ -1,4 +1,4 @@
-"""Requests that another site makes a browser send are refused."""
+"""Requests that another site makes a browser send are refused; so are uploads, politely."""
 
 from __future__ import annotations
 
