@@ -6,19 +6,13 @@ import json
 import platform
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
-from importlib.resources import files
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
-# The versions that a report names.
-
-
 LIBRARIES = ("mujoco", "pin")
 """What drives the robot and weighs it: figures may differ between versions."""
-
-
 UNKNOWN = "unknown"
+_CHECKER = Path(__file__).parents[1]
 
 
 @cache
@@ -52,10 +46,15 @@ def table(name: str) -> Any:
     Raises:
         FileNotFoundError: There is no such table.
     """
-    return json.loads(files("checker").joinpath("data", f"{name}.json").read_text("utf-8"))
+    return json.loads((_CHECKER / "data" / f"{name}.json").read_text("utf-8"))
 
 
-def templates(name: str) -> Traversable:
-    """Return a folder of templates: in the wheel below `checker`, in a checkout beside it."""
-    installed = files("checker").joinpath("templates", name)
-    return installed if installed.is_dir() else Path(__file__).parents[2] / "templates" / name
+def templates(name: str) -> Path:
+    """Return a folder of templates."""
+    return beside("templates") / name
+
+
+def beside(name: str) -> Path:
+    """Return a folder that the wheel has below `checker`, and a checkout beside it."""
+    installed = _CHECKER / name
+    return installed if installed.is_dir() else _CHECKER.parent / name

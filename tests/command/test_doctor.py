@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from checker.base.sandbox.layers import ALL, Layer
 from checker.cli import main
-from checker.cli.doctor import command, installation, self_test
+from checker.cli.doctor import installation, self_test
 from checker.cli.doctor import installation as of_sandbox
 from checker.cli.doctor.installation import Result, State, numbers, result, sandbox, surroundings
 from tests.command.conftest import Run
@@ -168,7 +168,7 @@ def test_a_sample_that_is_not_there_fails_the_self_test(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr(self_test, "sample", lambda: tmp_path / "gone")
-    assert command.self_test().state is State.PROBLEM
+    assert self_test.self_test().state is State.PROBLEM
 
 
 @pytest.mark.parametrize(

@@ -17,10 +17,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from checker.base.record import Record
 from checker.base.resources import table
 
-# Numbers of Linux system calls, by architecture (`checker/data/system_calls.json`).
-
-
 _32_BITS = 2**32
+_ARCHITECTURES = table("system_calls")["architectures"]
+"""Read before a process may open no more files."""
 
 
 class Architecture(Record):
@@ -39,7 +38,7 @@ class Architecture(Record):
 
 def architecture() -> Architecture | None:
     """Return that of this process; None where its calls are not known."""
-    known = table("system_calls")["architectures"].get(platform.machine())
+    known = _ARCHITECTURES.get(platform.machine())
     return Architecture(**known) if known and sys.maxsize > _32_BITS else None
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from importlib.resources import files
 from pathlib import Path
 from time import perf_counter
 
+from checker.base.resources import beside
 from checker.base.words import plain, shortened
 from checker.cli.doctor.installation import INSTALL_AGAIN, Result, State
 from checker.pipeline import check_package
@@ -41,9 +41,8 @@ def self_test() -> Result:
 
 
 def sample() -> Path:
-    """Return the folder of the sample: in the wheel below `checker`, in a checkout beside it."""
-    installed = Path(str(files("checker"))) / "samples" / SAMPLE
-    return installed if installed.is_dir() else Path(__file__).parents[3] / "samples" / SAMPLE
+    """Return the folder of the sample."""
+    return beside("samples") / SAMPLE
 
 
 def _trouble(report: PackageReport) -> str:
