@@ -16,8 +16,8 @@ from pathlib import Path
 from time import perf_counter, process_time
 from typing import Any
 
-from checker.base.errors import WorkerFailed
 from checker.base.forked_work import in_fork
+from checker.base.parts import WorkerFailed
 from checker.expand.xacro.files import Gathered, path_of
 from checker.package.inputs import open_input
 

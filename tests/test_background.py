@@ -14,7 +14,7 @@ from checker.base.background import Background, Work
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_process import Limits
 from checker.base.child_server import Server
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox.launcher import OwnLauncher
 
 LIMITS = Limits(seconds=5, memory=1_000_000_000)

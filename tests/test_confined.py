@@ -14,8 +14,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from checker.base.child_process import Child, Limits
-from checker.base.errors import WorkerFailed
 from checker.base.files import NotReadable
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Damaged, from_disk, read, write
 from checker.base.sandbox.launcher import OwnLauncher
 from checker.base.sandbox.task import tightened

@@ -21,7 +21,7 @@ BEGIN = """
 import os, resource
 from stat import S_ISFIFO
 from time import monotonic, sleep
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.forked_work import in_fork, in_forks
 
 def say(data):

@@ -14,7 +14,7 @@ from msgspec import field
 from checker.base.cache import Cache, code_hash, key_of
 from checker.base.child_process import NONSENSE, Child, Limits, from_json
 from checker.base.child_server import Asked, Server
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.resources import version_of
 from checker.base.sandbox.files import from_disk

@@ -18,7 +18,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, BinaryIO
 
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content, Files

@@ -14,7 +14,7 @@ from time import monotonic
 
 from checker.base import child_process
 from checker.base.child_process import Child, Limits, cause_of, overdue
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox import files as handed
 from checker.base.sandbox.files import Content
 from checker.base.sandbox.task import PLACE

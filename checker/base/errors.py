@@ -6,43 +6,7 @@ find anything in.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Protocol
-
-from checker.base.record import Record
-
-# What a package has to offer to a rule, or why it cannot.
-
-
-class NotAvailable(Record):
-    """A part of a package that a rule asks for and that cannot be had.
-
-    Attributes:
-        reason: Why, as the end of a sentence.
-        applicable: False when the package has no such part and needs none.
-    """
-
-    reason: str
-    applicable: bool = True
-
-
-class WorkerFailed(Record):
-    """No result came of a process: it died, ran out of what it may use, or answered with nonsense.
-
-    Attributes:
-        reason: Why, as the end of a sentence whose subject is the work.
-    """
-
-    reason: str
-
-
-class Parts(Protocol):
-    """Gives the parts of a package by their type."""
-
-    def part(self, kind: type) -> Sequence[object] | NotAvailable:
-        """Return the part; several when a file holds several robots."""
-        ...
 
 
 class CheckerError(Exception):

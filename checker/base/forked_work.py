@@ -13,7 +13,7 @@ from pathlib import Path
 from time import monotonic, process_time
 from typing import BinaryIO
 
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox.task import end_with_parent, tighter
 
 _OUT_OF_MEMORY, _FAILED = 71, 70

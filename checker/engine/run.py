@@ -10,7 +10,7 @@ from typing import Any
 from msgspec import field
 from msgspec.structs import replace
 
-from checker.base.errors import NotAvailable, Parts
+from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
 from checker.base.words import shortened
 from checker.engine.options import options_of

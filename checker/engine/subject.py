@@ -12,9 +12,9 @@ from msgspec.structs import replace
 
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_server import Server
-from checker.base.errors import NotAvailable
 from checker.base.files import NotReadable
 from checker.base.output import Stages
+from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.launch.package_launch import LaunchEntries, launch_entries, launch_graph

@@ -13,8 +13,8 @@ from typing import Any
 
 from checker.base.cache import NO_CACHE
 from checker.base.child_process import NONSENSE, Limits, ask, from_json
-from checker.base.errors import WorkerFailed
 from checker.base.files import NotReadable
+from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.sandbox.files import from_disk
 from checker.migrate.source import Source

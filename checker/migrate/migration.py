@@ -10,7 +10,7 @@ from pathlib import Path
 from lxml import etree
 
 from checker.base.cache import NO_CACHE
-from checker.base.errors import NotAvailable
+from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.convert.conversion import Conversion
 from checker.convert.sdf_to_urdf import xacro_of

@@ -37,8 +37,8 @@ def answer(request: bytes, files: Files) -> bytes:
     """
     shapes = json.loads(request)["shapes"]
     # A renderer that is not there ends MuJoCo's import, so each is tried in a process of its own.
-    from checker.base.errors import WorkerFailed
     from checker.base.forked_work import in_fork
+    from checker.base.parts import WorkerFailed
 
     for renderer in _RENDERERS:
         said = in_fork(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)

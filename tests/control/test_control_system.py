@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from checker.base.errors import NotAvailable
+from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.expand.launch.graph import LaunchGraph
 from checker.model.control.controllers import ControlSystem

@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from checker.base.errors import NotAvailable
+from checker.base.parts import NotAvailable
 from checker.engine.run import Outcome, run_rules
 from checker.finding import Place
 from checker.rule import Finding, Findings, Rule, Severity

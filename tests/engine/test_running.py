@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from checker.base.errors import NotAvailable
+from checker.base.parts import NotAvailable
 from checker.report.report import Cause, NotChecked
 from checker.rule import Context, Findings, Rule, Severity, finding, unchecked
 from tests.engine.stage import Parts, Wheel, at, reported, rule_saying, run, subt

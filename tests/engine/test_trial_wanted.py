@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from checker.base.errors import NotAvailable
+from checker.base.parts import NotAvailable
 from checker.engine.run import Outcome, needed_parts, run_rules
 from checker.finding import Severity
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial

@@ -13,7 +13,7 @@ import pytest
 
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_server import Asked, Server
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.engine.subject import Subject
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from checker.base.background import Background
 from checker.base.cache import NO_CACHE, Cache
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.model.robot import Robot
 from checker.physics.trial.drivers.plans import plan_of
 from checker.physics.trial.mjcf.scene import build_scene

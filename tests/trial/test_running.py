@@ -8,7 +8,7 @@ import pytest
 
 from checker.base.background import Background
 from checker.base.cache import Cache
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.model.robot import Robot
 from checker.physics.trial.run import start_trial
 from checker.physics.trial.trial import Trial

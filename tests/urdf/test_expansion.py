@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from checker.base.cache import Cache
-from checker.base.errors import NotAvailable
+from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.expand.xacro.fault import XacroFaultKind
 from checker.model.urdf.files import UrdfFiles

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.base.errors import WorkerFailed
 from checker.base.forked_work import in_fork
+from checker.base.parts import WorkerFailed
 from checker.expand.xacro import worker
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from tests.urdf.conftest import NAME, Describe, robot

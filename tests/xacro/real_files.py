@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from checker.base.errors import WorkerFailed
 from checker.base.forked_work import in_fork
+from checker.base.parts import WorkerFailed
 from checker.expand.xacro.files import Gathered, path_of
 from checker.package.inputs import open_input
 from checker.package.package import Package

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from checker.base.cache import SIZE_LIMIT, cache_folder
 from checker.base.child_process import Limits, ask
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.resources import UNKNOWN, templates, tool_version, version_of
 from checker.base.sandbox.launcher import OwnLauncher

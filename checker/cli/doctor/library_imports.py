@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from importlib import import_module
 
 from checker.base.child_process import Limits, ask
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 
 _LIMITS = Limits(20.0, 16_000_000_000)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from functools import partial
 
-from checker.base.errors import WorkerFailed
 from checker.base.forked_work import in_fork
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 
 _RENDERERS = {"egl": "EGL", "osmesa": "OSMesa"}

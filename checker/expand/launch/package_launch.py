@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from itertools import chain
 from types import MappingProxyType
 
-from checker.base.errors import NotAvailable
+from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.expand.launch.expansion import expand_launch
 from checker.expand.launch.graph import LaunchFaultKind, LaunchGraph, UnresolvedInclude

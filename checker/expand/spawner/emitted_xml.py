@@ -7,8 +7,8 @@ import re
 from functools import cached_property
 from typing import TypeVar
 
-from checker.base.errors import NotAvailable
 from checker.base.files import NotReadable
+from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.expand.spawner.emitted import EmittedText
 from checker.expand.spawner.signals import Unread

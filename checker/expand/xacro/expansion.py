@@ -9,7 +9,7 @@ from typing import Any
 from checker.base.background import Background, Work, work_key
 from checker.base.cache import Cache, key_of
 from checker.base.child_process import Limits
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.expand.xacro.expanded import expanded_document
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind

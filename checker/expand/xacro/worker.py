@@ -14,8 +14,8 @@ from contextlib import suppress
 from time import monotonic
 from typing import Any
 
-from checker.base.errors import WorkerFailed
 from checker.base.forked_work import in_fork
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox import seccomp
 from checker.base.sandbox.files import NO_FILES, Files
 

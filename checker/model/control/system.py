@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from checker.base.errors import NotAvailable
 from checker.base.files import NotReadable
+from checker.base.parts import NotAvailable
 from checker.expand.launch.graph import LaunchGraph, Node, Param, resolve_name
 from checker.expand.launch.package_launch import LaunchEntries, LaunchEntry, LaunchFiles
 from checker.expand.launch.substitution import is_known

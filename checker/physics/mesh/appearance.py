@@ -15,9 +15,9 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from checker.base.errors import WorkerFailed
 from checker.base.files import NotReadable
 from checker.base.forked_work import Forks
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 from checker.physics.mesh.content import NoSurface, Piece, by_material
 from checker.physics.mesh.reader import read_content

@@ -14,9 +14,9 @@ from msgspec.structs import replace
 from checker.base.background import Background
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_server import Server
-from checker.base.errors import WorkerFailed
 from checker.base.files import NotReadable, read_bytes
 from checker.base.output import Stages
+from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.model.robot import Robot

@@ -15,9 +15,9 @@ from typing import Any
 
 from msgspec import to_builtins
 
-from checker.base.errors import WorkerFailed
 from checker.base.files import NotReadable
 from checker.base.forked_work import Forks, in_forks
+from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.physics.mesh.appearance import appearances

@@ -10,8 +10,8 @@ from functools import cached_property
 from checker.base.background import Background, Work, work_key
 from checker.base.cache import Cache
 from checker.base.child_process import Limits
-from checker.base.errors import NotAvailable, WorkerFailed
 from checker.base.output import Stages
+from checker.base.parts import NotAvailable, WorkerFailed
 from checker.base.record import Record
 from checker.model.robot import Robot
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial

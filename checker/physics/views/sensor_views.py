@@ -10,8 +10,8 @@ from typing import Any
 from checker.base.background import Background, work_key
 from checker.base.cache import Cache
 from checker.base.child_server import Server
-from checker.base.errors import WorkerFailed
 from checker.base.output import Stages
+from checker.base.parts import WorkerFailed
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews, View

@@ -13,8 +13,8 @@ from typing import Any, Protocol
 from urllib.parse import unquote
 
 from checker.base.background import Background, work_key
-from checker.base.errors import WorkerFailed
 from checker.base.files import NotReadable, read_bytes
+from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.model.mesh import Mesh, MeshFault

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from checker.base.background import Background, Work, work_key
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_process import Child
-from checker.base.errors import WorkerFailed
+from checker.base.parts import WorkerFailed
 from checker.model.geometry.transform import Transform
 from checker.physics.mesh.surface import Surface
 from checker.report.report import Picture
