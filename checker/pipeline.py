@@ -126,7 +126,7 @@ def _parts(task: Task, jobs: int) -> list[Task]:
     try:
         if jobs > 1 and task.path.is_dir():
             with open_input(task.path) as opened:
-                return [replace(task, only=each.name) for each in opened.packages]
+                return [replace(task, only=package.name) for package in opened.packages]
     except (UnreadableInput, OSError):
         pass  # the task that meets it again says so
     return [task]

@@ -99,7 +99,7 @@ def _entries(
 
 def _entry(finding: ReportedFinding, reason: str) -> BaselineEntry:
     spots = list(spots_of(finding))
-    places = Counter(each.place for each in spots)
+    places = Counter(spot.place for spot in spots)
     return BaselineEntry(
         finding.rule, finding.severity, finding.message, dict(places), spots[0].key, reason
     )

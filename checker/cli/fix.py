@@ -189,7 +189,7 @@ def show_patch(
 ) -> int:
     """Print what fixing would change, or write it to a file; return 1 when there is something."""
     packages = fix_paths(paths, wishes, allowed, write=False)
-    text = "".join(patch(each.fixed.files, _folder(each, packages)) for each in packages)
+    text = "".join(patch(package.fixed.files, _folder(package, packages)) for package in packages)
     if output:
         write(Path(output), text)
     else:
@@ -242,4 +242,4 @@ def _summary(package: FixedPackage) -> Iterator[str]:
 
 
 def _rules(findings: Sequence[ReportedFinding]) -> str:
-    return ", ".join(sorted({each.rule for each in findings}))
+    return ", ".join(sorted({finding.rule for finding in findings}))

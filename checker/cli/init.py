@@ -43,7 +43,9 @@ def has_hook(text: str) -> bool:
     """Say whether a configuration runs the hook already, wherever it takes it from."""
     content = _loaded(text)
     repositories = content.get("repos") if isinstance(content, dict) else None
-    hooks = [hook for each in _mappings(repositories) for hook in _mappings(each.get("hooks"))]
+    hooks = [
+        hook for mapping in _mappings(repositories) for hook in _mappings(mapping.get("hooks"))
+    ]
     return any(hook.get("id") == ID for hook in hooks)
 
 

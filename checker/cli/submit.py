@@ -65,7 +65,7 @@ def tell(check: Check, standing: Standing, options: argparse.Namespace, folder: 
     report = _seen_from_here(_read(check), Path(options.package))
     if options.fail_on:
         severity = Severity(options.fail_on)
-        packages = (replace(each, fail_on=severity) for each in report.packages)
+        packages = (replace(package, fail_on=severity) for package in report.packages)
         report = replace(report, packages=tuple(packages))
     if options.format in _AS_THERE:
         content = _file(check, *_AS_THERE[options.format]).decode("utf-8", "replace")
@@ -111,7 +111,8 @@ def _write_all(check: Check, standing: Standing, folder: Path) -> None:
 def _seen_from_here(report: Report, given: Path) -> Report:
     """Return a report whose paths start at what was given, not at what the service calls it."""
     packages = (
-        replace(each, path=_package_path(each.path, each.name, given)) for each in report.packages
+        replace(package, path=_package_path(package.path, package.name, given))
+        for package in report.packages
     )
     not_opened = (replace(each, path=str(given / _below(each.path))) for each in report.not_opened)
     return replace(report, packages=tuple(packages), not_opened=tuple(not_opened))
@@ -133,8 +134,8 @@ def _with_pages(report: Report) -> Report:
     """Return a report with why and how at each finding whose rule is known here as well."""
     pages = {rule.id: parse_page(rule.page) for rule in all_rules()}
     packages = [
-        replace(each, findings=tuple(_explained(found, pages) for found in each.findings))
-        for each in report.packages
+        replace(package, findings=tuple(_explained(found, pages) for found in package.findings))
+        for package in report.packages
     ]
     return replace(report, packages=tuple(packages))
 

@@ -68,7 +68,7 @@ def numbers(values: Iterable[float]) -> str:
 
 def exact_numbers(values: Iterable[Located[float]]) -> str:
     """Return numbers of the source as they are."""
-    return " ".join(exact(each.value) for each in values)
+    return " ".join(exact(value.value) for value in values)
 
 
 def six_numbers(pose: Transform, stated: Pose | None = None) -> tuple[str, str]:

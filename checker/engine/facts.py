@@ -51,21 +51,21 @@ def measured(driven: RobotTrial, outcome: Outcome) -> dict[str, Any]:
 
 def _measurements(driven: RobotTrial, outcome: Outcome) -> Iterator[dict[str, Any]]:
     verdicts = _verdicts(outcome)
-    for each in driven.trial.measurements:
-        measure = MEASURES.get(each.name, Measure(each.name.replace("_", " ")))
-        if not math.isfinite(each.value):
+    for measurement in driven.trial.measurements:
+        measure = MEASURES.get(measurement.name, Measure(measurement.name.replace("_", " ")))
+        if not math.isfinite(measurement.value):
             continue
         looked = measure.rule in outcome.looked
         yield {
-            "name": each.name,
+            "name": measurement.name,
             "label": measure.label,
-            "value": _rounded_value(each.value),
+            "value": _rounded_value(measurement.value),
             "unit": measure.unit,
-            "part": each.part,
-            "other": each.other,
+            "part": measurement.part,
+            "other": measurement.other,
             "rule": measure.rule,
-            "limits": _limits(each.name, outcome.looked.get(measure.rule, {})),
-            "verdict": _verdict(each, driven, verdicts, looked),
+            "limits": _limits(measurement.name, outcome.looked.get(measure.rule, {})),
+            "verdict": _verdict(measurement, driven, verdicts, looked),
         }
 
 

@@ -110,13 +110,13 @@ def _outcome(
 def joined(*outcomes: Outcome) -> Outcome:
     """Return what different rules said together."""
     looked: dict[str, Mapping[str, Any]] = {}
-    for each in outcomes:
-        looked.update(each.looked)
+    for outcome in outcomes:
+        looked.update(outcome.looked)
     return Outcome(
-        tuple(_sorted([found for each in outcomes for found in each.findings])),
-        tuple(unseen for each in outcomes for unseen in each.not_checked),
+        tuple(_sorted([found for outcome in outcomes for found in outcome.findings])),
+        tuple(unseen for outcome in outcomes for unseen in outcome.not_checked),
         looked,
-        tuple(aside for each in outcomes for aside in each.suppressed),
+        tuple(aside for outcome in outcomes for aside in outcome.suppressed),
     )
 
 
@@ -160,7 +160,7 @@ def _run_isolated(
             cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
         options = options_of(rule, settings)
-        return [found for each in arguments for found in rule.check(**each, **options)]
+        return [found for argument in arguments for found in rule.check(**argument, **options)]
     except Exception as error:  # noqa: BLE001 - the other rules go on, the exit code says so
         return crashed(rule.id, error)
 

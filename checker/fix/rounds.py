@@ -71,9 +71,9 @@ class EditedText:
     def result(self) -> str:
         """The text after all edits."""
         pieces, end = [], 0
-        for each in self.stretches:
-            pieces += [self.source.text[end : each.start], each.replacement]
-            end = each.end
+        for stretch in self.stretches:
+            pieces += [self.source.text[end : stretch.start], stretch.replacement]
+            end = stretch.end
         return "".join((*pieces, self.source.text[end:]))
 
 
@@ -147,7 +147,7 @@ def fix_package(package: Package, judge: Judge, allowed: Collection[Safety]) -> 
     wanted: list[ReportedFinding] = []
     for rounds in range(MAX_ROUNDS + 1):
         findings = judge(package.with_texts(edited))
-        wanted = [each for each in findings if each.fix and each.fix.safety in allowed]
+        wanted = [finding for finding in findings if finding.fix and finding.fix.safety in allowed]
         applied = _round(wanted, package, edited) if rounds < MAX_ROUNDS else []
         fixed += applied
         if not applied:
@@ -157,7 +157,7 @@ def fix_package(package: Package, judge: Judge, allowed: Collection[Safety]) -> 
         tuple({each.fingerprint: each for each in fixed}.values()),
         tuple(each for each in wanted if not _elsewhere(each)),
         tuple(each for each in wanted if _elsewhere(each)),
-        tuple(each for each in findings if each.fix and each.fix.safety not in allowed),
+        tuple(finding for finding in findings if finding.fix and finding.fix.safety not in allowed),
         rounds,
     )
 
@@ -167,7 +167,11 @@ def one_round(
 ) -> tuple[FixedFile, ...]:
     """Return what the fixes of these findings come to, as far as they go together."""
     edited: dict[str, SourceText] = {}
-    _round([each for each in findings if each.fix and each.fix.safety in allowed], package, edited)
+    _round(
+        [finding for finding in findings if finding.fix and finding.fix.safety in allowed],
+        package,
+        edited,
+    )
     return tuple(_changes(package, edited))
 
 
@@ -180,10 +184,10 @@ def _round(
     findings: Sequence[ReportedFinding], package: Package, edited: dict[str, SourceText]
 ) -> list[ReportedFinding]:
     """Make the edits that go together, and return the findings that they mend."""
-    paths = {edit.place.file for each in findings if each.fix for edit in each.fix.edits}
+    paths = {edit.place.file for finding in findings if finding.fix for edit in finding.fix.edits}
     sources = {path: _own_text(package, path, edited) for path in sorted(paths)}
     texts = {path: EditedText(source) for path, source in sources.items() if source is not None}
-    applied = [each for each in findings if each.fix and take(each.fix, texts)]
+    applied = [finding for finding in findings if finding.fix and take(finding.fix, texts)]
     for path, text in texts.items():
         if text.stretches:
             edited[path] = replace(text.source, text=text.result)

@@ -60,7 +60,7 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     if not shapes:
         return Thumbnails(trouble=_trouble("the model has no visuals"))
     request = json.dumps({"shapes": shapes}).encode()
-    files = dict.fromkeys((str(each["file"]) for each in shapes if each["file"]), SIZE_LIMIT)
+    files = dict.fromkeys((str(shape["file"]) for shape in shapes if shape["file"]), SIZE_LIMIT)
     limits = Limits(_SECONDS, _MEMORY, draws=True)
     said = ask("checker.migrate.thumbnail_worker", request, limits, from_disk(files.items()))
     if isinstance(said, WorkerFailed):
@@ -92,7 +92,7 @@ def _shapes(robot: Robot, folder: Path) -> Iterator[dict[str, Any]]:
             yield {
                 "shape": shape,
                 "sizes": {
-                    name: [each.value for each in values]
+                    name: [value.value for value in values]
                     for name, values in visual.geometry.sizes.items()
                 },
                 "file": file,

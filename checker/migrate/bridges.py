@@ -79,7 +79,7 @@ def sensor_bridges(robot: Robot) -> list[SensorBridges]:
     taken: set[str] = set()
     found = []
     for sensor in robot.sensors:
-        channels = [each for each in sensor_channels(sensor) if _is_wanted(sensor, each)]
+        channels = [channel for channel in sensor_channels(sensor) if _is_wanted(sensor, channel)]
         if not channels:
             continue
         base = _free(_ros_base(robot, sensor), taken)

@@ -264,12 +264,12 @@ def _cameras_of(carried: CarriedPlugin, tree: etree._Element) -> Sequence[etree.
     """
     cameras = [each for each in tree.iter("sensor") if each.get("type") in _LENSES]
     prefix = _prefix(carried)
-    named = [each for each in cameras if prefix and each.get("name", "").startswith(prefix)]
+    named = [camera for camera in cameras if prefix and camera.get("name", "").startswith(prefix)]
     if named:
         return named
     holder = _link(tree, carried.link) if carried.link else None
-    beside = [each for each in cameras if holder is not None and each.getparent() is holder]
-    return beside or [each for each in cameras if _PARTS.search(each.get("name", ""))]
+    beside = [camera for camera in cameras if holder is not None and camera.getparent() is holder]
+    return beside or [camera for camera in cameras if _PARTS.search(camera.get("name", ""))]
 
 
 _LENSES = ("camera", "depth", "wideanglecamera")

@@ -106,11 +106,11 @@ def _file_in(package: Package, urdf: str) -> str:
 
 
 def _only_one(files: UrdfFiles, package: Package, path: Path) -> UrdfDescription:
-    with_links = [each for each in files.descriptions if each.robot.links]
+    with_links = [description for description in files.descriptions if description.robot.links]
     if len(with_links) == 1:
         return with_links[0]
     if with_links:
-        names = _listed([each.file for each in with_links])
+        names = _listed([link.file for link in with_links])
         raise NotMigrated(
             f"{package.name} describes several robots: {names}; choose one with --urdf"
         )

@@ -62,7 +62,7 @@ class Battery(Record, eq=False):
 
 def batteries(robot: Robot) -> tuple[Battery, ...]:
     """Return the batteries of a robot."""
-    return tuple(_battery(each) for each in robot.plugins if each.class_name == BATTERY_CLASS)
+    return tuple(_battery(plugin) for plugin in robot.plugins if plugin.class_name == BATTERY_CLASS)
 
 
 def _battery(plugin: Plugin) -> Battery:

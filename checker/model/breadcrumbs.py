@@ -40,7 +40,9 @@ class Breadcrumbs(Record, eq=False):
 
 def breadcrumbs(robot: Robot) -> tuple[Breadcrumbs, ...]:
     """Return what drops relays; a robot may have one plugin for each side."""
-    return tuple(_read(each) for each in robot.plugins if each.class_name == BREADCRUMBS_CLASS)
+    return tuple(
+        _read(plugin) for plugin in robot.plugins if plugin.class_name == BREADCRUMBS_CLASS
+    )
 
 
 def _read(plugin: Plugin) -> Breadcrumbs:

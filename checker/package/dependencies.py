@@ -57,7 +57,11 @@ def lenders_of(package: Package) -> Lenders:
 
 
 def _needs(package: Package) -> Iterator[Reference]:
-    yield from (each for each in package.references if each.kind is not ReferenceKind.ROSLAUNCH)
+    yield from (
+        reference
+        for reference in package.references
+        if reference.kind is not ReferenceKind.ROSLAUNCH
+    )
     if package.base is not None:
         yield package.base
 

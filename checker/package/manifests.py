@@ -70,7 +70,7 @@ class PackageManifest(Record, eq=False):
 
     def depends_on(self, package: str) -> bool:
         """Whether any dependency names the package."""
-        return any(each.package.value == package for each in self.dependencies)
+        return any(dependency.package.value == package for dependency in self.dependencies)
 
 
 class SdfEntry(Record, eq=False):
@@ -115,7 +115,9 @@ def read_package_xml(document: XmlDocument) -> PackageManifest:
         authors=tuple(_person(each) for each in root.all("author")),
         licenses=tuple(each.text for each in root.all("license")),
         dependencies=tuple(
-            Dependency(each.tag, each.text) for each in root.children if each.tag in DEPENDENCY_TAGS
+            Dependency(child.tag, child.text)
+            for child in root.children
+            if child.tag in DEPENDENCY_TAGS
         ),
         build_type=_text(root.child("export") or root, "build_type"),
         span=root.span,

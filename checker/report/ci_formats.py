@@ -41,8 +41,8 @@ def _xml(text: str) -> str:
 
 def _suite(package: PackageReport) -> ET.Element:
     found: dict[str, list[ReportedFinding]] = {}
-    for each in package.findings:
-        found.setdefault(each.rule, []).append(each)
+    for finding in package.findings:
+        found.setdefault(finding.rule, []).append(finding)
     unseen: dict[str, list[NotChecked]] = {}
     for missing in package.not_checked:
         unseen.setdefault(missing.rule, []).append(missing)
@@ -99,7 +99,7 @@ def _case(
 
 def _written(findings: Sequence[ReportedFinding], package: PackageReport) -> str:
     """Write findings one a line, then why and how once: they are of one rule."""
-    lines = [_line(each, package) for each in findings[:FINDINGS_LIMIT]]
+    lines = [_line(finding, package) for finding in findings[:FINDINGS_LIMIT]]
     if len(findings) > FINDINGS_LIMIT:
         lines.append(f"… and {count(len(findings) - FINDINGS_LIMIT, 'more finding')}")
     first = findings[0]

@@ -57,18 +57,18 @@ class Row(Record):
 def rows_of(measurements: Sequence[Mapping[str, Any]]) -> list[Row]:
     """Return the rows of a trial, in its order; `PackageReport.trial` holds the figures."""
     by_name: dict[str, list[Mapping[str, Any]]] = {}
-    for each in measurements:
-        by_name.setdefault(each["name"], []).append(each)
+    for measurement in measurements:
+        by_name.setdefault(measurement["name"], []).append(measurement)
     return [_row(name, figures) for name, figures in by_name.items()]
 
 
 def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
     first = figures[0]
-    values = [each["value"] for each in figures]
+    values = [figure["value"] for figure in figures]
     ends = dict.fromkeys(_number(value, first["unit"]) for value in (min(values), max(values)))
     unit = {"rad": "°", "rad or m": ""}.get(first["unit"], first["unit"])
     joint = "" if unit in ("", "°") else " "
-    verdict = str(min((each["verdict"] for each in figures), key=_GRAVITY.index))
+    verdict = str(min((figure["verdict"] for figure in figures), key=_GRAVITY.index))
     return Row(
         label=first["label"],
         value=f"{'…'.join(ends)}{joint}{unit}",

@@ -27,10 +27,10 @@ def is_foreign(place: Place) -> bool:
 def owners(report: Report) -> Mapping[Identity, str]:
     """Return the name of the package in whose own files each finding lies."""
     return {
-        identity(package, each): package.name
+        identity(package, finding): package.name
         for package in report.packages
-        for each in package.findings
-        if not is_foreign(each.places[0])
+        for finding in package.findings
+        if not is_foreign(finding.places[0])
     }
 
 

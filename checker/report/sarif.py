@@ -75,10 +75,10 @@ def result(said: Said, index: int, marks: Marks, folder: str) -> Json:
         "properties": {"package": plain(package.name)},
     }
     if others:
-        related = (_related(each, package, folder) for each in others[:RELATED_LIMIT])
+        related = (_related(other, package, folder) for other in others[:RELATED_LIMIT])
         # The standard wants them distinct, and words made plain may have become alike.
         made["relatedLocations"] = list({str(each): each for each in related}.values())
-        made["occurrenceCount"] = 1 + sum(not each.note for each in others)
+        made["occurrenceCount"] = 1 + sum(not other.note for other in others)
     if fix := fixes(finding.fix, finding.how, package, folder):
         made["fixes"] = fix
     if marks.baseline:
@@ -149,7 +149,7 @@ def _run(report: Report, folder: str) -> Json:
         },
         "invocations": [_invocation(report, len(said) - len(shown))],
         "results": [result(each, indices[each.finding.rule], marks, folder) for each in shown],
-        "properties": {"packages": [_package(each) for each in report.packages]},
+        "properties": {"packages": [_package(package) for package in report.packages]},
     }
 
 

@@ -53,8 +53,8 @@ def sentence(package: PackageReport) -> Sentence:
 
 
 def _unseen(package: PackageReport) -> str:
-    blind = len({each.rule for each in package.blind_spots})
-    reasons = list(dict.fromkeys(each.reason for each in package.blind_spots))
+    blind = len({spot.rule for spot in package.blind_spots})
+    reasons = list(dict.fromkeys(spot.reason for spot in package.blind_spots))
     shown = plain(shortened(listed(reasons[:3]), _REASON_LIMIT))
     return f"{count(blind, 'rule')} not checked: {shown}"
 

@@ -164,7 +164,7 @@ def _profile(package: PackageReport) -> str:
 def _counted(findings: Sequence[ReportedFinding]) -> Iterator[str]:
     """Count by rule what is too much to be read in full."""
     if findings:
-        by_rule = Counter(each.rule for each in findings).most_common()
+        by_rule = Counter(finding.rule for finding in findings).most_common()
         rules = ", ".join(f"{number} {rule}" for rule, number in by_rule)
         yield f"… and {count(len(findings), 'more finding')}: {rules}; --format json lists all"
 

@@ -115,7 +115,7 @@ _RISK = (
 
 def _missing(layers: Sequence[Layer]) -> str:
     """Return why none of the layers that could hide files does."""
-    said = [f"{each.name}: {each.words}" for each in layers if each.name != SECCOMP]
+    said = [f"{layer.name}: {layer.words}" for layer in layers if layer.name != SECCOMP]
     return plain(
         shortened("; ".join(said) or "the process that provides them ends immediately", 300)
     )

@@ -92,7 +92,7 @@ def read_markdown(source: SourceText) -> Markdown:
     ]
     text = _blank(text, fences)
     passages = tuple(_passages(source, _visible(text), starts, tokens))
-    return Markdown(source, passages, text, tuple(Span(source, *each) for each in fences))
+    return Markdown(source, passages, text, tuple(Span(source, *fence) for fence in fences))
 
 
 def _line_starts(text: str) -> list[int]:

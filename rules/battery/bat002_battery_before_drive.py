@@ -25,10 +25,10 @@ def check(robot: Robot) -> Findings:
         if battery.class_name != BATTERY_CLASS:
             continue
         behind = [
-            each
-            for each in robot.plugins[index + 1 :]
-            if each.class_name in MOVING_CLASSES
-            and each.element.document is battery.element.document
+            plugin
+            for plugin in robot.plugins[index + 1 :]
+            if plugin.class_name in MOVING_CLASSES
+            and plugin.element.document is battery.element.document
         ]
         if behind:
             yield finding(

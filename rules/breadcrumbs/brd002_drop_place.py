@@ -58,14 +58,14 @@ def check(
             continue
         point = plugin.drop.value
         hits = (
-            each
-            for each in shapes
+            shape
+            for shape in shapes
             if _is_inside(
-                robot, each, point, mesh_depth if each.shape.geometry.shape == "mesh" else depth
+                robot, shape, point, mesh_depth if shape.shape.geometry.shape == "mesh" else depth
             )
         )
         hit = next(hits, None)
-        gap = _gap(union(each.box for each in shapes), point)
+        gap = _gap(union(shape.box for shape in shapes), point)
         if hit is not None:
             yield finding(
                 plugin.drop,

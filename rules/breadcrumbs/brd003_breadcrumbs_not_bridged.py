@@ -29,7 +29,7 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Look for bridges of each plugin's topics, and for a count next to each bridge that drops."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
-    bridged = any(_drops(each) for each in launch.bridges) or _is_included(launch)
+    bridged = any(_drops(bridge) for bridge in launch.bridges) or _is_included(launch)
     plugins = () if bridged else breadcrumbs(robot)
     unread = [reason for reason in launch.unread if not reason.startswith(WITHOUT_BRIDGES)]
     for plugin in plugins:
@@ -42,13 +42,13 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
 
 def _is_included(launch: LaunchGraph) -> bool:
     """Whether a launch file of the challenge is included that bridges breadcrumbs."""
-    files = (each.file.rpartition("/")[2].lower() for each in launch.unresolved_includes)
+    files = (include.file.rpartition("/")[2].lower() for include in launch.unresolved_includes)
     return any(_WORD in file for file in files)
 
 
 def _unbridged(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
     """Report why no bridge commands a plugin; a bridge that is switched off does not count."""
-    off = next((each for each in launch.dormant_bridges if _drops(each)), None)
+    off = next((bridge for bridge in launch.dormant_bridges if _drops(bridge)), None)
     if off is None:
         yield finding(
             plugin,

@@ -34,7 +34,11 @@ def _unconfigured(control: ControlSystem) -> Findings:
         yield from map(unchecked, control.unread)
         return
     meant = _misspelt(control)
-    lying = {each.name: each for each in control.controllers if each.loaded_by is None}
+    lying = {
+        controller.name: controller
+        for controller in control.controllers
+        if controller.loaded_by is None
+    }
     for each in missing:
         found, near = lying.get(each.name), meant.get(each.name)
         hint = f"; did you mean {near.name!r}?" if near is not None else ""
@@ -71,7 +75,11 @@ def _never_spawned(control: ControlSystem) -> Findings:
     started = {each.name for each in (*control.spawned, *control.dormant)}
     # One that a spawner misspells is reported there.
     started |= {each.name for each in _misspelt(control).values()}
-    idle = [each for each in control.controllers if each.name not in started and _is_one(each)]
+    idle = [
+        controller
+        for controller in control.controllers
+        if controller.name not in started and _is_one(controller)
+    ]
     if idle and control.unread:
         yield from map(unchecked, control.unread)
         return

@@ -60,7 +60,11 @@ def _untold_states(control: ControlSystem) -> Findings:
     hidden = any(fault.hides for fault in control.faults)
     if not control.spawned or control.publishes_states or hidden:
         return
-    configured = [each for each in control.controllers if each.kind == "JointStateController"]
+    configured = [
+        controller
+        for controller in control.controllers
+        if controller.kind == "JointStateController"
+    ]
     unknown = any(each.name not in control.namesakes for each in control.spawned)
     if configured or unknown:
         return

@@ -41,7 +41,7 @@ def check(control: ControlSystem, *, least_p: float = 0.0) -> Findings:
     """
     for controller in control.configured.values():
         yield from _missing(controller)
-        for gains in {id(each): each for each in controller.gains.values()}.values():
+        for gains in {id(gain): gain for gain in controller.gains.values()}.values():
             yield from _proportional(controller, gains, least_p)
             yield from _negative(f"controller {controller.name!r}", gains)
     for simulated in control.simulator_gains:

@@ -54,7 +54,7 @@ def _are(things: Sequence[object]) -> str:
 def _sections(specification: Specification, words: str) -> list[Section]:
     """Return the sections whose headings contain the words, even joined to other words."""
     words = words.casefold()
-    return [each for each in specification.sections if words in each.title.casefold()]
+    return [section for section in specification.sections if words in section.title.casefold()]
 
 
 _HEADINGS = (

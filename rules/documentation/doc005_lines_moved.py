@@ -92,7 +92,7 @@ def _path(package: Package, sheet: Specification, written: str) -> str | None:
         if package.exists(joined := posixpath.normpath(posixpath.join(folder, path))):
             return joined
     name = posixpath.basename(written)
-    named = [each.path for each in package.index.files if posixpath.basename(each.path) == name]
+    named = [file.path for file in package.index.files if posixpath.basename(file.path) == name]
     return named[0] if len(named) == 1 else None
 
 

@@ -26,7 +26,7 @@ def check(robot: Robot, *, gap: float = 0.02) -> Findings:
     """
     shapes, unknown = _shapes(robot)
     try:
-        groups = clusters([each.box for each in shapes], gap)
+        groups = clusters([shape.box for shape in shapes], gap)
     except TooManyPairs:
         yield unchecked("too many shapes are close together to look for a floating one")
         return

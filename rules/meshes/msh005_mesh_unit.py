@@ -107,7 +107,7 @@ def _meshes(robot: Robot) -> Iterator[tuple[_Extent, MeshUse, float]]:
     """Yield each known mesh with the extent of its link and the length of its diagonal, metres."""
     uses = {use.shape: use for use in robot.mesh_uses}
     for link in robot.links:
-        known = [(use, use.mesh) for each in _shapes(link) if (use := uses.get(each)) is not None]
+        known = [(use, use.mesh) for shape in _shapes(link) if (use := uses.get(shape)) is not None]
         if not known:
             continue
         extent = _Extent(
@@ -131,7 +131,7 @@ def _is_simple(shape: Collision | Visual) -> bool:
 
 def _size(robot: Robot, link: Link, shapes: Shapes) -> float:
     """Return the diagonal of the box around shapes of a link, metres; 0 where it is not known."""
-    posed = [each for each in shapes if robot.pose_of_part(link, each.pose) is not None]
+    posed = [shape for shape in shapes if robot.pose_of_part(link, shape.pose) is not None]
     known = list(placed(robot, link, posed))
     box = union(each.box for each in known) if len(known) == len(posed) else None
     return box.diagonal if box is not None else 0.0

@@ -75,7 +75,9 @@ def _said(
 
 def _topics(package: Package) -> Iterator[Finding | Unchecked]:
     """Return no vehicle_topics.launch if the spawner starts bridges from other files."""
-    started = [each for each in package.references if each.kind is ReferenceKind.ROSLAUNCH]
+    started = [
+        reference for reference in package.references if reference.kind is ReferenceKind.ROSLAUNCH
+    ]
     if not any(_may_bridge(package, each) for each in started):
         yield from _missing(package, {TOPICS: "which bridges topics to ROS"}, Severity.ERROR)
 
@@ -88,7 +90,7 @@ def _may_bridge(package: Package, started: Reference) -> bool:
     holder = package if own else package.workspace.package(started.package_name)
     if holder is None:
         return True
-    return any(posixpath.basename(each.path) == started.file for each in holder.index.files)
+    return any(posixpath.basename(file.path) == started.file for file in holder.index.files)
 
 
 GOOD = [{"specifications.md": "# Rover\n"}]

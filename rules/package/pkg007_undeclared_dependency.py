@@ -59,7 +59,10 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
 
 
 def _needed_at_run_time(manifest: PackageManifest, name: str) -> bool:
-    return any(each.at_run_time and each.package.value == name for each in manifest.dependencies)
+    return any(
+        dependency.at_run_time and dependency.package.value == name
+        for dependency in manifest.dependencies
+    )
 
 
 def _distribution(package: Package, uses: dict[str, Use], fix: Fix | None) -> Iterator[Finding]:
@@ -79,7 +82,9 @@ def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
     is_submission = SUBMISSION_NAME.search(package.name) and package.kind is PackageKind.ROBOT
     if not is_submission or own_model(package) is not None or package.exists(SPAWNER):
         return
-    if not any(SUBMISSION_NAME.search(each.package.value) for each in manifest.dependencies):
+    if not any(
+        SUBMISSION_NAME.search(dependency.package.value) for dependency in manifest.dependencies
+    ):
         yield finding(manifest, "the package has no model and depends on no package that has one")
 
 

@@ -89,9 +89,9 @@ def _missing(robot: Robot, bridged: Collection[str]) -> Iterator[Channel]:
 def _commanded_inside(robot: Robot) -> frozenset[str]:
     """Return the topics that unknown plugins name: they may be the other end."""
     known = {channel.owner for channel in channels(robot)}
-    others = (each for each in robot.plugins if each not in known)
+    others = (plugin for plugin in robot.plugins if plugin not in known)
     parameters = chain.from_iterable(
-        each.element.descendants() for each in others if each.class_name not in _LISTENS
+        other.element.descendants() for other in others if other.class_name not in _LISTENS
     )
     texts = (element.text.value.strip() for element in parameters)
     return frozenset(comparable(text) for text in texts if "/" in text)

@@ -29,7 +29,7 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         return
     for reason in launch.unread:
         yield unchecked(reason)
-    names = Suggestions([*robot.links_by_name, *(each.name.value for each in robot.sensors)])
+    names = Suggestions([*robot.links_by_name, *(sensor.name.value for sensor in robot.sensors)])
     for bridge in launch.bridges:
         if fault := _fault(robot, bridge, names):
             yield finding(bridge, _message(bridge, "listens", fault), key=bridge.ign_topic)

@@ -30,7 +30,7 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
             yield unchecked(reason)
     # The command that cannot be read may switch on what is off without it.
     nodes = (*launch.nodes, *(launch.dormant_nodes if launch.unread else ()))
-    taken = {each.input_image for each in optical_frames(nodes)}
+    taken = {frame.input_image for frame in optical_frames(nodes)}
     lacking = [pair for pair in _pictures(robot, launch) if pair[0].ros_topic not in taken]
     if lacking and launch.unseen_bridges:
         yield unchecked(launch.unseen_bridges[0])

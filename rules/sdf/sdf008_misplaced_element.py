@@ -55,7 +55,7 @@ def _places(
 ) -> Sequence[str]:
     """Return where an element is allowed, near its place or around it; nothing for too many."""
     places = parents.get(tag, ())
-    near = [each for each in places if each == around or parent in parents.get(each, ())]
+    near = [place for place in places if place == around or parent in parents.get(place, ())]
     listed = near or places
     return listed if len(listed) <= _LISTED else ()
 

@@ -68,7 +68,7 @@ def _expected(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
         float(rate): samples for rate, samples in device.values.get("samples_by_rate", {}).items()
     }
     at_rate = by_rate.get(sensor.update_rate.value)
-    listed = at_rate or [each for samples in by_rate.values() for each in samples]
+    listed = at_rate or [sample for samples in by_rate.values() for sample in samples]
     share = _share_of_turn(lidar, device)
     expected = [float(each) for each in listed]
     if share < 1 and max(expected, default=1) > 1:

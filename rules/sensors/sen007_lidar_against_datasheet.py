@@ -73,9 +73,9 @@ def check(
             *_ranges(lidar, named, tolerance, near),
             *_rate(sensor, named.device, tolerance),
         ]
-        for each in differences:
-            if not devices.are_diverted(named.device, _SPOKEN_OF[each.figure]):
-                yield _finding(sensor, named, each)
+        for difference in differences:
+            if not devices.are_diverted(named.device, _SPOKEN_OF[difference.figure]):
+                yield _finding(sensor, named, difference)
 
 
 def _rows(lidar: Lidar, device: Device) -> Iterator[_Difference]:

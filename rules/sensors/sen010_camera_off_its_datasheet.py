@@ -124,7 +124,7 @@ def _view_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap
     """Yield the field of view if the device does not have it, unless the lens is a fisheye."""
     values, view = device.values, camera.horizontal_fov
     degrees = dict(values.get("hfov_deg_by_size", {}))
-    angles = [math.radians(each) for each in degrees.values()]
+    angles = [math.radians(degree) for degree in degrees.values()]
     fields = [field for field in ("hfov_rad", "hfov_deg", "hfov_deg_by_size") if field in values]
     if "hfov_deg" in values:
         angles.append(math.radians(values["hfov_deg"]))
@@ -134,7 +134,7 @@ def _view_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap
         return
     accepted = [*angles, *values.get("hfov_rad_seen", ())]
     if not any(math.isclose(view.value, each, rel_tol=tolerance) for each in accepted):
-        expected = " or ".join(dict.fromkeys(f"{each:.4g}" for each in sorted(angles)))
+        expected = " or ".join(dict.fromkeys(f"{angle:.4g}" for angle in sorted(angles)))
         said = f"a horizontal_fov of {view.value:.4g} rad"
         said = said if view.stated else f"no <horizontal_fov> (default {view.value:.4g} rad)"
         yield _Gap(view, fields[0], _VIEW, said, f"{expected} rad")

@@ -65,7 +65,10 @@ def _shapes(link: Link, *, meshes_too: bool) -> list[Collision | Visual]:
 
 def _far(sensors: list[Mounted], box: Box, sizes: float) -> list[tuple[Mounted, float]]:
     """Return the sensors that are far from a box, and how far, metres."""
-    gaps = ((each, box.gap(Box(each.pose.translation, each.pose.translation))) for each in sensors)
+    gaps = (
+        (sensor, box.gap(Box(sensor.pose.translation, sensor.pose.translation)))
+        for sensor in sensors
+    )
     return [(each, gap) for each, gap in gaps if gap > sizes * box.diagonal]
 
 

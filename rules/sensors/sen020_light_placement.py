@@ -68,7 +68,7 @@ def check(
             continue
         place = pose.translation
         limit = deepest_with_shadows if light.casts_shadows else deepest
-        deep = [each for each in visuals if _is_inside(robot, each, place, limit)]
+        deep = [visual for visual in visuals if _is_inside(robot, visual, place, limit)]
         if deep:
             yield _inside(light, deep[0], limit)
         else:
@@ -122,7 +122,7 @@ def _alone(
     robot: Robot, light: Light, place: Vector, visuals: list[Placed], nearest: float
 ) -> Iterator[Finding | Unchecked]:
     here = Box(place, place)
-    gap = min((each.box.gap(here) for each in visuals), default=None)
+    gap = min((visual.box.gap(here) for visual in visuals), default=None)
     if gap is not None and gap <= nearest:
         return
     unknown = next((use for use in robot.mesh_uses if not use.is_collision and not use.mesh), None)

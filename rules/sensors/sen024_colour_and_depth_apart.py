@@ -36,8 +36,8 @@ def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findi
         yield unchecked(robot.missing_parts)
         return
     sensors = list(mounted_sensors(robot))
-    colours = [each for each in sensors if _sees_colours(each)]
-    depths = [each for each in sensors if each.sensor.kind.measures_depth]
+    colours = [sensor for sensor in sensors if _sees_colours(sensor)]
+    depths = [sensor for sensor in sensors if sensor.sensor.kind.measures_depth]
     for colour in colours[:_COMPARED]:
         beside = (each for each in depths[:_COMPARED] if _together(colour, each, distance, angle))
         depth = next(beside, None)

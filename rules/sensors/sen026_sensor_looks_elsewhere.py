@@ -36,9 +36,9 @@ def check(
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
-    for each in mounted_sensors(robot):
-        looking = each.looking
-        called = called_directions(each) if looking is not None else None
+    for sensor in mounted_sensors(robot):
+        looking = sensor.looking
+        called = called_directions(sensor) if looking is not None else None
         if looking is None or called is None:
             continue
         angle = math.degrees(called.angle_to(looking))
@@ -49,8 +49,8 @@ def check(
             continue
         x, y, z = (round(part, 2) + 0.0 for part in looking)
         yield finding(
-            each.sensor,
-            f"sensor {each.sensor.name.value!r} looks {angle:.0f}° away from the direction "
+            sensor.sensor,
+            f"sensor {sensor.sensor.name.value!r} looks {angle:.0f}° away from the direction "
             f"{called.word!r} in its {called.source}: it looks along ({x:g}, {y:g}, {z:g}) in the "
             f"robot's frame; expected {limit:g}° or less",
         )

@@ -24,7 +24,7 @@ NAME, MODEL = 0, 1
 def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     """Report names and URIs below `<spawn>` that are constants."""
     function = spawner.functions.get("spawner")
-    parameters = [each.name for each in function.parameters] if function else []
+    parameters = [parameter.name for parameter in function.parameters] if function else []
     for spawn in spawned.spawns:
         written = [*_names(spawn), *_uris(spawn)]
         for what, position, text in written:

@@ -43,7 +43,7 @@ def check(
         rate: Hertz at which static poses are published; any other stated
             `<static_update_frequency>` is a warning.
     """
-    publishers = [each for each in robot.plugins if each.class_name == "PosePublisher"]
+    publishers = [plugin for plugin in robot.plugins if plugin.class_name == "PosePublisher"]
     if not publishers:
         function = spawner.functions.get("spawner")
         yield finding(

@@ -74,7 +74,9 @@ def _is_meant(package: Package, name: str) -> bool:
     """Whether this package inherits the model of another or declares it in package.xml."""
     if package.base is not None and package.base.package_name == name:
         return True
-    declared = (each for each in package.references if each.kind is ReferenceKind.DEPENDENCY)
+    declared = (
+        reference for reference in package.references if reference.kind is ReferenceKind.DEPENDENCY
+    )
     return name in (each.package_name for each in declared)
 
 

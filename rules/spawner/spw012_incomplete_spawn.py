@@ -28,7 +28,7 @@ _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     """Report `<spawn>` elements without world or with wrong flags."""
     function = spawner.functions.get("spawner")
-    names = [each.name for each in function.parameters] if function else []
+    names = [parameter.name for parameter in function.parameters] if function else []
     if not spawned.spawns and not spawned.gazebo_factories:
         yield finding(function or spawner.entry.whole(), "the spawner emits no <spawn>")
     for spawn in spawned.spawns:

@@ -26,7 +26,7 @@ ARGUMENTS = (
 def check(spawner: Spawner, started: StartedXml) -> Findings:
     """Report commands whose `name:=` or `world_name:=` is missing or a constant."""
     function = spawner.functions.get("rosExecutables")
-    parameters = [each.name for each in function.parameters] if function else []
+    parameters = [parameter.name for parameter in function.parameters] if function else []
     for element in started.commands:
         command = LaunchCommand.parse(element.text.value)
         if command is None:

@@ -99,9 +99,15 @@ def _twice(description: UrdfDescription) -> Iterator[Finding]:
 
 def _left_without(description: UrdfDescription) -> Iterator[Finding]:
     """Yield joints without transmission if most joints of their type have one."""
-    moved = {end.name.value for each in description.transmissions for end in each.joints}
+    moved = {
+        end.name.value for transmission in description.transmissions for end in transmission.joints
+    }
     robot = description.robot
-    moved |= {each.text.value for plugin in robot.plugins for each in plugin.element.descendants()}
+    moved |= {
+        descendant.text.value
+        for plugin in robot.plugins
+        for descendant in plugin.element.descendants()
+    }
     joints = [joint for joint in robot.joints if joint.type.value in _MOVING and not joint.mimics]
     driven = Counter(joint.type.value for joint in joints if joint.name.value in moved)
     loose = Counter(joint.type.value for joint in joints if joint.name.value not in moved)

@@ -113,7 +113,9 @@ def _grant(ruleset: int, path: str, rights: int) -> None:
 def _call(*arguments: object) -> int:
     libc = ctypes.CDLL(None, use_errno=True)
     libc.syscall.restype = ctypes.c_long
-    numbers = [ctypes.c_long(each) if isinstance(each, int) else each for each in arguments]
+    numbers = [
+        ctypes.c_long(argument) if isinstance(argument, int) else argument for argument in arguments
+    ]
     result = int(libc.syscall(*numbers))
     if result < 0:
         raise NotHeld(f"Landlock: {os.strerror(ctypes.get_errno())}")

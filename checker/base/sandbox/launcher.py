@@ -173,7 +173,7 @@ class OwnLauncher(Launcher):
             return ()
         finally:
             self._control.settimeout(None)
-        return tuple(Layer(*each) for each in json.loads(said))
+        return tuple(Layer(*load) for load in json.loads(said))
 
     def close(self) -> None:
         """End all that was started, and wait until it has ended."""

@@ -116,7 +116,7 @@ class LauncherProcess:
         self._orphans = Orphans()
         layers = enter(sandbox)
         _limit_processes(layers, sandbox)
-        said = json.dumps([[each.name, each.held, each.words, each.hides] for each in layers])
+        said = json.dumps([[layer.name, layer.held, layer.words, layer.hides] for layer in layers])
         control.sendall(said.encode() + b"\n")
         for descriptor in (*self._controls, self._woken):
             self._poll.register(descriptor, select.POLLIN)
@@ -244,7 +244,7 @@ def _limit_processes(layers: Sequence[Layer], sandbox: Sandbox) -> None:
     """Keep processes from starting too many, where only they count for their user."""
     import resource
 
-    account = any(each.name == ACCOUNT and each.held for each in layers)
+    account = any(layer.name == ACCOUNT and layer.held for layer in layers)
     # A user namespace counts its own since Linux 5.14 (user_namespaces(7)); root has none here.
     version = tuple(int(part) for part in re.findall(r"\d+", os.uname().release)[:2])
     if account or (sandbox.wrapped and os.getuid() != 0 and version >= _COUNTS_BY_NAMESPACE):

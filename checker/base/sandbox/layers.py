@@ -70,7 +70,7 @@ def _entered(name: str, sandbox: Sandbox) -> Layer:
 
 def hides_files(layers: Iterable[Layer]) -> bool:
     """Say whether a process that was taken over would not reach the files of who started it."""
-    return any(each.held and each.hides for each in layers)
+    return any(layer.held and layer.hides for layer in layers)
 
 
 def _namespaces(sandbox: Sandbox) -> str:

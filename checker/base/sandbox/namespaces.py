@@ -38,8 +38,8 @@ def wrapped(command: Sequence[str], read: Iterable[str], work: str = "") -> list
     """
     paths = list(read)
     # Made on the way to a file, they would be closed to all but root.
-    parents = (each for path in paths for each in reversed(Path(path).parents))
-    folders = dict.fromkeys(each for each in parents if str(each) not in _LINKS)
+    parents = (parent for path in paths for parent in reversed(Path(path).parents))
+    folders = dict.fromkeys(parent for parent in parents if str(parent) not in _LINKS)
     shown = [word for folder in folders if folder.name for word in ("--dir", str(folder))]
     shown += [word for path in paths for word in _shown(path)]
     place = ("--bind", work, WORK) if work else ("--tmpfs", WORK)

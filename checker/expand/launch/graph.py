@@ -226,11 +226,11 @@ class LaunchGraph(Record, eq=False, dict=True):
         """Why topics may be passed that `bridges` and `dormant_bridges` do not hold."""
         assumed = set(self.assumed_includes)
         missing = (
-            each
-            for each in self.unresolved_includes
-            if each not in assumed
-            and each.package != _SIMULATOR
-            and posixpath.basename(each.file) != _DESCRIPTION
+            include
+            for include in self.unresolved_includes
+            if include not in assumed
+            and include.package != _SIMULATOR
+            and posixpath.basename(include.file) != _DESCRIPTION
         )
         reasons = [f"{each.file} is not read: {each.reason}" for each in missing]
         reasons += [

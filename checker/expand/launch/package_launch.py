@@ -217,7 +217,7 @@ def launch_entries(package: Package) -> LaunchEntries:
         if parts > MAX_PARTS or any(f.kind is LaunchFaultKind.LIMIT for f in graph.faults):
             unread.append(f"{document.source.file} and the following files are too large to read")
             break
-    included = {each.file for graph in graphs.values() for each in graph.includes}
+    included = {include.file for graph in graphs.values() for include in graph.includes}
     first = [file for file in graphs if file not in included] or list(graphs)
     return LaunchEntries(tuple(LaunchEntry(file, graphs[file]) for file in first), tuple(unread))
 

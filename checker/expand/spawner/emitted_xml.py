@@ -85,7 +85,7 @@ class SpawnedXml(EmittedXml, dict=True):
     def gazebo_factories(self) -> list[Element]:
         """The plugins that older spawners wrap the robot in instead of `<spawn>`."""
         plugins = self.document.root.descendants("plugin")
-        return [each for each in plugins if "gazebo-factory" in (each.get("filename") or "")]
+        return [plugin for plugin in plugins if "gazebo-factory" in (plugin.get("filename") or "")]
 
     @cached_property
     def plugins(self) -> list[Element]:

@@ -29,7 +29,7 @@ def is_answer(said: Any) -> bool:
     """Say whether something has the form of what became of one file (`processor.expand`)."""
     match said:
         case {"xml": str(), "origins": list(origins), "files": list(files)}:
-            return all(map(_is_place, origins)) and all(isinstance(each, str) for each in files)
+            return all(map(_is_place, origins)) and all(isinstance(file, str) for file in files)
         case {"kind": str(kind), "message": str()}:
             return kind in _KINDS and _is_told(said.get("at"), said.get("through"))
         case {"refused": str(), "expression": str()}:
@@ -51,7 +51,7 @@ def _is_told(at: Any, through: Any) -> bool:
     match at:
         case None | [str(), int()]:
             macros = [] if through is None else through
-            return isinstance(macros, list) and all(isinstance(each, str) for each in macros)
+            return isinstance(macros, list) and all(isinstance(macro, str) for macro in macros)
     return False
 
 
@@ -100,9 +100,9 @@ class Expansions:
         for _ in range(_ROUNDS):
             answers = [*self._begun.results().values()]
             missing = [
-                each["missing"]
-                for each in answers
-                if not isinstance(each, WorkerFailed) and "missing" in each
+                answer["missing"]
+                for answer in answers
+                if not isinstance(answer, WorkerFailed) and "missing" in answer
             ]
             if not missing:
                 break

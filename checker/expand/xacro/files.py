@@ -135,7 +135,9 @@ class Gathered:
             return
         yaml = ("".join(filter(None, found)) for found in _YAML.findall(document.source.text))
         included = (
-            each.get("filename") or "" for each in document.elements if each.tag == "xacro:include"
+            element.get("filename") or ""
+            for element in document.elements
+            if element.tag == "xacro:include"
         )
         for name in (*yaml, *included):
             spelled = _FIND.sub(lambda found: f"{ROOT}/{found[1]}", name)

@@ -88,18 +88,18 @@ def _causes(error: BaseException | None) -> list[BaseException]:
 
 def _kind(error: BaseException) -> str:
     causes = _causes(error)
-    if any(isinstance(each, RecursionError | MemoryError) for each in causes):
+    if any(isinstance(cause, RecursionError | MemoryError) for cause in causes):
         return "limit"
-    if any(isinstance(each, _NeedsEnvironment) for each in causes):
+    if any(isinstance(cause, _NeedsEnvironment) for cause in causes):
         return "environment"
-    missing = any(isinstance(each, substitution_args.ArgException) for each in causes)
+    missing = any(isinstance(cause, substitution_args.ArgException) for cause in causes)
     return "argument" if missing else "expansion"
 
 
 def _message(error: BaseException) -> str:
     """Say what is wrong: the innermost words, and the expression that they are about."""
     causes = _causes(error)
-    suffixes = (getattr(each, "suffix", None) for each in reversed(causes))
+    suffixes = (getattr(cause, "suffix", None) for cause in reversed(causes))
     expression = next(filter(None, suffixes), "")
     inner = causes[-1]
     if isinstance(inner, MemoryError):

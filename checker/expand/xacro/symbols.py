@@ -76,7 +76,7 @@ def _sum(budget: Budget, items: Any, /) -> float:
 
 
 def _distance(budget: Budget, *points: Any) -> float:
-    found = [listed(budget, each) for each in points]
+    found = [listed(budget, point) for point in points]
     for each in found:
         weigh(each, budget)
     return math.dist(*found)
@@ -137,10 +137,10 @@ def text_value(text: str, symbols: Any, allowance: Allowance) -> Any:
         return results[0]
     budget = Budget(allowance)
     try:
-        for each in results:
-            if type(each) is not str:
-                weigh(each, budget)
-        shown = [str(each) for each in results]
+        for result in results:
+            if type(result) is not str:
+                weigh(result, budget)
+        shown = [str(result) for result in results]
     finally:
         budget.close()
     if sum(map(len, shown)) > LENGTH_LIMIT:

@@ -179,7 +179,11 @@ class ControlSystem(Record, eq=False, dict=True):
     @cached_property
     def configured(self) -> Mapping[str, Controller]:
         """Controllers that launch files load, by full name; the last one counts."""
-        return {each.full_name: each for each in self.controllers if each.loaded_by}
+        return {
+            controller.full_name: controller
+            for controller in self.controllers
+            if controller.loaded_by
+        }
 
     @cached_property
     def namespaces(self) -> frozenset[str]:
@@ -205,9 +209,9 @@ class ControlSystem(Record, eq=False, dict=True):
     def models(self) -> tuple[SpawnedModel, ...]:
         """Models that launch files spawn; each place once."""
         found = {
-            (each.node.span.source.file, each.node.span.start, each.model): each
+            (model.node.span.source.file, model.node.span.start, model.model): model
             for launch in self.launches
-            for each in launch.models
+            for model in launch.models
         }
         return tuple(found.values())
 

@@ -153,7 +153,7 @@ class Parameters:
 
     def _left_over(self) -> Iterator[str]:
         files = self.package.index.with_suffix(".yaml", ".yml")
-        yield from (each.path for each in files[:MAX_FILES] if each.path not in self._loaded)
+        yield from (file.path for file in files[:MAX_FILES] if file.path not in self._loaded)
 
 
 _STATE_PLUGIN = "gazebo_ros_joint_state_publisher"
@@ -196,7 +196,9 @@ def control_system(
         }
         if known
         else None,
-        transmissions=tuple(each for one in described for each in one.transmissions),
+        transmissions=tuple(
+            transmission for one in described for transmission in one.transmissions
+        ),
         plugins=tuple(_plugin(each) for each in _called(plugins, MANAGER_PLUGIN)),
         publishes_states=bool(_called(plugins, _STATE_PLUGIN)),
         has_manager=any(_MANAGER in library_stem(each.filename.value) for each in plugins),
@@ -223,14 +225,14 @@ def _reason(part: object) -> str:
 
 
 def _called(plugins: Iterable[Plugin], stem: str) -> list[Plugin]:
-    return [each for each in plugins if library_stem(each.filename.value) == stem]
+    return [plugin for plugin in plugins if library_stem(plugin.filename.value) == stem]
 
 
 def _mentioned(plugins: Iterable[Plugin]) -> Iterable[str]:
     """Yield the texts within plugins that may move joints by themselves."""
     for plugin in plugins:
         if library_stem(plugin.filename.value) != MANAGER_PLUGIN:
-            yield from (each.text.value for each in plugin.element.descendants())
+            yield from (descendant.text.value for descendant in plugin.element.descendants())
 
 
 def _plugin(plugin: Plugin) -> ControlPlugin:

@@ -115,6 +115,6 @@ class SensorDevices(Record, eq=False, dict=True):
         names = expression(f"{device.match}|{_WORDS.get(device.kind, '(?!)')}")
         meant = re.compile(figure, re.IGNORECASE)
         return any(
-            names.search(each[:_TEXT_LIMIT]) and meant.search(each[:_TEXT_LIMIT])
-            for each in self.diversions
+            names.search(diversion[:_TEXT_LIMIT]) and meant.search(diversion[:_TEXT_LIMIT])
+            for diversion in self.diversions
         )

@@ -115,7 +115,9 @@ def find_sensor_devices(
     items = list(_items(sheet, known, configurations))
     section = sheet.section("diversions")
     paragraphs = section.passages[:PASSAGES_LIMIT] if section is not None else ()
-    return SensorDevices(tuple(_decided(sensors, items)), tuple(each.words for each in paragraphs))
+    return SensorDevices(
+        tuple(_decided(sensors, items)), tuple(paragraph.words for paragraph in paragraphs)
+    )
 
 
 def _items(sheet: Specification, known: KnownDevices, configurations: Set[int]) -> Iterator[_Item]:

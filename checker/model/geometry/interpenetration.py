@@ -58,7 +58,7 @@ def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
     tied = _tied(robot, bodies)
     wheels = {link.scoped_name for link in robot.wheels}
     found: set[tuple[str, str]] = set()
-    for first, second in close_pairs([each.box for each in shapes], -depth):
+    for first, second in close_pairs([shape.box for shape in shapes], -depth):
         one, other = shapes[first], shapes[second]
         a, b = one.link.scoped_name, other.link.scoped_name
         pair = (min(a, b), max(a, b))

@@ -89,8 +89,8 @@ def by_topic(bridges: Iterable[Bridge]) -> Mapping[str, Sequence[Bridge]]:
 
 def channels(robot: Robot) -> tuple[Channel, ...]:
     """Return the channels of all sensors and plugins of which the table knows any."""
-    of_sensors = (each for sensor in robot.sensors for each in sensor_channels(sensor))
-    of_plugins = (each for plugin in robot.plugins for each in plugin_channels(plugin))
+    of_sensors = (channel for sensor in robot.sensors for channel in sensor_channels(sensor))
+    of_plugins = (channel for plugin in robot.plugins for channel in plugin_channels(plugin))
     return (*of_sensors, *of_plugins)
 
 

@@ -91,10 +91,10 @@ def _outermost(package: Package) -> Iterator[str]:
     documents = {path: package.xml(path) for path in paths}
     roots = {path: each.root for path, each in documents.items() if isinstance(each, XmlDocument)}
     included = {
-        posixpath.basename(each.get("filename") or "")
+        posixpath.basename(descendant.get("filename") or "")
         for path, root in roots.items()
-        for each in root.descendants("xacro:include")
-        if posixpath.basename(each.get("filename") or "") != posixpath.basename(path)
+        for descendant in root.descendants("xacro:include")
+        if posixpath.basename(descendant.get("filename") or "") != posixpath.basename(path)
     }
     outermost = [path for path in paths if posixpath.basename(path) not in included]
     # Files that include one another in a circle leave none.
@@ -146,9 +146,9 @@ class Describing:
         elif may_hold_description(package):
             self._candidates = candidates(package, self._loads())
         self._wanted = [
-            Wanted(each.path, {**SAMPLE_ARGUMENTS, **each.args, **args})
-            for each in self._candidates
-            if _needs_xacro(package, each)
+            Wanted(candidate.path, {**SAMPLE_ARGUMENTS, **candidate.args, **args})
+            for candidate in self._candidates
+            if _needs_xacro(package, candidate)
         ]
         self._expansions = Expansions(package, self._wanted, cache) if self._wanted else None
 
@@ -164,19 +164,19 @@ class Describing:
         expanded = dict(zip((each.path for each in self._wanted), outcomes, strict=True))
         descriptions, faults = [], []
         unread: list[tuple[Candidate, str]] = []
-        for each in self._candidates:
-            outcome = expanded.get(each.path) or _plain(self._package, each.path)
+        for candidate in self._candidates:
+            outcome = expanded.get(candidate.path) or _plain(self._package, candidate.path)
             if isinstance(outcome, XmlDocument):
-                if _holds_robot(outcome, each):
-                    read = read_description(outcome, each.path, for_rviz=self._for_rviz)
+                if _holds_robot(outcome, candidate):
+                    read = read_description(outcome, candidate.path, for_rviz=self._for_rviz)
                     descriptions.append(read)
             elif isinstance(outcome, Unread):
-                unread.append((each, outcome.reason))
-            elif outcome.kind is XacroFaultKind.ARGUMENT and not each.loaded:
+                unread.append((candidate, outcome.reason))
+            elif outcome.kind is XacroFaultKind.ARGUMENT and not candidate.loaded:
                 # What starts it may well give the argument.
-                unread.append((each, f"{each.path} is not expanded: {outcome.message}"))
+                unread.append((candidate, f"{candidate.path} is not expanded: {outcome.message}"))
             else:
-                faults.append(replace(outcome, loaded=each.loaded))
+                faults.append(replace(outcome, loaded=candidate.loaded))
         return UrdfFiles(
             tuple(descriptions),
             tuple(faults),

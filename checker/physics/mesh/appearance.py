@@ -136,7 +136,7 @@ def appearance_of(
         return data.reason
     materials = map(files.read, asked["materials"])
     try:
-        at_hand = (each for each in materials if isinstance(each, bytes))
+        at_hand = (material for material in materials if isinstance(material, bytes))
         pieces = by_material(read_content(data, asked["name"], at_hand).pieces)
     except NoSurface as none:
         return none.reason

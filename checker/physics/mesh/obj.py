@@ -111,7 +111,7 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
 def _pieces(reading: _Reading, materials: Mapping[str, Material]) -> Iterator[Piece]:
     import numpy as np
 
-    if any(len(each) < 3 for each in reading.corners):
+    if any(len(corner) < 3 for corner in reading.corners):
         raise NoSurface("contains a corner with fewer than three numbers")
     corners = np.array(reading.corners, np.float64).reshape(-1, 3)
     places = np.array(reading.places, np.float64).reshape(-1, 2)
@@ -169,7 +169,7 @@ def _numbers(words: list[bytes]) -> list[float]:
         numbers = [float(word) for word in words]
     except ValueError:
         return []
-    return [min(max(each, 0.0), 1.0) for each in numbers if math.isfinite(each)]
+    return [min(max(number, 0.0), 1.0) for number in numbers if math.isfinite(number)]
 
 
 def _name(words: list[bytes]) -> str:

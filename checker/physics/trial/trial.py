@@ -95,7 +95,7 @@ class Replay(Record):
         """
         time = tuple(said["time"])
         poses = {name: _from_text(text) for name, text in said["poses"].items()}
-        if any(len(each) != POSE_NUMBERS * len(time) for each in poses.values()):
+        if any(len(pose) != POSE_NUMBERS * len(time) for pose in poses.values()):
             raise ValueError("a replay needs seven numbers a sample of each link")
         return cls(time, poses, dict(said["carriers"]))
 
@@ -155,14 +155,14 @@ class Trial(Record):
 
     def value(self, name: str, part: str = "") -> float | None:
         """Return a figure; None when it was not measured."""
-        for each in self.measurements:
-            if each.name == name and each.part == part:
-                return each.value
+        for measurement in self.measurements:
+            if measurement.name == name and measurement.part == part:
+                return measurement.value
         return None
 
     def all(self, name: str) -> tuple[Measurement, ...]:
         """Return the figures of one name, of every part they were measured for."""
-        return tuple(each for each in self.measurements if each.name == name)
+        return tuple(measurement for measurement in self.measurements if measurement.name == name)
 
     def as_json(self) -> dict[str, Any]:
         """Return what JSON can express."""

@@ -85,7 +85,7 @@ def in_view(middle: Array, radius: float, grid: Grid) -> bool:
         return True
     with np.errstate(all="ignore"):
         rows, columns = _within(*_cones(middle[None, :], np.array([radius])), grid)
-    return bool(rows[1][0]) and any(each[1][0] for each in columns)
+    return bool(rows[1][0]) and any(column[1][0] for column in columns)
 
 
 def _reach(corners: Array, rays: Array) -> Array:

@@ -54,7 +54,9 @@ class Asked(Record, eq=False):
 
 def asked_of(robot: Robot, content: Content) -> Asked:
     """Return what is to be asked about a robot."""
-    looking = [(each, grid) for each in mounted_sensors(robot) if (grid := grid_of(each.sensor))]
+    looking = [
+        (sensor, grid) for sensor in mounted_sensors(robot) if (grid := grid_of(sensor.sensor))
+    ]
     visuals = [(link, visual) for link in robot.links for visual in link.visuals]
     unseen: list[str] = []
     if len(looking) > SENSORS or len(visuals) > VISUALS:

@@ -96,7 +96,7 @@ class RobotViews:
         """Wait for what was asked about a robot."""
         asked, begun = self._begin(number)
         if begun is None:
-            nothing = tuple(View(each, (), 0.0, None) for each in asked.sensors)
+            nothing = tuple(View(sensor, (), 0.0, None) for sensor in asked.sensors)
             return SensorViews(robot, nothing, asked.unseen if asked.sensors else ())
         with self.stages.stage(
             "views", "" if begun.known else "computing the views of the sensors"

@@ -68,7 +68,7 @@ def sensors_of(asked: Mapping[str, Any]) -> Sensors:
     import numpy as np
 
     sensors = asked["sensors"]
-    return [(np.array(each["pose"]), grid_from_json(each["grid"])) for each in sensors]
+    return [(np.array(sensor["pose"]), grid_from_json(sensor["grid"])) for sensor in sensors]
 
 
 def _view(grid: Grid, met: Iterable[Met]) -> dict[str, Any]:

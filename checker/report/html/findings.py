@@ -139,8 +139,8 @@ class RuleGroup(Record):
 def groups_of(findings: Sequence[ReportedFinding]) -> list[RuleGroup]:
     """Return findings by severity and rule, in the order of each rule's first finding."""
     by_rule: dict[tuple[Severity, str], list[ReportedFinding]] = {}
-    for each in findings:
-        by_rule.setdefault((each.severity, each.rule), []).append(each)
+    for finding in findings:
+        by_rule.setdefault((finding.severity, finding.rule), []).append(finding)
     room = MOST
     groups = []
     for (severity, _), found in by_rule.items():

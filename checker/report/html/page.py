@@ -200,7 +200,7 @@ def to_index(report: Report, links: Sequence[str]) -> str:
         ],
         levels=list(Severity),
         with_suppressed=has_suppressed(report.packages),
-        ready=sum(each.verdict is VerdictKind.READY for each in report.packages),
+        ready=sum(package.verdict is VerdictKind.READY for package in report.packages),
         style=text_of("report.css"),
     )  # fmt: skip
 

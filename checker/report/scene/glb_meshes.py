@@ -100,7 +100,8 @@ class GlbMeshes:
         """Return the number of the mesh that consists of some surfaces."""
         primitives = [self._primitive(surface) for surface in surfaces]
         key = tuple(
-            (each["material"], each["indices"], *each["attributes"].items()) for each in primitives
+            (primitive["material"], primitive["indices"], *primitive["attributes"].items())
+            for primitive in primitives
         )
         if key not in self._known:
             self._known[key] = len(self.meshes)

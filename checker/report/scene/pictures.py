@@ -143,9 +143,9 @@ def _moved(points: Array, pose: Transform) -> Array:
 def _box(surfaces: Sequence[Surface]) -> Array:
     import numpy as np
 
-    vertices = [each.vertices for each in surfaces if len(each.vertices)]
-    low = np.min([each.min(axis=0) for each in vertices], axis=0)
-    high = np.max([each.max(axis=0) for each in vertices], axis=0)
+    vertices = [surface.vertices for surface in surfaces if len(surface.vertices)]
+    low = np.min([vertex.min(axis=0) for vertex in vertices], axis=0)
+    high = np.max([vertex.max(axis=0) for vertex in vertices], axis=0)
     return np.array([*product(*zip(low, high, strict=True))], np.float64)
 
 
@@ -156,7 +156,7 @@ def ground_of(scene: DisplayScene) -> float:
     if scene.tracks is not None:
         return 0.0
     boxes = (_boxes(scene, layer) for layer in (Layer.VISUAL, Layer.COLLISION))
-    points = np.concatenate([_points(scene, each, 0) for each in boxes if each])
+    points = np.concatenate([_points(scene, box, 0) for box in boxes if box])
     return float(points[:, 2].min())
 
 

@@ -46,7 +46,7 @@ def drawn(showing: Showing, shape: Collision | Visual) -> Drawn | None:
     geometry, notes = shape.geometry, showing.notes
     if geometry.shape in _NOTHING:
         return None
-    sizes = {name: [each.value for each in values] for name, values in geometry.sizes.items()}
+    sizes = {name: [value.value for value in values] for name, values in geometry.sizes.items()}
     if not _sound(geometry, sizes):
         what = f"{shape.element.tag} {short(shape.name.value)!r}"
         notes.say(f"{what} is not shown: its size is not a number above 0")
@@ -63,9 +63,11 @@ def drawn(showing: Showing, shape: Collision | Visual) -> Drawn | None:
 
 def _sound(geometry: Geometry, sizes: dict[str, list[float]]) -> bool:
     """Return whether something of these sizes can be seen."""
-    lengths = [each for name, values in sizes.items() if name != "normal" for each in values]
+    lengths = [value for name, values in sizes.items() if name != "normal" for value in values]
     mirrored = geometry.shape == "mesh"
-    return all(usable(each, FAR) and (each > 0.0 or (mirrored and each)) for each in lengths)
+    return all(
+        usable(length, FAR) and (length > 0.0 or (mirrored and length)) for length in lengths
+    )
 
 
 def _of_mesh(showing: Showing, shape: Collision | Visual) -> tuple[Surface, ...]:

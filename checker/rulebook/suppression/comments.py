@@ -106,7 +106,7 @@ def _is_alone(text: str, start: int, end: int) -> bool:
     if text[start] == "#":
         return not text[first:start].strip()
     before, *comments = text[first:last].split("<!--")
-    behind = [each.partition("-->") for each in comments]
+    behind = [comment.partition("-->") for comment in comments]
     return not before.strip() and all(ended and not rest.strip() for _, ended, rest in behind)
 
 

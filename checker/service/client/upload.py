@@ -142,8 +142,8 @@ def pack(folder: Path, archive: BinaryIO, limits: ArchiveLimits | None = None) -
     """
     root = folder.resolve()
     index = build_index(root, lambda _: False)
-    entries = [each for each in index.entries.values() if not LEFT_OUT & {*each.path.split("/")}]
-    packed = [each for each in entries if each.kind in (EntryKind.FILE, EntryKind.FOLDER)]
+    entries = [entry for entry in index.entries.values() if not LEFT_OUT & {*entry.path.split("/")}]
+    packed = [entry for entry in entries if entry.kind in (EntryKind.FILE, EntryKind.FOLDER)]
     _refuse(folder, index, packed, limits or ArchiveLimits())
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
         for each in packed:
@@ -191,7 +191,7 @@ def _words_of_left_out(entries: list[FileEntry]) -> list[str]:
     kinds = {EntryKind.LINK: "link", EntryKind.SPECIAL: "special file"}
     words = []
     for kind, noun in kinds.items():
-        paths = [plain(shortened(each.path, 200)) for each in entries if each.kind is kind]
+        paths = [plain(shortened(entry.path, 200)) for entry in entries if entry.kind is kind]
         if paths:
             more = [f"{len(paths) - _NAMED} more"] * (len(paths) > _NAMED)
             named = listed([*paths[:_NAMED], *more])

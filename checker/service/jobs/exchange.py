@@ -100,7 +100,7 @@ def read_summary(key: str, said: Any) -> Checked | None:
             packages
         ) <= _PACKAGES_LIMIT and all(map(_is_package, packages)):
             names = (*_TEXTS, "verdict", *_NUMBERS)
-            kept = tuple({name: each[name] for name in names} for each in packages)
+            kept = tuple({name: package[name] for name in names} for package in packages)
             return Checked(key, kept, shortened(plain(words), _TEXT_LIMIT))
     return None
 

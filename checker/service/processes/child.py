@@ -119,8 +119,10 @@ class Connection(H11Protocol):
         return self.cycle is not None and not self.cycle.response_complete
 
     def _is_one_too_many(self) -> bool:
-        peers = (each for each in self.connections if isinstance(each, Connection))
-        return sum(each.network == self.network for each in peers) > self.per_client
+        peers = (
+            connection for connection in self.connections if isinstance(connection, Connection)
+        )
+        return sum(peer.network == self.network for peer in peers) > self.per_client
 
 
 class ProxyConnection(Connection):

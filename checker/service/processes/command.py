@@ -47,8 +47,8 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
             _say(warning)
         stop, at_once = _signals()
         processes = _processes(options, bound, environment)
-        for each in processes:
-            each.start()
+        for process in processes:
+            process.start()
         try:
             return _served(bound, processes, stop, at_once, pace or Pace())
         finally:

@@ -122,8 +122,8 @@ def _how(code: int) -> str:
 def keep_running(processes: Sequence[Process], stop: threading.Event, pace: Pace, say: Say) -> None:
     """Keep processes running until `stop` is set."""
     while not stop.wait(_LOOK_SECONDS):
-        for each in processes:
-            each.mend(pace, say)
+        for process in processes:
+            process.mend(pace, say)
 
 
 def stop_all(processes: Sequence[Process], at_once: threading.Event, pace: Pace) -> bool:
@@ -132,14 +132,14 @@ def stop_all(processes: Sequence[Process], at_once: threading.Event, pace: Pace)
     Returns:
         Whether all have ended by themselves.
     """
-    for each in processes:
-        each.signal(signal.SIGTERM)
+    for process in processes:
+        process.signal(signal.SIGTERM)
     ends = monotonic() + pace.grace
-    while any(each.is_running for each in processes):
+    while any(process.is_running for process in processes):
         if at_once.wait(_LOOK_SECONDS / 4) or monotonic() > ends:
             break
-    willing = not any(each.is_running for each in processes)
-    for each in processes:
-        each.signal(signal.SIGKILL)
-        each.wait(10.0)
+    willing = not any(process.is_running for process in processes)
+    for process in processes:
+        process.signal(signal.SIGKILL)
+        process.wait(10.0)
     return willing

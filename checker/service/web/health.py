@@ -128,5 +128,5 @@ class Health(Record):
 def _sandbox(alive: Alive | None) -> Mapping[str, Sequence[str]]:
     living = alive.living if alive else {}
     return {
-        worker: [each.name for each in layers if each.held] for worker, layers in living.items()
+        worker: [layer.name for layer in layers if layer.held] for worker, layers in living.items()
     }

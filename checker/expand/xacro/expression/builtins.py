@@ -67,19 +67,19 @@ def rounded(budget: Budget, number: Any, ndigits: Any = None) -> Any:
 
 def listed(budget: Budget, *arguments: Any) -> list[Any]:
     """Do what `list` does."""
-    return list(*(consumed(each, budget) for each in arguments))
+    return list(*(consumed(argument, budget) for argument in arguments))
 
 
 def tupled(budget: Budget, *arguments: Any) -> tuple[Any, ...]:
     """Do what `tuple` does."""
-    return tuple(*(consumed(each, budget) for each in arguments))
+    return tuple(*(consumed(argument, budget) for argument in arguments))
 
 
 def keyed(kind: type) -> Work:
     """Return what `set` and `frozenset` do."""
 
     def work(budget: Budget, *arguments: Any) -> Any:
-        found = [hashable(budget, each) for each in arguments]
+        found = [hashable(budget, argument) for argument in arguments]
         return kind(*found)
 
     return work
@@ -113,7 +113,7 @@ def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[A
         arguments: Those of `dict` or `update`, but for the named ones.
         among: How many keys the dictionary has.
     """
-    found = tuple(list(each) if type(each) in LAZY else each for each in arguments)
+    found = tuple(list(argument) if type(argument) in LAZY else argument for argument in arguments)
     for each in found:
         weigh(each, budget)
         keys = each if type(each) in MAPPINGS else []
@@ -162,8 +162,8 @@ def extreme(native: Any) -> Work:
         values = arguments
         if len(arguments) == 1 and type(arguments[0]) in LAZY:
             values = (list(arguments[0]),)
-        for each in values:
-            weigh(consumed(each, budget), budget)
+        for value in values:
+            weigh(consumed(value, budget), budget)
         return native(*values, key=paid(budget, key), **named)
 
     return work

@@ -76,16 +76,16 @@ def _named(
     run: Interpreter, node: ast.Call, scope: Scope | None, takes: frozenset[int | str]
 ) -> dict[str, Any]:
     found: dict[str, Any] = {}
-    for each in node.keywords:
-        if each.arg is None:
-            more = run.value(each.value, scope)
+    for keyword in node.keywords:
+        if keyword.arg is None:
+            more = run.value(keyword.value, scope)
             if type(more) not in MAPPINGS:
                 raise TypeError("argument after ** must be a mapping")
             more = dict(consumed(more, run.budget))
-        elif each.arg in takes:
-            more = {each.arg: _function_or_value(run, each.value, scope)}
+        elif keyword.arg in takes:
+            more = {keyword.arg: _function_or_value(run, keyword.value, scope)}
         else:
-            more = {each.arg: run.value(each.value, scope)}
+            more = {keyword.arg: run.value(keyword.value, scope)}
         if found.keys() & more.keys():
             raise TypeError("a keyword argument is given twice")
         if not all(type(name) is str for name in more):
@@ -111,7 +111,7 @@ def _lambda(run: Interpreter, node: ast.Lambda, scope: Scope | None) -> Callable
     if of.vararg or of.kwarg or of.kwonlyargs:
         raise RefusedExpression("a lambda function with other than plain parameters")
     parameters = [each.arg for each in (*of.posonlyargs, *of.args)]
-    defaults = [run.data(each, scope) for each in of.defaults]
+    defaults = [run.data(default, scope) for default in of.defaults]
 
     def called(*arguments: Any) -> Any:
         missing = len(parameters) - len(arguments)
@@ -130,7 +130,7 @@ def _lambda(run: Interpreter, node: ast.Lambda, scope: Scope | None) -> Callable
 def _kinds(run: Interpreter, node: ast.expr, scope: Scope | None) -> tuple[type, ...]:
     """Return the types that the second argument of `isinstance` names."""
     if type(node) is ast.Tuple:
-        return tuple(kind for each in node.elts for kind in _kinds(run, each, scope))
+        return tuple(kind for elt in node.elts for kind in _kinds(run, elt, scope))
     if type(node) in (ast.Name, ast.Attribute):
         found = resolve(run, node, scope)
         if type(found) is Function and found.stands_for is not None:

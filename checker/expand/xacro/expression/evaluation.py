@@ -44,7 +44,7 @@ def _begin(
     run: Interpreter, clauses: list[ast.comprehension], outer: Scope | None
 ) -> tuple[Scope, Iterator[None]]:
     first = iter(run.value(clauses[0].iter, outer))
-    scope = Scope((name for each in clauses for name in _names(each.target)), outer)
+    scope = Scope((name for clause in clauses for name in _names(clause.target)), outer)
     return scope, _rounds(run, clauses, first, scope)
 
 
@@ -52,8 +52,8 @@ def _names(target: ast.expr) -> Iterator[str]:
     if type(target) is ast.Name:
         yield target.id
     elif type(target) in (ast.Tuple, ast.List):
-        for each in target.elts:  # type: ignore[attr-defined]
-            yield from _names(each)
+        for elt in target.elts:  # type: ignore[attr-defined]
+            yield from _names(elt)
     else:
         raise RefusedExpression("a comprehension that binds other than names")
 

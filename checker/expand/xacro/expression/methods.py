@@ -94,7 +94,7 @@ def _replace(budget: Budget, text: str, *arguments: Any) -> str:
 
 
 def _join(budget: Budget, text: str, *arguments: Any) -> str:
-    found = [list(each) if type(each) in LAZY else each for each in arguments]
+    found = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
     for each in found:
         parts = consumed(each, budget)
         if hasattr(type(parts), "__len__"):
@@ -158,7 +158,7 @@ def _looking_up(name: str) -> Method:
 
 
 def _extend(budget: Budget, value: Any, *arguments: Any) -> Any:
-    return value.extend(*(consumed(each, budget) for each in arguments))
+    return value.extend(*(consumed(argument, budget) for argument in arguments))
 
 
 def _sort(budget: Budget, value: Any, *, key: Any = None, reverse: Any = False) -> Any:
@@ -175,8 +175,8 @@ def _combining(name: str) -> Method:
 
     def method(budget: Budget, value: Any, *arguments: Any) -> Any:
         weigh(value, budget)
-        others = [list(each) if type(each) in LAZY else each for each in arguments]
-        sizes = len(value) + sum(len(each) for each in others if hasattr(type(each), "__len__"))
+        others = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
+        sizes = len(value) + sum(len(other) for other in others if hasattr(type(other), "__len__"))
         for each in (value, *others):
             found = hashable(budget, each)
             if type(found) in PLAIN and hasattr(type(found), "__len__"):

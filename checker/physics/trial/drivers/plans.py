@@ -134,7 +134,7 @@ def plan_copter(robot: Robot, locomotion: Locomotion) -> Plan:
         legs=legs,
         linear=((0.0, 0.0), (climb.start, 0.0), *rising, (top, 0.0), (climb.end, 0.0)),
         angular=still,
-        places={each.joint.scoped_name: still for each in locomotion.rotors if each.joint},
+        places={rotor.joint.scoped_name: still for rotor in locomotion.rotors if rotor.joint},
         rotors=rotors,
         notes=(left_out,) if without else (),
     )

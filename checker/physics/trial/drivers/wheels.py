@@ -59,10 +59,10 @@ def strictest(drives: Sequence[WheelDrive]) -> tuple[Limits, Limits]:
 def joined(limits: Sequence[Limits]) -> Limits:
     """Return the strictest of several limits."""
     return Limits(
-        max(each.slowest for each in limits),
-        min(each.fastest for each in limits),
-        max(each.braking for each in limits),
-        min(each.speeding for each in limits),
+        max(limit.slowest for limit in limits),
+        min(limit.fastest for limit in limits),
+        max(limit.braking for limit in limits),
+        min(limit.speeding for limit in limits),
     )
 
 

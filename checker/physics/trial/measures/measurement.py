@@ -103,7 +103,8 @@ def measure_energy(motion: Motion) -> Iterator[Measurement]:
         if leg is not None:
             stretches.append(_undriven(motion, leg))
     gains = [
-        float((energy[each] - np.minimum.accumulate(energy[each])).max()) for each in stretches
+        float((energy[stretch] - np.minimum.accumulate(energy[stretch])).max())
+        for stretch in stretches
     ]
     if gains and motion.weight > 0.0:
         yield Measurement("energy_gain", max(gains) / (motion.weight * _HEIGHT))

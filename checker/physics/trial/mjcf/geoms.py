@@ -176,7 +176,7 @@ class GeomReader:
 
 def half_sizes(geometry: Geometry) -> tuple[float, ...] | None:
     """Return MuJoCo's `size` of a simple shape, metres; None for other shapes."""
-    sizes = {name: [each.value for each in values] for name, values in geometry.sizes.items()}
+    sizes = {name: [value.value for value in values] for name, values in geometry.sizes.items()}
     match geometry.shape:
         case "box":
             return tuple(size / 2 for size in sizes["size"])

@@ -123,7 +123,7 @@ class ContactLog:
 
         # The same record once more, of columns.
         copied = _Copied._make(zip(*self._copied, strict=True))
-        counts = [len(each) for each in copied.geoms]
+        counts = [len(geom) for geom in copied.geoms]
         sample = np.repeat(np.arange(len(counts)), counts)
         behind = np.cumsum([0, *map(len, copied.forces)])
         address = np.concatenate(copied.address)

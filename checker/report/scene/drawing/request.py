@@ -189,7 +189,7 @@ def _is_sound(item: Item) -> bool:
     corners = [surface.vertices for surface in item.surfaces if len(surface.vertices)]
     if not corners or not well_placed(item.pose):
         return False
-    largest = max(float(np.abs(each).max()) for each in corners) * max(map(abs, item.scale))
+    largest = max(float(np.abs(corner).max()) for corner in corners) * max(map(abs, item.scale))
     return 0.0 < largest < _FARTHEST
 
 

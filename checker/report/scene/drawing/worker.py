@@ -95,7 +95,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
 
 def _encoded(asked: Mapping[str, Any]) -> list[str]:
-    return [base64.b64encode(each).decode() for each in _pictures(asked)]
+    return [base64.b64encode(picture).decode() for picture in _pictures(asked)]
 
 
 def _pictures(asked: Mapping[str, Any]) -> list[bytes]:

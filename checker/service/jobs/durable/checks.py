@@ -281,7 +281,7 @@ def forget(connection: sa.Connection, ids: Collection[str]) -> None:
 def _values(step: Step) -> dict[str, Any]:
     values: dict[str, Any] = {"stage": step.stage.value, "words": _said(step.words)}
     if step.result:
-        values |= {"result": step.result, "packages": [dict(each) for each in step.packages]}
+        values |= {"result": step.result, "packages": [dict(package) for package in step.packages]}
     return values
 
 

@@ -111,7 +111,7 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
 
 
 def _tell_of(layers: Sequence[Layer]) -> None:
-    said = ", ".join(f"{each.name} ({each.words})" for each in layers if each.held)
+    said = ", ".join(f"{layer.name} ({layer.words})" for layer in layers if layer.held)
     _LOG.info("layers of the sandbox: %s", said or "none")
     if not hides_files(layers):
         _LOG.warning(

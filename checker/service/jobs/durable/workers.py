@@ -26,7 +26,7 @@ class Workers(Record):
 
     def beat(self, worker: str) -> None:
         """Show a sign of life."""
-        alive = {"beat": now(self.engine), "layers": [to_builtins(each) for each in self.layers]}
+        alive = {"beat": now(self.engine), "layers": [to_builtins(layer) for layer in self.layers]}
         with self.engine.begin() as connection:
             mine = sa.update(WORKERS).where(WORKERS.c.name == worker).values(alive)
             if connection.execute(mine).rowcount == 0:
@@ -54,5 +54,5 @@ class Workers(Record):
         silence = (now(self.engine) - WORKERS.c.beat).label("silence")
         with self.engine.connect() as connection:
             rows = connection.execute(sa.select(WORKERS.c.name, silence, WORKERS.c.layers)).all()
-        layers = {each.name: [Layer(**said) for said in each.layers or ()] for each in rows}
-        return {each.name: max(0.0, each.silence) for each in rows}, layers
+        layers = {row.name: [Layer(**said) for said in row.layers or ()] for row in rows}
+        return {row.name: max(0.0, row.silence) for row in rows}, layers

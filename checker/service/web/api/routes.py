@@ -209,4 +209,4 @@ def _other_method(_: Request) -> Response:
 
 
 def _refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    return {each: {"model": Problem, "description": _SAID[each]} for each in statuses}
+    return {statuse: {"model": Problem, "description": _SAID[statuse]} for statuse in statuses}

@@ -166,14 +166,14 @@ def check_view(state: State, url: str, names: Iterable[str]) -> CheckView:
         expires=state.expires,
         packages=[
             PackageView(
-                name=plain(str(each["name"])),
-                verdict=str(each["verdict"]),
-                errors=int(each["errors"]),
-                warnings=int(each["warnings"]),
-                infos=int(each["infos"]),
-                folder=str(each["folder"]),
+                name=plain(str(package["name"])),
+                verdict=str(package["verdict"]),
+                errors=int(package["errors"]),
+                warnings=int(package["warnings"]),
+                infos=int(package["infos"]),
+                folder=str(package["folder"]),
             )
-            for each in state.packages
+            for package in state.packages
         ],
         files=[address_of(state.id, name) for name in names],
     )

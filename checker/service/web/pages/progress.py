@@ -72,7 +72,7 @@ def _read(path: Path) -> Glance | None:
         report = report_from_json(path.read_text("utf-8"))
     except ValueError:
         return None
-    found = [(package.name, each) for package in report.packages for each in package.findings]
+    found = [(package.name, finding) for package in report.packages for finding in package.findings]
     found.sort(key=lambda pair: pair[1].severity.rank)
     shown = tuple(_first(name, each) for name, each in found[:SHOWN])
     return Glance(shown, len(found) - len(shown))
@@ -160,7 +160,7 @@ def steps_of(state: State, events: Sequence[Event]) -> tuple[Step, ...]:
     """
     order = list(STEPS)
     ended_early = state.stage not in STEPS
-    went = [each.stage for each in events if each.stage in STEPS]
+    went = [event.stage for event in events if event.stage in STEPS]
     at = order.index((went or [Stage.QUEUED])[-1] if ended_early else state.stage)
     here, after = ("stopped", "skipped") if ended_early else ("now", "next")
     if state.stage is Stage.DONE:
@@ -200,7 +200,7 @@ def _verdict(words: str, packages: Sequence[PackageLine]) -> Headline:
     if len(packages) == 1:
         (only,) = packages
         return Headline(only.lead, words.removeprefix(only.lead).lstrip(": "), only.verdict)
-    ready = sum(each.verdict == "ready" for each in packages)
+    ready = sum(package.verdict == "ready" for package in packages)
     mood = "ready" if packages and ready == len(packages) else "not_ready"
     return Headline(f"{ready} of {count(len(packages), 'package')} ready", "", mood)
 
@@ -208,8 +208,8 @@ def _verdict(words: str, packages: Sequence[PackageLine]) -> Headline:
 def _so_far(packages: Sequence[PackageLine]) -> str:
     if not packages:
         return ""
-    errors = sum(each.errors for each in packages)
-    warnings = sum(each.warnings for each in packages)
+    errors = sum(package.errors for package in packages)
+    warnings = sum(package.warnings for package in packages)
     if not errors + warnings:
         return "nothing to fix so far"
     return f"{count(errors, 'error')} and {count(warnings, 'warning')} so far"
@@ -222,7 +222,7 @@ def package_lines(state: State, names: Sequence[str]) -> tuple[PackageLine, ...]
         state: Of the check.
         names: Of the files of its result.
     """
-    return tuple(_line(state, each, names) for each in state.packages)
+    return tuple(_line(state, package, names) for package in state.packages)
 
 
 def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> PackageLine:

@@ -201,7 +201,7 @@ class _Pages(Record):
 
 def _rules(_: Request) -> Response:
     groups = rule_groups()
-    number = sum(len(each.rules) for each in groups)
+    number = sum(len(group.rules) for group in groups)
     return html("rules.html.j2", here="rules", groups=groups, number=number)
 
 
