@@ -72,7 +72,7 @@ bench: .venv/tested $(VIEWER)
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)
 	$(BIN)/pytest -q tests/test_samples.py tests/test_docs.py tests/test_checklist.py \
-	  tests/test_rule_pages.py tests/report/test_sarif.py --update-golden
+	  tests/test_rule_pages.py tests/report --update-golden
 
 .venv/bin/python:
 	scripts/require venv=python3-venv

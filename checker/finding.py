@@ -41,10 +41,11 @@ SNIPPET_LIMIT = 240
 
 
 class Severity(enum.StrEnum):
-    """How grave a finding is.
+    """How grave a finding is on the target that is judged (see docs/severity.md).
 
-    `ERROR`: the package cannot be accepted or will not work. `WARNING`: a reviewer would ask
-    about it. `INFO`: worth knowing.
+    `ERROR`: the robot or its interface does not load, move, collide, weigh, sense or publish as
+    written, or a required part of a submission is missing. `WARNING`: probably not what the author
+    wants, or off the checklist, and it works. `INFO`: worth knowing.
     """
 
     ERROR = "error"
@@ -55,6 +56,25 @@ class Severity(enum.StrEnum):
     def rank(self) -> int:
         """0 for the gravest, so that sorting puts errors first."""
         return list(Severity).index(self)
+
+
+class Concern(enum.StrEnum):
+    """What a finding is about.
+
+    `ROBOT`: what is simulated. `INTERFACE`: sensors, plugins, launch files and topics, by which it
+    is used. `PAPERWORK`: files, sheets, names and installation. `PORTABILITY`: other releases and
+    tools.
+    """
+
+    ROBOT = "robot"
+    INTERFACE = "interface"
+    PAPERWORK = "paperwork"
+    PORTABILITY = "portability"
+
+    @property
+    def words(self) -> str:
+        """What a sentence calls it."""
+        return "the robot" if self is Concern.ROBOT else f"{self}"
 
 
 class Place(Record):

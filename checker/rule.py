@@ -10,10 +10,11 @@ from typing import Any, Protocol, get_type_hints
 from msgspec.structs import replace
 
 from checker.base.record import Record
-from checker.finding import Fix, Place, Safety, Severity
+from checker.finding import Concern, Fix, Place, Safety, Severity
 from checker.source.text import Span
 
 __all__ = [
+    "Concern",
     "Context",
     "Finding",
     "Findings",
@@ -129,6 +130,7 @@ class Rule(Record, dict=True):
         id: Three letters of its group and a number: `SEN005`.
         name: What is wrong, in words joined by hyphens.
         severity: Unless a finding says otherwise.
+        concern: What its findings are about.
         check: The function.
         page: The module's docstring: what, why, how to fix, source.
         good: Examples in which the rule finds nothing.
@@ -138,6 +140,7 @@ class Rule(Record, dict=True):
     id: str
     name: str
     severity: Severity
+    concern: Concern
     check: Check
     page: str
     good: Sequence[Any] = ()
@@ -147,6 +150,11 @@ class Rule(Record, dict=True):
     def group(self) -> str:
         """The letters of the id."""
         return self.id.rstrip("0123456789")
+
+    @property
+    def selectors(self) -> tuple[str, ...]:
+        """What `--select` and `--ignore` may say to mean it, alone or with others."""
+        return self.id, self.name, self.group, f"concern:{self.concern}"
 
     @cached_property
     def needs(self) -> dict[str, type]:
@@ -168,17 +176,18 @@ class Rule(Record, dict=True):
         }
 
 
-def rule(id: str, name: str, severity: Severity) -> Callable[[Check], Rule]:
+def rule(id: str, name: str, severity: Severity, concern: Concern) -> Callable[[Check], Rule]:
     """Make a rule of a function; the page is the docstring of the module it stands in.
 
     Args:
         id: Such as `SEN005`; never reused.
         name: What is wrong, such as `lidar-scan-resolution`.
         severity: Unless a finding says otherwise.
+        concern: What its findings are about.
     """
 
     def decorate(check: Check) -> Rule:
         page = inspect.getdoc(inspect.getmodule(check)) or ""
-        return Rule(id, name, severity, check, page)
+        return Rule(id, name, severity, concern, check, page)
 
     return decorate

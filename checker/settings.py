@@ -45,7 +45,7 @@ class Settings(Record):
     Attributes:
         profile: Name of the profile that judges.
         profile_chosen: Whether the user named it; otherwise what is checked decides.
-        select: Rule ids or groups to run; empty for all of the profile.
+        select: Rules to run, as `Rule.selectors` names them; empty for all of the profile.
         ignore: Rule ids or groups to leave out.
         fail_on: Findings at or above this severity make the exit code 1.
         severity: Severity by rule id, where the user wants another.
@@ -110,7 +110,7 @@ class Settings(Record):
 
 
 def _names(patterns: Sequence[str], rule: Rule) -> bool:
-    return any(pattern in (rule.id, rule.group, rule.name) for pattern in patterns)
+    return any(pattern in rule.selectors for pattern in patterns)
 
 
 def folders_above(folder: Path, top: Path | None = None) -> Iterator[Path]:

@@ -38,10 +38,10 @@ Source: the house style of Acme.
 """
 
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("ACM001", "shouted-name", Severity.WARNING)
+@rule("ACM001", "shouted-name", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report names in capital letters."""
     for link in robot.links:

@@ -17,7 +17,7 @@ from checker.engine.subject import Subject
 from checker.finding import Severity
 from checker.package.inputs import open_input
 from checker.report.report import Cause
-from checker.rule import Findings, Rule
+from checker.rule import Concern, Findings, Rule
 from checker.rule_testing import judge_of, write_example
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import Option, told_options, words_of, work_of
@@ -32,7 +32,7 @@ RULES = [
 
 
 def made(check: object) -> Rule:
-    return Rule("KIN900", "made-up", Severity.INFO, check, "Made up.")  # type: ignore[arg-type]
+    return Rule("KIN900", "made-up", Severity.INFO, Concern.ROBOT, check, "Made up.")  # type: ignore[arg-type]
 
 
 def test_sections_are_read() -> None:

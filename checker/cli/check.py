@@ -64,10 +64,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--profile", choices=PROFILES, help="set of rules (default: subt, or urdf for URDF)"
     )
-    parser.add_argument("--select", metavar="IDS", type=ids, help="run only these rules or groups")
     parser.add_argument(
-        "--ignore", metavar="IDS", type=ids, help="do not run these rules or groups"
+        "--select", metavar="IDS", type=ids, help="run only these rules, groups, or concern:robot"
     )
+    parser.add_argument("--ignore", metavar="IDS", type=ids, help="do not run these")
     parser.add_argument(
         "--fail-on",
         choices=("error", "warning"),

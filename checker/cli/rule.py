@@ -22,7 +22,11 @@ _WIDTH = 96
 def page_text(rule: Rule) -> str:
     """Return all that is known about a rule."""
     page = parse_page(rule.page)
-    parts = [f"{rule.id} {rule.name} ({rule.severity})", page.title + ".", page.why]
+    parts = [
+        f"{rule.id} {rule.name} ({rule.severity}, about {rule.concern.words})",
+        page.title + ".",
+        page.why,
+    ]
     parts += [f"Fix: {page.fix}", f"Source: {page.source}"]
     if rule.options:
         options = _indented("\n".join(map(_option, told_options(rule))))

@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
         return EXIT_CLEAN
     for rule in all_rules():
         title = parse_page(rule.page).title
-        show(f"{rule.id}  {rule.severity:<7}  {rule.name:<32}  {title}\n")
+        show(f"{rule.id}  {rule.severity:<7}  {rule.concern:<11}  {rule.name:<32}  {title}\n")
     return EXIT_CLEAN
 
 
@@ -39,6 +39,7 @@ def _as_dict(rule: Rule) -> dict[str, object]:
         "id": rule.id,
         "name": rule.name,
         "severity": str(rule.severity),
+        "concern": str(rule.concern),
         "title": page.title,
         "why": page.why,
         "fix": page.fix,

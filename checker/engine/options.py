@@ -20,7 +20,7 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
             that they name cannot be used.
     """
     by_id = {rule.id: rule for rule in rules}
-    known = {name for rule in rules for name in (rule.id, rule.group, rule.name)}
+    known = {name for rule in rules for name in rule.selectors}
     for name in (*settings.select, *settings.ignore):
         if name not in known:
             raise InvalidSettings(settings.source, no_such_rule(name, known))

@@ -199,6 +199,7 @@ def _report(
             rule.id,
             rule.name,
             severity,
+            rule.concern,
             shortened(first.message, TEXT_LIMIT),
             fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
             places,

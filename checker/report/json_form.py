@@ -13,7 +13,7 @@ import msgspec
 from msgspec import UNSET, Meta, UnsetType
 
 from checker.base.record import Record
-from checker.finding import Safety, Severity
+from checker.finding import Concern, Safety, Severity
 from checker.package.kind import PackageKind
 from checker.report.report import Cause, InheritedPart, SuppressedBy, VerdictKind
 
@@ -66,6 +66,7 @@ class FindingJson(Record):
     rule: RuleId
     name: Word
     severity: Severity
+    concern: Concern
     message: Annotated[str, Meta(min_length=1)]
     fingerprint: Fingerprint
     places: Annotated[tuple[PlaceJson, ...], Meta(min_length=1)]

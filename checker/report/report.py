@@ -9,7 +9,7 @@ from typing import Any, Final
 from msgspec import field
 
 from checker.base.record import Record
-from checker.finding import Fix, Place, Severity
+from checker.finding import Concern, Fix, Place, Severity
 
 SCHEMA_VERSION: Final = "1"
 USUAL_PROFILE = "subt"
@@ -67,6 +67,7 @@ class ReportedFinding(Record):
     rule: str
     name: str
     severity: Severity
+    concern: Concern
     message: str
     fingerprint: str
     places: tuple[Place, ...]

@@ -188,7 +188,7 @@ def _rule(finding: ReportedFinding) -> Json:
             "markdown": "\n\n".join([*marked, f"`{finding.help}`"]),
         },
         "defaultConfiguration": {"level": LEVELS[finding.severity]},
-        "properties": {"tags": [finding.rule.rstrip("0123456789")]},
+        "properties": {"tags": [finding.rule.rstrip("0123456789"), str(finding.concern)]},
     }
     if finding.why:
         rule["fullDescription"] = {"text": plain(finding.why)}

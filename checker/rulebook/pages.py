@@ -133,7 +133,8 @@ def told(rule: Rule) -> Iterator[str]:
     """Yield what is told of a rule below its heading, block by block."""
     page = parse_page(rule.page)
     yield f"{escaped(page.title)}."
-    yield f"Usually **{rule.severity}**; in the profiles {', '.join(_profiles(rule))}."
+    judges = ", ".join(_profiles(rule))
+    yield f"Usually **{rule.severity}**; about {rule.concern.words}; in the profiles {judges}."
     yield escaped(page.why)
     yield f"**Fix:** {escaped(page.fix)}"
     yield f"**Source:** {escaped(page.source)}"

@@ -13,10 +13,10 @@ from checker.model.battery import BATTERY_CLASS, batteries, commented_out
 from checker.model.robot import Robot
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("BAT001", "no-battery", Severity.ERROR)
+@rule("BAT001", "no-battery", Severity.ERROR, Concern.ROBOT)
 def check(package: Package, robot: Robot, spawned: SpawnedXml) -> Findings:
     """Look for the plugin in the model and in what the spawner emits, also within comments."""
     if package.kind is PackageKind.BASE_MODEL or batteries(robot):

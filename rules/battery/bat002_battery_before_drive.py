@@ -10,13 +10,13 @@ Source: SubT maintainers ask for "the battery plugin last" in their reviews.
 
 from checker.model.battery import BATTERY_CLASS, MOVING_CLASSES
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 NOTED = 6
 """Greatest number of plugins that a finding lists; a robot has up to that many rotors."""
 
 
-@rule("BAT002", "battery-before-drive", Severity.WARNING)
+@rule("BAT002", "battery-before-drive", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report batteries that a plugin of a wheel, track or rotor follows in the same file."""
     if robot.unread_plugins:

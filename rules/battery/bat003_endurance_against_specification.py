@@ -12,12 +12,12 @@ same packages (`subt_standards.json`).
 from checker.model.battery import RELEASE, batteries
 from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
-from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 SECONDS = 60.0
 
 
-@rule("BAT003", "endurance-against-specification", Severity.WARNING)
+@rule("BAT003", "endurance-against-specification", Severity.WARNING, Concern.PAPERWORK)
 def check(
     robot: Robot, specification: Specification, context: Context, *, tolerance: float = 0.2
 ) -> Findings:

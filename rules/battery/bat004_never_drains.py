@@ -12,10 +12,10 @@ Source: SubT reviews of tracked robots; the parameters that Dome's battery plugi
 
 from checker.model.battery import batteries
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("BAT004", "never-drains", Severity.WARNING)
+@rule("BAT004", "never-drains", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report batteries that nothing starts, and batteries of tracked robots without a topic."""
     if robot.unread_plugins:

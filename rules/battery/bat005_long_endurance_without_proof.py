@@ -13,10 +13,10 @@ data can be provided" (`subt_standards.json`).
 from checker.model.battery import RELEASE, Battery, batteries
 from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
-from checker.rule import Context, Findings, HasSpan, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, HasSpan, Severity, finding, rule, unchecked
 
 
-@rule("BAT005", "long-endurance-without-proof", Severity.WARNING)
+@rule("BAT005", "long-endurance-without-proof", Severity.WARNING, Concern.PAPERWORK)
 def check(
     robot: Robot,
     specification: Specification,

@@ -19,12 +19,12 @@ from checker.model.specification.sensors import ListedSensor
 from checker.model.specification.sheet import Specification
 from checker.package.package import Package
 from checker.package.submissions import configuration_number
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 COUNTS = (6, 12)
 
 
-@rule("BRD001", "breadcrumb-parameters", Severity.WARNING)
+@rule("BRD001", "breadcrumb-parameters", Severity.WARNING, Concern.INTERFACE)
 def check(
     package: Package,
     robot: Robot,

@@ -18,7 +18,7 @@ from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import Placed, placed, union
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _ROUNDING = 1e-9
 _AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -31,7 +31,7 @@ _SIDES: tuple[Vector, ...] = tuple(
 )
 
 
-@rule("BRD002", "drop-place", Severity.WARNING)
+@rule("BRD002", "drop-place", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot, *, farthest: float = 0.3, depth: float = 0.0, mesh_depth: float = 0.05
 ) -> Findings:

@@ -15,7 +15,7 @@ from checker.expand.launch.bridge import Bridge
 from checker.expand.launch.graph import LaunchGraph
 from checker.model.breadcrumbs import Breadcrumbs, breadcrumbs
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 DEPLOY = "/deploy"
 REMAINING = "/deploy/remaining"
@@ -24,7 +24,7 @@ WITHOUT_BRIDGES = "description.launch "
 _WORD = "breadcrumb"
 
 
-@rule("BRD003", "breadcrumbs-not-bridged", Severity.ERROR)
+@rule("BRD003", "breadcrumbs-not-bridged", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Look for bridges of each plugin's topics, and for a count next to each bridge that drops."""
     if robot.unread_plugins:

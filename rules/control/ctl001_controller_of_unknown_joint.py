@@ -10,11 +10,11 @@ has registered is not found.
 
 from checker.base.words import Suggestions
 from checker.model.control.controllers import Controller, ControlSystem
-from checker.rule import Findings, Safety, Severity, finding, replace_text, rule, unchecked
+from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule, unchecked
 from checker.source.text import Located
 
 
-@rule("CTL001", "controller-of-unknown-joint", Severity.ERROR)
+@rule("CTL001", "controller-of-unknown-joint", Severity.ERROR, Concern.INTERFACE)
 def check(control: ControlSystem) -> Findings:
     """Report joints of controllers that no robot of the package has, or that do not move."""
     if control.joints is None:

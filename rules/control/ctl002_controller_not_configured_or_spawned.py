@@ -12,10 +12,10 @@ Source: ros_control, `controller_manager::ControllerManager::loadController`: th
 
 from checker.base.words import Suggestions
 from checker.model.control.controllers import Controller, ControlSystem
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("CTL002", "controller-not-configured-or-spawned", Severity.ERROR)
+@rule("CTL002", "controller-not-configured-or-spawned", Severity.ERROR, Concern.INTERFACE)
 def check(control: ControlSystem) -> Findings:
     """Report controllers that are only in the YAML files or only in the spawners' args."""
     for fault in control.faults:

@@ -13,7 +13,7 @@ gazebo_ros_control, `DefaultRobotHWSim::initSim`.
 from collections.abc import Mapping
 
 from checker.model.control.controllers import Controller, ControlSystem
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 INTERFACES: Mapping[str, str] = {
     "effort_controllers": "EffortJointInterface",
@@ -24,7 +24,7 @@ INTERFACES: Mapping[str, str] = {
 """The interface that the controllers of a package need."""
 
 
-@rule("CTL003", "controller-of-another-interface", Severity.ERROR)
+@rule("CTL003", "controller-of-another-interface", Severity.ERROR, Concern.INTERFACE)
 def check(control: ControlSystem) -> Findings:
     """Report controllers whose joints have no transmission of the interface they need."""
     if control.unread_robot:

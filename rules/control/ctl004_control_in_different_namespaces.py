@@ -11,10 +11,10 @@ Source: gazebo_ros_control, `GazeboRosControlPlugin::Load`; controller_manager, 
 """
 
 from checker.model.control.controllers import ControlSystem
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("CTL004", "control-in-different-namespaces", Severity.WARNING)
+@rule("CTL004", "control-in-different-namespaces", Severity.WARNING, Concern.INTERFACE)
 def check(control: ControlSystem) -> Findings:
     """Report spawners, parameters and plugins whose namespaces differ, and missing joint states."""
     yield from _parameters_elsewhere(control)

@@ -11,7 +11,7 @@ Source: ros_controllers (effort_controllers, velocity_controllers); control_tool
 from collections.abc import Iterator, Mapping
 
 from checker.model.control.controllers import Controller, ControlSystem, Gain
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 NEED_GAINS: Mapping[str, tuple[str, ...]] = {
     "effort_controllers": (
@@ -31,7 +31,7 @@ WHERE: Mapping[str, str] = {
 """The key under which a controller looks for its gains; 'pid' for controllers not listed here."""
 
 
-@rule("CTL005", "pid-gains", Severity.WARNING)
+@rule("CTL005", "pid-gains", Severity.WARNING, Concern.INTERFACE)
 def check(control: ControlSystem, *, least_p: float = 0.0) -> Findings:
     """Report missing gains, proportional gains of `least_p` or less, and negative gains.
 

@@ -9,10 +9,10 @@ Source: gazebo_ros_control, `GazeboRosControlPlugin::Load`.
 """
 
 from checker.model.control.controllers import ControlSystem
-from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
-@rule("CTL006", "no-control-plugin", Severity.ERROR)
+@rule("CTL006", "no-control-plugin", Severity.ERROR, Concern.INTERFACE)
 def check(control: ControlSystem, context: Context) -> Findings:
     """Report transmissions of joints that nothing in Gazebo moves."""
     if control.unread_robot:

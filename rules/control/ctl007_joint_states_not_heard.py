@@ -14,10 +14,10 @@ from collections.abc import Iterable
 
 from checker.expand.launch.graph import resolve_name
 from checker.model.control.controllers import ControlLaunch, ControlSystem
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("CTL007", "joint-states-not-heard", Severity.ERROR)
+@rule("CTL007", "joint-states-not-heard", Severity.ERROR, Concern.INTERFACE)
 def check(control: ControlSystem) -> Findings:
     """Report listeners whose topic no joint_state_controller publishes."""
     if control.publishes_states:

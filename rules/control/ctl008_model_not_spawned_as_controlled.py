@@ -14,13 +14,13 @@ from collections.abc import Iterable
 from checker.base.words import Suggestions
 from checker.model.control.controllers import ControlSystem
 from checker.model.control.nodes import SpawnedModel
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 FORMATS = ("-urdf", "-sdf")
 SOURCES = ("-param", "-file", "-database", "-stdin")
 
 
-@rule("CTL008", "model-not-spawned-as-controlled", Severity.ERROR)
+@rule("CTL008", "model-not-spawned-as-controlled", Severity.ERROR, Concern.INTERFACE)
 def check(control: ControlSystem) -> Findings:
     """Report calls of spawn_model that fail, or that do not fit the controllers."""
     for launch in control.launches:

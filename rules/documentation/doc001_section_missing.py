@@ -12,12 +12,12 @@ from collections.abc import Sequence
 
 from checker.base.resources import table
 from checker.model.specification.sheet import Section, Specification
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 KEY = "sections"
 
 
-@rule("DOC001", "section-missing", Severity.WARNING)
+@rule("DOC001", "section-missing", Severity.WARNING, Concern.PAPERWORK)
 def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Findings:
     """Look for headings that contain the words of `sections`, and for text below them.
 

@@ -16,13 +16,13 @@ from checker.model.specification.sheet_text import (
     placeholders,
     struck_through,
 )
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 SHOWN = 60
 _ESCAPED = re.compile(r"\\([!-/:-@\[-`{-~])")
 
 
-@rule("DOC002", "placeholder-left", Severity.WARNING)
+@rule("DOC002", "placeholder-left", Severity.WARNING, Concern.PAPERWORK)
 def check(specification: Specification) -> Findings:
     """Report placeholders, links without target and struck-through text."""
     for left in placeholders(specification.markdown):

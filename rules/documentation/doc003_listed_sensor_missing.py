@@ -17,10 +17,10 @@ from checker.model.specification.sensors import ListedSensor
 from checker.model.specification.sheet import Specification
 from checker.package.configuration import configuration_number
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("DOC003", "listed-sensor-missing", Severity.ERROR)
+@rule("DOC003", "listed-sensor-missing", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, robot: Robot, specification: Specification) -> Findings:
     """Compare the listed kinds, and their numbers where the sheet is clear, with the model."""
     if robot.missing_parts:

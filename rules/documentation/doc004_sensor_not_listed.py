@@ -21,7 +21,7 @@ from checker.model.specification.sensor_kinds import SUBSTITUTES, TYPES, SensorK
 from checker.model.specification.sheet import Section, Specification
 from checker.package.package import Package
 from checker.package.submissions import configuration_number
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.markdown import PassageKind
 
 EXEMPT = ("air_pressure",)
@@ -30,7 +30,7 @@ MOST_PASSAGES = 1000
 NOTED = 8
 
 
-@rule("DOC004", "sensor-not-listed", Severity.WARNING)
+@rule("DOC004", "sensor-not-listed", Severity.WARNING, Concern.PAPERWORK)
 def check(
     package: Package,
     robot: Robot,

@@ -17,7 +17,7 @@ from checker.model.specification.motion import Limit
 from checker.model.specification.sheet import Specification
 from checker.model.specification.sheet_text import LineReference
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import SourceText
 
 _LIMITS = ("vel", "accel", "effort", "limit", "lower", "upper", "speed", "steer", "power")
@@ -44,7 +44,7 @@ _MOST_LINES = 200
 MOST_REFERENCES = 200
 
 
-@rule("DOC005", "lines-moved", Severity.WARNING)
+@rule("DOC005", "lines-moved", Severity.WARNING, Concern.PAPERWORK)
 def check(
     package: Package, specification: Specification, *, around: int = 1, tolerance: float = 0.02
 ) -> Findings:

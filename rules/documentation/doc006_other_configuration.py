@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from checker.model.specification.sheet import Specification
 from checker.package.package import Package
 from checker.package.submissions import NAME, configuration_number, is_same_robot
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
 
 _NUMBERED = r"(?:sensor[\s_]+)?config(?:uration)?[\s_#]+(\d{1,3})\b(?!\s*(?:to|and|-|,|&|or)\s*\d)"
@@ -31,7 +31,7 @@ _COMMAND = re.compile(
 _VARIABLE = re.compile(r"\bvariable\s+name\s+`{0,2}(\w{1,200})", re.IGNORECASE)
 
 
-@rule("DOC006", "other-configuration", Severity.WARNING)
+@rule("DOC006", "other-configuration", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package, specification: Specification) -> Findings:
     """Compare the title, the commands and statements about the robot with the package's name."""
     source = specification.source

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 from checker.model.specification.mass_cost_endurance import Price, prices
 from checker.model.specification.sheet import Specification
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 FEWEST_PARTS = 2
 _EXPLAINED = re.compile(
@@ -27,7 +27,7 @@ _SAME_MASS = re.compile(
 )
 
 
-@rule("DOC007", "cost-and-mass", Severity.WARNING)
+@rule("DOC007", "cost-and-mass", Severity.WARNING, Concern.PAPERWORK)
 def check(specification: Specification, *, tolerance: float = 0.01) -> Findings:
     """Add up the parts, and look for a cost and a mass.
 

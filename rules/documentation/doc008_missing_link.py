@@ -15,12 +15,12 @@ from collections.abc import Iterator
 from checker.model.specification.links import relative_links, without_datasheet
 from checker.model.specification.sheet import Specification
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 
 NOTED = 30
 
 
-@rule("DOC008", "missing-link", Severity.WARNING)
+@rule("DOC008", "missing-link", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package, specification: Specification) -> Findings:
     """Follow the relative links, and look for links that name the listed devices."""
     yield from _relative(package, specification)

@@ -17,7 +17,7 @@ from checker.model.locomotion.locomotion import DriveKind, TrackedDrive, WheelDr
 from checker.model.robot import Robot
 from checker.model.specification.quantities import Quantity
 from checker.model.specification.sheet import Specification
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Span
 
 _ON_THE_SPOT = re.compile(
@@ -28,7 +28,7 @@ _NOT = re.compile(r"\b(?:not|cannot|can't|unable|never|no)\b[^.]{0,40}$", re.IGN
 _TURNS_ON_THE_SPOT = (DriveKind.DIFFERENTIAL, DriveKind.SKID_STEER, DriveKind.TRACKED)
 
 
-@rule("DOC009", "turning-against-drive", Severity.WARNING)
+@rule("DOC009", "turning-against-drive", Severity.WARNING, Concern.PAPERWORK)
 def check(
     robot: Robot,
     specification: Specification,

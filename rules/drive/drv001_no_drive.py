@@ -11,10 +11,10 @@ from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("DRV001", "no-drive", Severity.INFO)
+@rule("DRV001", "no-drive", Severity.INFO, Concern.ROBOT)
 def check(package: Package, robot: Robot) -> Findings:
     """Report robots that no known plugin drives; packages for others to build on need none."""
     if package.kind is PackageKind.BASE_MODEL or robot.locomotion.kind is not DriveKind.NONE:

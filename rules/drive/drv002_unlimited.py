@@ -18,7 +18,7 @@ from checker.model.locomotion.motion_limits import (
     is_unlimited,
 )
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _LINEAR_ONLY = ("AckermannSteering", "TrackedVehicle")
@@ -31,7 +31,7 @@ _COPTER_WORDS = {
 }
 
 
-@rule("DRV002", "no-motion-limits", Severity.ERROR)
+@rule("DRV002", "no-motion-limits", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report each motion of a drive that is not limited in both directions.
 

@@ -13,10 +13,10 @@ from collections.abc import Iterator
 from checker.model.locomotion.locomotion import MotionLimits
 from checker.model.locomotion.motion_limits import Ends, bounded_motions
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 
-@rule("DRV003", "uneven-limits", Severity.WARNING)
+@rule("DRV003", "uneven-limits", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, tolerance: float = 0.001) -> Findings:
     """Compare the two ends of each limit.
 

@@ -19,13 +19,13 @@ from checker.model.locomotion.motion_limits import (
 from checker.model.robot import Robot
 from checker.model.specification.motion import Limit, MotionQuantity
 from checker.model.specification.sheet import Specification
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _EXACT = 1e-6
 """Relative difference from which two figures count as different."""
 
 
-@rule("DRV004", "limits-differ-from-sheet", Severity.ERROR)
+@rule("DRV004", "limits-differ-from-sheet", Severity.ERROR, Concern.PAPERWORK)
 def check(
     robot: Robot, specification: Specification, *, tolerance: float = 0.02, about: float = 0.1
 ) -> Findings:

@@ -18,11 +18,11 @@ from checker.model.locomotion.motion_limits import (
 from checker.model.robot import Robot
 from checker.model.specification.motion import MotionQuantity
 from checker.model.specification.sheet import Specification
-from checker.rule import Findings, HasSpan, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, HasSpan, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 
-@rule("DRV005", "fast-without-proof", Severity.WARNING)
+@rule("DRV005", "fast-without-proof", Severity.WARNING, Concern.PAPERWORK)
 def check(
     robot: Robot, specification: Specification, *, ground: float = 1.0, air: float = 4.0
 ) -> Findings:

@@ -14,13 +14,13 @@ from collections.abc import Iterator
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.locomotion.motion_limits import bounded_motions, is_unlimited
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _Name = tuple[str, str, str, str, int]
 
 
-@rule("DRV006", "limits-of-configurations", Severity.WARNING)
+@rule("DRV006", "limits-of-configurations", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, first: FirstConfiguration, *, tolerance: float = 0.001) -> Findings:
     """Compare the limits with those of the first available configuration.
 

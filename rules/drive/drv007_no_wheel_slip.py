@@ -11,10 +11,10 @@ Source: SubT maintainers ask for it in their reviews of skid-steer robots.
 
 from checker.model.locomotion.locomotion import Side
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("DRV007", "no-wheel-slip", Severity.ERROR)
+@rule("DRV007", "no-wheel-slip", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report DiffDrive plugins with several wheels on a side; tracks need no slip."""
     reason = robot.unread_plugins or robot.missing_parts

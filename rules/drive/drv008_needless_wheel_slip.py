@@ -10,10 +10,10 @@ Source: SubT review practice: WheelSlip lets skid-steer wheels slip sideways in 
 
 from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("DRV008", "needless-wheel-slip", Severity.WARNING)
+@rule("DRV008", "needless-wheel-slip", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report WheelSlip plugins on Ackermann and legged robots."""
     if robot.unread_plugins:

@@ -18,10 +18,10 @@ from checker.model.locomotion.friction import SlippingWheel, slipping_wheels
 from checker.model.locomotion.rotors import GRAVITY
 from checker.model.locomotion.wheels import stands_askew
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 
-@rule("DRV009", "wheel-slip-numbers", Severity.WARNING)
+@rule("DRV009", "wheel-slip-numbers", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, force: float = 0.2, radius: float = 0.03) -> Findings:
     """Compare WheelSlip with the robot.
 

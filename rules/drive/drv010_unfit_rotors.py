@@ -25,14 +25,14 @@ from checker.model.locomotion.rotors import (
     yaw_imbalance,
 )
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _ALL_MOTIONS = 4
 """Climb, roll, pitch and yaw."""
 
 
-@rule("DRV010", "unfit-rotors", Severity.ERROR)
+@rule("DRV010", "unfit-rotors", Severity.ERROR, Concern.ROBOT)
 def check(
     robot: Robot,
     *,

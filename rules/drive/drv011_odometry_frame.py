@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from checker.expand.launch.graph import LaunchGraph, Node
 from checker.expand.spawner.reader import SAMPLE_NAME, SAMPLE_WORLD
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _DRIVES = ("AckermannSteering", "DiffDrive", "MecanumDrive", "TrackedVehicle")
@@ -32,7 +32,7 @@ _PUBLISH_NO_FRAMES = (
 _TRANSFORMS = ("TFMessage", "tfMessage")
 
 
-@rule("DRV011", "unknown-odometry-frame", Severity.WARNING)
+@rule("DRV011", "unknown-odometry-frame", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report stated frames that nothing publishes, unless other programs may publish them."""
     if robot.unread_plugins:

@@ -15,7 +15,7 @@ from decimal import Decimal
 
 from checker.model.components import Link, Pose, Sensor, Visual
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 
 HALF_PI = math.pi / 2
@@ -25,7 +25,7 @@ _MOST_DIGITS = 17
 """Of all behind the point that tell one float near π from the next."""
 
 
-@rule("GEO001", "imprecise-angle", Severity.INFO)
+@rule("GEO001", "imprecise-angle", Severity.INFO, Concern.ROBOT)
 def check(
     robot: Robot,
     *,

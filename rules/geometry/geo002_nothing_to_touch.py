@@ -14,11 +14,11 @@ from checker.base.record import Record
 from checker.model.components import Link, Plugin
 from checker.model.robot import Robot
 from checker.model.tree import rigid_bodies
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 
-@rule("GEO002", "part-without-collision", Severity.ERROR)
+@rule("GEO002", "part-without-collision", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
     """Report wheels and tracks without collision; a warning for wheels that nothing drives.
 

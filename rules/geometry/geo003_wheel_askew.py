@@ -13,10 +13,10 @@ import math
 
 from checker.model.locomotion.wheels import askew, tread
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("GEO003", "wheel-askew", Severity.ERROR)
+@rule("GEO003", "wheel-askew", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
     """Report driven wheels whose largest collision is round about another axis than the joint's.
 

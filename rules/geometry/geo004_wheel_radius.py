@@ -13,10 +13,10 @@ from collections.abc import Iterator
 from checker.model.locomotion.locomotion import Wheel, WheelDrive
 from checker.model.locomotion.wheels import stands_askew
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 
-@rule("GEO004", "wheel-radius-disagrees", Severity.ERROR)
+@rule("GEO004", "wheel-radius-disagrees", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, *, error_above: float = 0.10, warning_above: float = 0.03) -> Findings:
     """Compare a drive's radius with the radius of its wheels' collisions.
 

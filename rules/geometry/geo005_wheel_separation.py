@@ -15,10 +15,10 @@ Source: parameters of Gazebo's DiffDrive, AckermannSteering, MecanumDrive and Tr
 
 from checker.model.locomotion.wheel_positions import CountedDistance, counted_distances
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("GEO005", "distance-disagrees", Severity.WARNING)
+@rule("GEO005", "distance-disagrees", Severity.WARNING, Concern.ROBOT)
 def check(
     robot: Robot, *, least: float = 0.9, most: float = 2.5, most_of_steering: float = 1.1
 ) -> Findings:

@@ -10,10 +10,10 @@ Source: geometry of collisions in the robot's initial pose.
 
 from checker.model.locomotion.wheel_positions import Foot, uneven_wheels
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("GEO006", "wheels-uneven", Severity.ERROR)
+@rule("GEO006", "wheels-uneven", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, *, error_above: float = 0.02, warning_above: float = 0.005) -> Findings:
     """Report wheels and tracks whose lowest points are above or below those of the others.
 

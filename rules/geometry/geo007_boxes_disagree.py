@@ -15,10 +15,10 @@ from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import placed, union
 from checker.model.locomotion.wheels import stands_askew
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("GEO007", "collision-beside-visual", Severity.WARNING)
+@rule("GEO007", "collision-beside-visual", Severity.WARNING, Concern.ROBOT)
 def check(
     robot: Robot,
     *,

@@ -12,12 +12,12 @@ from collections.abc import Iterator
 
 from checker.model.geometry.shapes import Geometry
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _LENGTHS = ("height", "length", "radii", "radius", "scale", "size")
 
 
-@rule("GEO008", "shape-without-size", Severity.ERROR)
+@rule("GEO008", "shape-without-size", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report lengths that are not above 0; a mirrored collision mesh is a warning."""
     for link in robot.links:

@@ -16,10 +16,10 @@ from checker.model.components import Collision, Link
 from checker.model.geometry.placed_shapes import placed
 from checker.model.locomotion.friction import Friction, FrictionReader
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
-@rule("GEO009", "wheel-friction", Severity.WARNING)
+@rule("GEO009", "wheel-friction", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Findings:
     """Report coefficients of 0 or less and above `most`, and single wheels that state none.
 

@@ -9,10 +9,10 @@ Source: a cylinder or sphere touches the ground in the same way at every angle.
 """
 
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("GEO010", "wheel-of-mesh", Severity.WARNING)
+@rule("GEO010", "wheel-of-mesh", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report driven wheels with a mesh among their collisions."""
     for wheel in robot.locomotion.wheels:

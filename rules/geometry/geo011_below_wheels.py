@@ -13,10 +13,10 @@ from checker.model.geometry.placed_shapes import Placed, placed
 from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts
 from checker.model.robot import Robot
 from checker.model.tree import rigid_bodies
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
-@rule("GEO011", "body-below-wheels", Severity.ERROR)
+@rule("GEO011", "body-below-wheels", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.25) -> Findings:
     """Report collisions of the body that reach below all wheels or have little clearance.
 

@@ -13,10 +13,10 @@ from checker.model.components import Collision, Visual
 from checker.model.geometry.boxes import TooManyPairs, clusters
 from checker.model.geometry.placed_shapes import Placed, placed, union
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 
-@rule("GEO012", "floating-part", Severity.WARNING)
+@rule("GEO012", "floating-part", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, gap: float = 0.02) -> Findings:
     """Report groups of shapes that are more than `gap` from all other shapes.
 

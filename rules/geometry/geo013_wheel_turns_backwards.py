@@ -16,13 +16,13 @@ from checker.model.components import Joint
 from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, Wheel, WheelDrive
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _LEFT: Vector = (0.0, 1.0, 0.0)
 _UP: Vector = (0.0, 0.0, 1.0)
 
 
-@rule("GEO013", "wheel-turns-backwards", Severity.ERROR)
+@rule("GEO013", "wheel-turns-backwards", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25) -> Findings:
     """Report axes that point the wrong way, and wheels that are not on the side of their entry.
 

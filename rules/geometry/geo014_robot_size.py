@@ -10,10 +10,10 @@ Source: SDFormat and URDF use SI units; ground and air robots of 5 cm to 10 m an
 
 from checker.model.geometry.placed_shapes import placed, union
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("GEO014", "robot-size", Severity.WARNING)
+@rule("GEO014", "robot-size", Severity.WARNING, Concern.ROBOT)
 def check(
     robot: Robot,
     *,

@@ -11,10 +11,10 @@ Source: geometry of collisions in the robot's initial pose; depth along separati
 from checker.model.geometry.boxes import TooManyPairs
 from checker.model.geometry.interpenetration import Inside, interpenetrations
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 
-@rule("GEO015", "parts-inside-each-other", Severity.WARNING)
+@rule("GEO015", "parts-inside-each-other", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, depth: float = 0.01) -> Findings:
     """Report pairs of parts whose collisions are inside each other by more than `depth`.
 

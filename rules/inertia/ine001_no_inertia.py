@@ -16,12 +16,12 @@ from checker.model.components import Link
 from checker.model.robot import Robot
 from checker.model.tree import WORLD
 from checker.physics.mass.mass_properties import MassProperties
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _MOMENTS = 6
 
 
-@rule("INE001", "no-inertia", Severity.ERROR)
+@rule("INE001", "no-inertia", Severity.ERROR, Concern.ROBOT)
 def check(masses: MassProperties) -> Findings:
     """Report moving links without inertial, without mass or without any moment of inertia."""
     if masses.robot.is_static:

@@ -19,11 +19,11 @@ from checker.model.components import Inertial
 from checker.model.faults import FaultKind
 from checker.model.robot import Robot
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
 
 
-@rule("INE002", "impossible-inertia", Severity.ERROR)
+@rule("INE002", "impossible-inertia", Severity.ERROR, Concern.ROBOT)
 def check(masses: MassProperties, context: Context, *, tolerance: float = 1e-13) -> Findings:
     """Report masses that are not positive and finite, and moments that no body can have.
 

@@ -10,10 +10,10 @@ Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must b
 
 from checker.model.tree import rigid_bodies
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("INE003", "zero-moment", Severity.ERROR)
+@rule("INE003", "zero-moment", Severity.ERROR, Concern.ROBOT)
 def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-9) -> Findings:
     """Report possible inertias with a principal moment of zero.
 

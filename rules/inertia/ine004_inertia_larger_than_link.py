@@ -15,10 +15,10 @@ import math
 
 from checker.physics.mass.link_geometry import known_reach, not_looked_at
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("INE004", "inertia-larger-than-link", Severity.ERROR)
+@rule("INE004", "inertia-larger-than-link", Severity.ERROR, Concern.ROBOT)
 def check(
     masses: MassProperties,
     *,

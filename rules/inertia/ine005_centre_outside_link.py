@@ -14,10 +14,10 @@ import math
 from checker.model.geometry.boxes import Box
 from checker.physics.mass.link_geometry import known_box, not_looked_at
 from checker.physics.mass.mass_properties import MassProperties
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("INE005", "centre-of-mass-outside-link", Severity.ERROR)
+@rule("INE005", "centre-of-mass-outside-link", Severity.ERROR, Concern.ROBOT)
 def check(
     masses: MassProperties,
     *,

@@ -16,10 +16,10 @@ from collections.abc import Iterator
 
 from checker.physics.mass.link_geometry import not_looked_at, volume_bounds
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 
-@rule("INE006", "implausible-density", Severity.WARNING)
+@rule("INE006", "implausible-density", Severity.WARNING, Concern.ROBOT)
 def check(
     masses: MassProperties,
     *,

@@ -11,12 +11,12 @@ Source: Model Migration Guide; review of exported models.
 from collections.abc import Iterator, Sequence
 
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 
 
-@rule("INE007", "placeholder-inertia", Severity.WARNING)
+@rule("INE007", "placeholder-inertia", Severity.WARNING, Concern.ROBOT)
 def check(
     masses: MassProperties, *, links: int = 3, share: float = 0.02, alike: float = 0.1
 ) -> Findings:

@@ -10,10 +10,10 @@ Source: Robot Model Checklist: reviewers add up the links and compare with "Cost
 
 from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("INE008", "mass-differs-from-specification", Severity.ERROR)
+@rule("INE008", "mass-differs-from-specification", Severity.ERROR, Concern.PAPERWORK)
 def check(
     robot: Robot,
     specification: Specification,

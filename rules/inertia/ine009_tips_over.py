@@ -14,10 +14,10 @@ import math
 
 from checker.model.components import Link
 from checker.physics.mass.mass_properties import MassProperties
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("INE009", "tips-over", Severity.ERROR)
+@rule("INE009", "tips-over", Severity.ERROR, Concern.ROBOT)
 def check(
     masses: MassProperties,
     *,

@@ -14,10 +14,10 @@ from collections.abc import Iterator
 
 from checker.model.components import Joint
 from checker.physics.mass.mass_properties import MassProperties
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("INE010", "weight-over-effort-limit", Severity.WARNING)
+@rule("INE010", "weight-over-effort-limit", Severity.WARNING, Concern.ROBOT)
 def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
     """Report driven joints whose effort limit is too small for the parts they carry.
 

@@ -19,12 +19,12 @@ from collections.abc import Iterator
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
 from checker.physics.mass.mass_properties import MassProperties
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _DEVICES = ("camera", "lidar", "ray", "rgbd", "depth", "thermal", "sonar")
 
 
-@rule("INE011", "payload-without-mass", Severity.INFO)
+@rule("INE011", "payload-without-mass", Severity.INFO, Concern.ROBOT)
 def check(
     masses: MassProperties, first: FirstConfiguration, *, breadcrumbs: bool = True
 ) -> Findings:

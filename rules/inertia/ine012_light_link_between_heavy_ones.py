@@ -13,10 +13,10 @@ from collections.abc import Iterator
 from checker.model.tree import WORLD, Tie, rigid_bodies
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.mechanism import Hanging, hang
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
-@rule("INE012", "light-link-between-heavy-ones", Severity.INFO)
+@rule("INE012", "light-link-between-heavy-ones", Severity.INFO, Concern.ROBOT)
 def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -> Findings:
     """Report joints across which masses differ too much, with heavy parts on both sides.
 

@@ -21,7 +21,7 @@ from checker.model.geometry.boxes import box_around
 from checker.model.robot import Robot
 from checker.physics.mass.link_geometry import not_looked_at, solid
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Span
 
 _BESIDE = re.compile(
@@ -32,7 +32,7 @@ _BESIDE = re.compile(
 """Words for parts that hold or cover a device."""
 
 
-@rule("INE013", "device-off-its-datasheet", Severity.WARNING)
+@rule("INE013", "device-off-its-datasheet", Severity.WARNING, Concern.ROBOT)
 def check(masses: MassProperties, known: KnownDevices, *, tolerance: float = 0.1) -> Findings:
     """Report devices that differ from their datasheets; figures from memory are information.
 

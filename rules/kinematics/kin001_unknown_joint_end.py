@@ -11,11 +11,11 @@ Source: SDFormat specification, joint/parent and joint/child.
 from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 
-@rule("KIN001", "unknown-joint-end", Severity.ERROR)
+@rule("KIN001", "unknown-joint-end", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report joints whose parent or child is missing or does not exist."""
     for uri in robot.unresolved_includes:

@@ -12,10 +12,10 @@ from collections.abc import Iterator
 
 from checker.model.robot import Robot
 from checker.model.tree import LinkTree, Tie
-from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 
-@rule("KIN002", "joints-make-no-tree", Severity.ERROR)
+@rule("KIN002", "joints-make-no-tree", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, context: Context) -> Findings:
     """Report joints that connect a link to itself or give it a second parent."""
     for tie in robot.tree.ties:

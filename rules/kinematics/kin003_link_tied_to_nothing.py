@@ -11,12 +11,12 @@ from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.model.tree import LinkTree
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _NOTE = "the rest of the robot starts here"
 
 
-@rule("KIN003", "link-tied-to-nothing", Severity.ERROR)
+@rule("KIN003", "link-tied-to-nothing", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report links, and groups of links, that no joint connects to the robot."""
     tree = robot.tree

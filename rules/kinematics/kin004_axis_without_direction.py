@@ -14,10 +14,10 @@ from collections.abc import Iterator
 from checker.base.resources import table
 from checker.model.components import Axis, Joint
 from checker.model.robot import Robot
-from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 
-@rule("KIN004", "axis-without-direction", Severity.ERROR)
+@rule("KIN004", "axis-without-direction", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, context: Context, *, tolerance: float = 1e-3) -> Findings:
     """Report missing axes, axes of zeros, and axes that are not of length 1.
 

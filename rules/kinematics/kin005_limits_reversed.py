@@ -9,10 +9,10 @@ Source: SDFormat specification, axis/limit; URDF, joint/limit.
 
 from checker.base.resources import table
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("KIN005", "limits-reversed", Severity.ERROR)
+@rule("KIN005", "limits-reversed", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report axes with a lower limit above the upper one."""
     types = table("joint_types")["types"][robot.format]

@@ -13,7 +13,7 @@ import math
 from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.model.tree import Tie
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _TURNING = (
     *("wheel", "caster", "castor", "roller", "track", "sprocket", "idler", "pulley"),
@@ -22,7 +22,7 @@ _TURNING = (
 """Words in the names of parts that turn freely on purpose."""
 
 
-@rule("KIN006", "joint-turns-freely", Severity.WARNING)
+@rule("KIN006", "joint-turns-freely", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, turning: tuple[str, ...] = _TURNING) -> Findings:
     """Report revolute and prismatic joints without limits that no plugin drives.
 

@@ -13,12 +13,12 @@ from collections.abc import Iterator
 
 from checker.model.components import Axis, Joint
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _ROTORS = ("MulticopterMotorModel", "MulticopterVelocityControl", "Thruster")
 
 
-@rule("KIN007", "implausible-joint-limit", Severity.WARNING)
+@rule("KIN007", "implausible-joint-limit", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float = 1e3) -> Findings:
     """Report finite limits of effort and velocity that no motor has.
 

@@ -13,7 +13,7 @@ supports.
 from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.rule import Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _BECOMES = {
     "fixed": "which {} turns into a fixed joint",
@@ -21,7 +21,7 @@ _BECOMES = {
 }
 
 
-@rule("KIN008", "joint-type-not-simulated", Severity.ERROR)
+@rule("KIN008", "joint-type-not-simulated", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot, context: Context) -> Findings:
     """Report joint types that are unknown or not simulated by the target release."""
     known = table("joint_types")["types"][robot.format]

@@ -13,10 +13,10 @@ import math
 
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("KIN009", "fixed-by-limits", Severity.INFO)
+@rule("KIN009", "fixed-by-limits", Severity.INFO, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report joints that cannot move: an error if a plugin drives them."""
     for joint in robot.joints:

@@ -11,10 +11,10 @@ Source: SDFormat specification 1.7, "Pose frame semantics"; SDF 1.5 and 1.6, pos
 
 from checker.model.faults import FaultKind
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("KIN010", "unknown-frame", Severity.ERROR)
+@rule("KIN010", "unknown-frame", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report unknown frames, and frames that refer to each other in a circle."""
     # In URDF the joints are the frames: KIN001 and KIN002 speak of those.

@@ -10,10 +10,10 @@ model/@canonical_link.
 
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
-from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
-@rule("KIN011", "no-base-link", Severity.WARNING)
+@rule("KIN011", "no-base-link", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, context: Context, *, base: str = "base_link") -> Findings:
     """Report a robot without base link, and a canonical link that does not exist.
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _WHEELS = {
@@ -29,7 +29,7 @@ _SPEEDS = ("max_linear_velocity", "max_velocity")
 """Parameters that limit a drive's speed; only the first stated one counts."""
 
 
-@rule("KIN012", "wheel-too-slow", Severity.WARNING)
+@rule("KIN012", "wheel-too-slow", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, tolerance: float = 0.01) -> Findings:
     """Report wheels that do not reach their drive's maximum speed.
 

@@ -14,12 +14,12 @@ from collections.abc import Iterator
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _HINGES = ("revolute", "continuous")
 
 
-@rule("KIN013", "axis-beside-part", Severity.WARNING)
+@rule("KIN013", "axis-beside-part", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, sizes: float = 1.0, gap: float = 1.0) -> Findings:
     """Report parts far from their axis or parent.
 

@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
 
-@rule("KIN014", "mimic-of-nothing", Severity.ERROR)
+@rule("KIN014", "mimic-of-nothing", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report mimic joints that follow an unknown joint or themselves."""
     suggestions = Suggestions(robot.joints_by_name)

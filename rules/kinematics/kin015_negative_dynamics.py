@@ -8,10 +8,10 @@ Source: SDFormat specification, axis/dynamics; URDF, joint/dynamics.
 """
 
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("KIN015", "negative-dynamics", Severity.WARNING)
+@rule("KIN015", "negative-dynamics", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report axes with a negative coefficient."""
     for joint in robot.joints:

@@ -9,10 +9,10 @@ Source: SDFormat specification, link/gravity and link/kinematic; URDF, `<turnGra
 """
 
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("KIN016", "link-without-gravity", Severity.WARNING)
+@rule("KIN016", "link-without-gravity", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report links without gravity, and kinematic links."""
     for link in robot.links:

@@ -10,10 +10,10 @@ Source: SDFormat specification, axis/initial_position and axis/limit.
 """
 
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("KIN017", "starts-outside-limits", Severity.WARNING)
+@rule("KIN017", "starts-outside-limits", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot, *, tolerance: float = 1e-6) -> Findings:
     """Report joints whose first position is outside their limits.
 

@@ -12,10 +12,10 @@ import struct
 
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("MSH001", "unreadable-mesh", Severity.ERROR)
+@rule("MSH001", "unreadable-mesh", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report empty and corrupt files."""
     for reason in robot.unseen_meshes:

@@ -9,10 +9,10 @@ Source: the formats' specifications. Several accepted packages contain three suc
 
 from checker.model.mesh import Mesh
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("MSH002", "mesh-not-valid", Severity.WARNING)
+@rule("MSH002", "mesh-not-valid", Severity.WARNING, Concern.PORTABILITY)
 def check(robot: Robot) -> Findings:
     """Report what the reader had to repair or skip in a mesh."""
     for reason in robot.unseen_meshes:

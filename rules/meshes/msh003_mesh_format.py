@@ -10,12 +10,12 @@ Source: gz-common, MeshManager: its list of file extensions in version 3 (Dome) 
 import posixpath
 
 from checker.model.robot import Robot
-from checker.rule import Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _SINCE_GARDEN = frozenset({".fbx", ".glb", ".gltf"})
 
 
-@rule("MSH003", "mesh-format", Severity.ERROR)
+@rule("MSH003", "mesh-format", Severity.ERROR, Concern.ROBOT)
 def check(
     robot: Robot,
     context: Context,

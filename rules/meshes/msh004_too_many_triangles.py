@@ -10,10 +10,10 @@ packages that we checked need.
 
 from checker.model.mesh import Mesh
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("MSH004", "too-many-triangles", Severity.WARNING)
+@rule("MSH004", "too-many-triangles", Severity.WARNING, Concern.ROBOT)
 def check(
     robot: Robot, *, collision: int = 20_000, visual: int = 200_000, together: int = 1_000_000
 ) -> Findings:

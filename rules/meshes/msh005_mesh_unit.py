@@ -16,7 +16,7 @@ from checker.model.geometry.placed_shapes import placed, union
 from checker.model.geometry.transform import Vector
 from checker.model.mesh import MeshUse
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 UNITS = {"inches": 1 / 0.0254, "centimetres": 100.0, "millimetres": 1000.0}
 """How many of each unit make a metre."""
@@ -24,7 +24,7 @@ UNITS = {"inches": 1 / 0.0254, "centimetres": 100.0, "millimetres": 1000.0}
 Shapes = Iterable[Collision | Visual]
 
 
-@rule("MSH005", "mesh-unit", Severity.ERROR)
+@rule("MSH005", "mesh-unit", Severity.ERROR, Concern.ROBOT)
 def check(
     robot: Robot,
     *,

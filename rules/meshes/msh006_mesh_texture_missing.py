@@ -17,13 +17,13 @@ from checker.model.components import Visual
 from checker.model.mesh import Mesh, MeshUse
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _ABSOLUTE = re.compile(r"/|[A-Za-z]:[\\/]|file:|\\\\", re.IGNORECASE)
 _ON_A_SERVER = re.compile(r"https?:", re.IGNORECASE)
 
 
-@rule("MSH006", "mesh-texture-missing", Severity.WARNING)
+@rule("MSH006", "mesh-texture-missing", Severity.WARNING, Concern.ROBOT)
 def check(package: Package, robot: Robot) -> Findings:
     """Report files that the meshes of visuals name, unless the model gives a texture itself."""
     for reason in robot.unseen_meshes:

@@ -14,12 +14,12 @@ from checker.model.components import Visual
 from checker.model.mesh import Mesh
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.binary_headers import picture_size
 from checker.source.text import Located
 
 
-@rule("MSH007", "large-texture", Severity.INFO)
+@rule("MSH007", "large-texture", Severity.INFO, Concern.PORTABILITY)
 def check(package: Package, robot: Robot, *, most: int = 4096) -> Findings:
     """Report pictures of the model and of its meshes with too many pixels per side.
 

@@ -13,10 +13,10 @@ from msgspec.structs import replace
 
 from checker.model.mesh import Mesh, MeshUse
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("MSH008", "same-mesh-name", Severity.INFO)
+@rule("MSH008", "same-mesh-name", Severity.INFO, Concern.PORTABILITY)
 def check(robot: Robot) -> Findings:
     """Report meshes whose name another mesh already has."""
     for reason in robot.unseen_meshes:

@@ -8,10 +8,10 @@ Source: geometry: the volume of the convex hull compared with that of the mesh.
 """
 
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("MSH009", "concave-collision", Severity.INFO)
+@rule("MSH009", "concave-collision", Severity.INFO, Concern.ROBOT)
 def check(robot: Robot, *, factor: float = 2.0) -> Findings:
     """Report closed collision meshes that fill little of their convex hull.
 

@@ -13,10 +13,10 @@ from collections.abc import Iterator
 
 from checker.model.mesh import Mesh, MeshUse
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("MSH010", "open-collision-mesh", Severity.WARNING)
+@rule("MSH010", "open-collision-mesh", Severity.WARNING, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report collision meshes with holes, inverted surfaces, or triangles without area."""
     for reason in robot.unseen_meshes:

@@ -13,12 +13,12 @@ from collections.abc import Iterator
 
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _PATTERN = re.compile(r"([a-z0-9]+(?:_[a-z0-9]+)*)_sensor_config_([0-9]+)")
 
 
-@rule("PKG001", "package-name", Severity.ERROR)
+@rule("PKG001", "package-name", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Report folder names that do not match the pattern."""
     if package.kind in (PackageKind.ROBOT, PackageKind.CONFIGURATION):

@@ -14,12 +14,12 @@ from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
 
-@rule("PKG002", "names-disagree", Severity.ERROR)
+@rule("PKG002", "names-disagree", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork) -> Findings:
     """Compare the names in package.xml, CMakeLists.txt and model.config with the folder's."""
     if package.kind is PackageKind.SINGLE_FILE:

@@ -15,7 +15,7 @@ from checker.package.inheritance import Found, Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
-from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 
 MANIFESTS = {
     "package.xml": "which ROS needs to find the package",
@@ -35,7 +35,7 @@ EXPECTED = {
 TOPICS = "launch/vehicle_topics.launch"
 
 
-@rule("PKG003", "missing-file", Severity.ERROR)
+@rule("PKG003", "missing-file", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Report what is missing, including inherited parts in the search."""
     if package.kind is PackageKind.SINGLE_FILE:

@@ -17,6 +17,7 @@ from checker.package.manifests import ModelConfig, Paperwork
 from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.rule import (
+    Concern,
     Context,
     Finding,
     Findings,
@@ -31,7 +32,7 @@ from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to
 
 
-@rule("PKG004", "incomplete-model-config", Severity.ERROR)
+@rule("PKG004", "incomplete-model-config", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Look up the model file, and list what is missing."""
     if reason := paperwork.unread("model.config"):

@@ -17,7 +17,7 @@ from checker.model.robot import Robot
 from checker.model.specification.sensor_kinds import SUBSTITUTES, TYPES, SensorKind, kinds_in
 from checker.model.specification.sensors import stated_count
 from checker.package.manifests import Paperwork
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located, Span
 
 _CLAUSE = re.compile(
@@ -35,7 +35,7 @@ class _Told(Record):
     span: Span
 
 
-@rule("PKG005", "description-disagrees", Severity.WARNING)
+@rule("PKG005", "description-disagrees", Severity.WARNING, Concern.PAPERWORK)
 def check(robot: Robot, paperwork: Paperwork) -> Findings:
     """Compare kinds and numbers of sensors."""
     config = paperwork.config

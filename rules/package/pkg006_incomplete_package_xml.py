@@ -17,14 +17,14 @@ from collections.abc import Iterator
 from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
 from checker.package.submissions import TEMPLATE, is_same_robot
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
 _EMAIL = re.compile(r"[^@\s]+@[^@\s]+")
 
 
-@rule("PKG006", "incomplete-package-xml", Severity.ERROR)
+@rule("PKG006", "incomplete-package-xml", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork) -> Findings:
     """Check the entries that package.xml must have."""
     if reason := paperwork.unread("package.xml"):

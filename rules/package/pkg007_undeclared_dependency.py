@@ -18,6 +18,7 @@ from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwor
 from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.rule import (
+    Concern,
     Context,
     Finding,
     Findings,
@@ -31,7 +32,7 @@ from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to, insert_behind
 
 
-@rule("PKG007", "undeclared-dependency", Severity.WARNING)
+@rule("PKG007", "undeclared-dependency", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Compare used packages with package.xml; packages of the ROS distribution are information."""
     if reason := paperwork.unread("package.xml"):

@@ -16,7 +16,16 @@ from checker.finding import Fix
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, finding, replace_text, rule, unchecked
+from checker.rule import (
+    Concern,
+    Finding,
+    Findings,
+    Severity,
+    finding,
+    replace_text,
+    rule,
+    unchecked,
+)
 from checker.source.cmake import CMakeFile, Install
 from checker.source.text import Span
 from checker.source.xml_insertion import newline_of
@@ -37,7 +46,7 @@ _PATTERN_LIMIT, _PATTERNS_LIMIT = 100, 100
 MODEL_FILES = ("model.sdf", "model.config")
 
 
-@rule("PKG008", "resource-not-installed", Severity.ERROR)
+@rule("PKG008", "resource-not-installed", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork) -> Findings:
     """Compare the package's files with what the build file installs."""
     build = paperwork.build

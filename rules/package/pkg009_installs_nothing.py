@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from checker.finding import Fix
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 from checker.source.cmake import CMakeFile, Install
 from checker.source.text import Located
 from checker.source.xml_insertion import with_blanks
@@ -23,7 +23,7 @@ _OPTIONAL = re.compile(r"\bOPTIONAL\b")
 _MADE_ELSEWHERE = re.compile(r"[$<*]|^/|^[A-Za-z]:")
 
 
-@rule("PKG009", "installs-nothing", Severity.ERROR)
+@rule("PKG009", "installs-nothing", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork) -> Findings:
     """Look up everything that is installed from the package's folder."""
     build = paperwork.build

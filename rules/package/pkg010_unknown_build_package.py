@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from checker.base.resources import table
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.rule import Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 from checker.source.cmake import CMakeFile
 from checker.source.text import Located
 
@@ -25,7 +25,7 @@ _VERSION = re.compile(r"(?<!\d)\d+\Z")
 _REQUIRED = {"REQUIRED", "COMPONENTS"}
 
 
-@rule("PKG010", "unknown-build-package", Severity.WARNING)
+@rule("PKG010", "unknown-build-package", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Look up required packages in the list of the release."""
     known = table("build_packages")["releases"].get(context.release)

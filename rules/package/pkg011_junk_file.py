@@ -14,7 +14,7 @@ from fnmatch import fnmatchcase
 from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 FILES = {
     **dict.fromkeys(("*~", "*.bak", "*.orig", "*.rej", "*(copy)*"), "a backup file"),
@@ -33,7 +33,7 @@ FOLDERS = {
 }
 
 
-@rule("PKG011", "junk-file", Severity.WARNING)
+@rule("PKG011", "junk-file", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Report files by their names, whole folders, and model files that nothing names."""
     reported: tuple[str, ...] = ()

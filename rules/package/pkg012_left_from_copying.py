@@ -24,7 +24,7 @@ from checker.package.submissions import (
     left_from_copying,
     robot_of,
 )
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, SourceText, Span
 
 SHEET = "specifications.md"
@@ -35,7 +35,7 @@ _TITLE = re.compile(r"^#{1,3}[ \t]*(\S[^\n]*?sensor[ _]config(?:uration)?[ _]\d+
 _TEAM = re.compile(r"\b(?:of|by)\s+(?:the\s+)?(?:team\s+)?([A-Z]\w+)(?:'s)?\s+team\b", re.I)
 
 
-@rule("PKG012", "left-from-copying", Severity.WARNING)
+@rule("PKG012", "left-from-copying", Severity.WARNING, Concern.PAPERWORK)
 def check(
     package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS + MORE_TEAMS
 ) -> Findings:

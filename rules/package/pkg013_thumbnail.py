@@ -12,7 +12,7 @@ import posixpath
 
 from checker.base.files import NotReadable
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.binary_headers import png_fault
 
 FOLDER = "thumbnails"
@@ -22,7 +22,7 @@ _ALL = 1e9
 """More megabytes than any file has."""
 
 
-@rule("PKG013", "thumbnail-missing", Severity.WARNING)
+@rule("PKG013", "thumbnail-missing", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package, *, limit_megabytes: float = 30.0) -> Findings:
     """Look for the five pictures, and read every PNG file in their folder.
 

@@ -13,10 +13,10 @@ from functools import cache
 from checker.base.files import NotReadable
 from checker.package.package import Package
 from checker.package.submissions import robot_of
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("PKG014", "borrowed-thumbnail", Severity.WARNING)
+@rule("PKG014", "borrowed-thumbnail", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package, *, most_compared: int = 50) -> Findings:
     """Report thumbnails with the same bytes as one of another available robot.
 

@@ -15,10 +15,10 @@ from collections.abc import Iterator
 
 from checker.package.index import FileEntry
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
-@rule("PKG015", "unsafe-file-name", Severity.WARNING)
+@rule("PKG015", "unsafe-file-name", Severity.WARNING, Concern.PORTABILITY)
 def check(package: Package) -> Findings:
     """Report names with spaces, with non-ASCII letters, or that differ only in case."""
     twins: dict[str, list[FileEntry]] = defaultdict(list)

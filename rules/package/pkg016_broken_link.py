@@ -10,7 +10,7 @@ Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in
 
 from checker.package.index import LinkState
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 FAULTS = {
     LinkState.DANGLING: "leads to {}, which does not exist",
@@ -20,7 +20,7 @@ FAULTS = {
 }
 
 
-@rule("PKG016", "broken-link", Severity.ERROR)
+@rule("PKG016", "broken-link", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Report links that end outside the package."""
     for link in package.index.links:

@@ -11,10 +11,10 @@ common practice.
 
 from checker.package.configuration import configurations
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("PKG017", "number-left-out", Severity.INFO)
+@rule("PKG017", "number-left-out", Severity.INFO, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Report the configuration after a gap."""
     known = configurations(package)

@@ -9,13 +9,13 @@ Source: this rule's own limits; the largest of 18 accepted packages has 10 MB, a
 """
 
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 MEGABYTE = 1e6
 _SHOWN = 3
 
 
-@rule("PKG018", "too-large", Severity.WARNING)
+@rule("PKG018", "too-large", Severity.WARNING, Concern.PAPERWORK)
 def check(
     package: Package, *, package_megabytes: float = 100.0, file_megabytes: float = 30.0
 ) -> Findings:

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.submissions import NAME_IN_PATH, blank_xml_comments
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import SourceText, Span
 
 FILES = ("launch/example.ign", "worlds/example.sdf")
@@ -22,7 +22,7 @@ FILES = ("launch/example.ign", "worlds/example.sdf")
 _SPAWNS = re.compile(r"\bspawner\b|<spawn\b|\bmodel\.sdf\b")
 
 
-@rule("PKG019", "example-of-another-robot", Severity.WARNING)
+@rule("PKG019", "example-of-another-robot", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Look for names of other packages in the examples, and for this robot in one of them."""
     if package.kind not in (PackageKind.ROBOT, PackageKind.CONFIGURATION):

@@ -16,11 +16,11 @@ from checker.finding import Fix
 from checker.model.components import Plugin
 from checker.model.plugin_library import classic_plugin, library_stem
 from checker.model.robot import Robot
-from checker.rule import Findings, Safety, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.xml_insertion import removal
 
 
-@rule("PLG001", "classic-plugin", Severity.ERROR)
+@rule("PLG001", "classic-plugin", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot) -> Findings:
     """Report plugins whose library belongs to Gazebo Classic."""
     if robot.unread_plugins:

@@ -22,7 +22,7 @@ from checker.model.plugin_library import (
 from checker.model.robot import Robot
 from checker.package.dependencies import lenders_of
 from checker.package.package import Package
-from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _CARRIES_NO_PLUGIN = re.compile(
     r"(?:ignition-|gz-|ros_|subt_).*|.*_msgs|catkin|genmsg|message_\w*|nodelet|python.*"
@@ -30,7 +30,7 @@ _CARRIES_NO_PLUGIN = re.compile(
 )
 
 
-@rule("PLG002", "unknown-plugin-library", Severity.ERROR)
+@rule("PLG002", "unknown-plugin-library", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, package: Package, context: Context) -> Findings:
     """Report plugins whose library neither Gazebo nor any available package has."""
     if robot.unread_plugins:

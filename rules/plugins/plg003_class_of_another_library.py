@@ -17,6 +17,7 @@ from checker.model.plugin_library import (
 )
 from checker.model.robot import Robot
 from checker.rule import (
+    Concern,
     Context,
     Finding,
     Findings,
@@ -29,7 +30,7 @@ from checker.rule import (
 )
 
 
-@rule("PLG003", "class-of-another-library", Severity.ERROR)
+@rule("PLG003", "class-of-another-library", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, context: Context) -> Findings:
     """Report plugins whose `name` is not a class in their `filename`."""
     if robot.unread_plugins:

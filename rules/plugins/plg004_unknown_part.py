@@ -13,10 +13,10 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("PLG004", "plugin-names-unknown-part", Severity.ERROR)
+@rule("PLG004", "plugin-names-unknown-part", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot) -> Findings:
     """Report parameters that name no part of the robot."""
     parts = {

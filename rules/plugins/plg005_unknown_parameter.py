@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.model.plugin_library import library_stem, plugin_libraries
 from checker.model.robot import Robot
-from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
 
 _FREE = ("include", "sdf")
@@ -30,7 +30,7 @@ _MEANT = {
 """Names in real packages that differ too much from the right one to be found by spelling."""
 
 
-@rule("PLG005", "unread-plugin-parameter", Severity.WARNING)
+@rule("PLG005", "unread-plugin-parameter", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, context: Context, *, harmless: tuple[str, ...] = _HARMLESS) -> Findings:
     """Report elements in plugins of the release that the plugin's source never reads.
 

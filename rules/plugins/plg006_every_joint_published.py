@@ -11,12 +11,12 @@ from collections.abc import Iterator
 
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _MOVING = ("revolute", "continuous", "revolute2", "universal", "ball")
 
 
-@rule("PLG006", "every-joint-published", Severity.WARNING)
+@rule("PLG006", "every-joint-published", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot) -> Findings:
     """Report publishers without joint names on a robot with wheels."""
     if robot.unread_plugins:

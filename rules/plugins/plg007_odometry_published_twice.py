@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 PUBLISHERS = (
@@ -24,7 +24,7 @@ PUBLISHERS = (
 """Classes that publish odometry on `<odom_topic>`, by default /model/<name>/odometry."""
 
 
-@rule("PLG007", "odometry-published-twice", Severity.WARNING)
+@rule("PLG007", "odometry-published-twice", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot) -> Findings:
     """Report plugins whose odometry topic another plugin already uses."""
     if robot.unread_plugins:

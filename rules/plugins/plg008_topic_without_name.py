@@ -15,7 +15,7 @@ from checker.expand.spawner.reader import Spawner
 from checker.model.components import Plugin
 from checker.model.locomotion.drive import DRIVE_CLASSES
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.text import Located
 
 _TOPICS = (
@@ -32,7 +32,7 @@ _TOPICS = (
 _OTHERS = ("LinearBatteryPlugin", "Breadcrumbs", "MulticopterMotorModel", "GasDetector")
 
 
-@rule("PLG008", "topic-without-robot-name", Severity.ERROR)
+@rule("PLG008", "topic-without-robot-name", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, spawner: Spawner, spawned: SpawnedXml) -> Findings:
     """Report topics of drives, batteries, breadcrumbs and gas detectors that are constants."""
     function = spawner.functions.get("spawner")

@@ -16,13 +16,13 @@ from checker.base.files import NotReadable
 from checker.finding import Place
 from checker.model.plugin_library import release_major
 from checker.package.package import Package
-from checker.rule import Context, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.binary_headers import SharedLibrary, read_shared_library
 
 _SIMULATOR = re.compile(r"lib(?P<name>ignition-gazebo|gz-sim)(?P<major>\d{1,4})\b.*")
 
 
-@rule("PLG009", "library-of-another-machine", Severity.ERROR)
+@rule("PLG009", "library-of-another-machine", Severity.ERROR, Concern.INTERFACE)
 def check(
     package: Package, context: Context, *, machine: str = "x64", largest: int = 100_000_000
 ) -> Findings:

@@ -13,13 +13,13 @@ import re
 
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
-@rule("REF001", "absolute-uri", Severity.ERROR)
+@rule("REF001", "absolute-uri", Severity.ERROR, Concern.PORTABILITY)
 def check(
     package: Package,
     robot: Robot,

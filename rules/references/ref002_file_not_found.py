@@ -12,13 +12,13 @@ import re
 
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _SCHEME = re.compile(r"(?:model|package)://([^/]+)/(.*)", re.DOTALL)
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
-@rule("REF002", "file-not-found", Severity.ERROR)
+@rule("REF002", "file-not-found", Severity.ERROR, Concern.ROBOT)
 def check(package: Package, robot: Robot) -> Findings:
     """Report URIs that lead to no file."""
     for uri in robot.file_uris:

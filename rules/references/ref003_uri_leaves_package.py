@@ -13,12 +13,12 @@ import posixpath
 import re
 
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
-@rule("REF003", "uri-leaves-package", Severity.ERROR)
+@rule("REF003", "uri-leaves-package", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report relative URIs that lead out of the package that states them."""
     for uri in robot.file_uris:

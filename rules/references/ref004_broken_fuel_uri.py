@@ -14,7 +14,7 @@ from urllib.parse import unquote
 
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
 _FUEL = re.compile(r"https?://(?:\w+\.)?fuel\.(?:ignitionrobotics\.org|gazebosim\.org)\b", re.I)
 _HOST = _FUEL.pattern + r"/1\.0/[^/]+/(?:models|worlds)/(?P<name>[^/]+)"
@@ -23,7 +23,7 @@ _FILE = re.compile(_HOST + r"/(?:tip|\d+)/files/(?P<path>.+)", re.IGNORECASE | r
 _MEANT = {True: "<owner>/models/<name>/tip/files/<path>", False: "<owner>/models/<name>"}
 
 
-@rule("REF004", "broken-fuel-uri", Severity.ERROR)
+@rule("REF004", "broken-fuel-uri", Severity.ERROR, Concern.ROBOT)
 def check(package: Package, robot: Robot) -> Findings:
     """Report Fuel URIs of another form, and files that an available package does not have."""
     files = robot.file_uris

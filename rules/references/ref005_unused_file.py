@@ -8,13 +8,13 @@ Source: common practice; the Model Migration Guide, steps 6 and 7, gathers what 
 
 from checker.package.mentions import unsearched
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf", ".fbx", ".mtl")
 TEXTURES = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".dds", ".hdr")
 
 
-@rule("REF005", "unused-file", Severity.INFO)
+@rule("REF005", "unused-file", Severity.INFO, Concern.PAPERWORK)
 def check(
     package: Package, *, folders: tuple[str, ...] = ("meshes", "materials", "textures", "media")
 ) -> Findings:

@@ -12,13 +12,13 @@ import posixpath
 
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 TEXTURES = (".png", ".jpg", ".jpeg", ".tga", ".tif", ".tiff", ".bmp", ".dds", ".hdr")
 MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf", ".fbx")
 
 
-@rule("REF006", "misplaced-texture", Severity.INFO)
+@rule("REF006", "misplaced-texture", Severity.INFO, Concern.PAPERWORK)
 def check(
     package: Package,
     robot: Robot,

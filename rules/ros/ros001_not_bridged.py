@@ -30,7 +30,7 @@ from checker.model.ros.topics import (
     comparable,
     standard_topics,
 )
-from checker.rule import Context, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _CHALLENGE = "subt"
 _GROUPS = {"depth": "depth image and points", "ranges": "scan and points"}
@@ -39,7 +39,7 @@ _LISTENS = ("LinearBatteryPlugin",)
 """Plugins that only listen to commands for other plugins."""
 
 
-@rule("ROS001", "not-bridged", Severity.ERROR)
+@rule("ROS001", "not-bridged", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     """Report topics of sensors and plugins that no node bridges between Gazebo and ROS."""
     if robot.format == "urdf":

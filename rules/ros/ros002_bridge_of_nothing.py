@@ -18,10 +18,10 @@ from checker.model.components import Link
 from checker.model.robot import Robot
 from checker.model.ros.topics import suffixes
 from checker.model.sensing.kind import SensorType
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("ROS002", "bridge-of-nothing", Severity.ERROR)
+@rule("ROS002", "bridge-of-nothing", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report bridges of sensor topics that no sensor of the robot publishes."""
     if robot.missing_parts:

@@ -18,14 +18,14 @@ from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, by_topic, channels
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}
 _RANGE = "sensor_msgs/Range"
 _VECTOR, _SINGLE = "ignition.msgs.Pose_V", "ignition.msgs.Pose"
 
 
-@rule("ROS003", "wrong-message-type", Severity.ERROR)
+@rule("ROS003", "wrong-message-type", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report bridges whose types or direction do not fit their topic."""
     for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):

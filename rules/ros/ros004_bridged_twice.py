@@ -15,12 +15,12 @@ from collections.abc import Iterable
 from checker.expand.launch.bridge import Bridge, Direction
 from checker.expand.launch.graph import LaunchGraph
 from checker.model.ros.topics import comparable
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 _SHARED = "camera_info"
 
 
-@rule("ROS004", "bridged-twice", Severity.WARNING)
+@rule("ROS004", "bridged-twice", Severity.WARNING, Concern.INTERFACE)
 def check(launch: LaunchGraph) -> Findings:
     """Report second bridges of one topic, and second topics with the same name."""
     known = [bridge for bridge in launch.bridges if "$(" not in bridge.ign_topic]

@@ -18,7 +18,7 @@ from checker.expand.launch.graph import LaunchGraph
 from checker.expand.spawner.reader import SAMPLE_NAME
 from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, channels, comparable
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _NAMESPACE = f"/{SAMPLE_NAME}/"
 _WORDS: Mapping[str, re.Pattern[str]] = {
@@ -29,7 +29,7 @@ _LONGEST = 100
 """Characters of a name that are checked."""
 
 
-@rule("ROS005", "unusual-ros-name", Severity.WARNING)
+@rule("ROS005", "unusual-ros-name", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report names of bridged topics that do not follow the patterns."""
     for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):

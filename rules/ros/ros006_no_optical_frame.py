@@ -17,12 +17,12 @@ from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, channels, comparable
 from checker.model.ros.transforms import optical_frames
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _COLOUR, _DEPTH = "image", "depth image"
 
 
-@rule("ROS006", "no-optical-frame", Severity.ERROR)
+@rule("ROS006", "no-optical-frame", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report bridged colour and depth images that no optical_frame_publisher reads."""
     for reason in dict.fromkeys((robot.missing_parts, *launch.unread)):

@@ -16,7 +16,7 @@ from checker.expand.launch.bridge import Bridge, Direction
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.spawner.reader import SAMPLE_NAME
 from checker.model.ros.transforms import OpticalFrame, optical_frames
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _TYPES = {"input/image": "Image", "input/camera_info": "CameraInfo"}
 _RENAMES = "topic_tools"
@@ -25,7 +25,7 @@ _RENAMES = "topic_tools"
 _Given = Mapping[str, Sequence[Bridge]]
 
 
-@rule("ROS007", "wrong-optical-remap", Severity.ERROR)
+@rule("ROS007", "wrong-optical-remap", Severity.ERROR, Concern.INTERFACE)
 def check(launch: LaunchGraph) -> Findings:
     """Report optical_frame_publishers that do not read a bridged topic."""
     for reason in launch.unread:

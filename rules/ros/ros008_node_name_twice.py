@@ -13,13 +13,13 @@ from collections import defaultdict
 from checker.expand.launch.graph import LaunchGraph, Node
 from checker.expand.launch.substitution import is_known
 from checker.expand.spawner.reader import SAMPLE_NAME
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _SHOWN = 20
 """Greatest number of further nodes with the name that a finding lists."""
 
 
-@rule("ROS008", "node-name-twice", Severity.ERROR)
+@rule("ROS008", "node-name-twice", Severity.ERROR, Concern.INTERFACE)
 def check(launch: LaunchGraph) -> Findings:
     """Report every name that more than one node has."""
     for reason in launch.unread:

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping
 from checker.base.words import Suggestions
 from checker.expand.launch.attributes import LaunchTag, launch_tags, left_outside
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Safety, Severity, finding, replace_text, rule
+from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Span
 from checker.source.xml import Element, XmlDocument
 
@@ -25,7 +25,7 @@ _OTHER_LAUNCHERS = ("ignition", "gz")
 """Root tags of files that `ign launch` starts."""
 
 
-@rule("ROS009", "unknown-launch-tag", Severity.ERROR)
+@rule("ROS009", "unknown-launch-tag", Severity.ERROR, Concern.INTERFACE)
 def check(package: Package) -> Findings:
     """Compare the package's own launch files with the tags that roslaunch knows."""
     known = launch_tags()

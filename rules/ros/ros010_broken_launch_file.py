@@ -14,7 +14,7 @@ from collections.abc import Collection, Iterator, Mapping
 from checker.expand.launch.graph import LaunchFault, LaunchFaultKind, LaunchGraph, Param
 from checker.expand.launch.launch_file import target_of
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _FATAL: Mapping[LaunchFaultKind, str] = {
     LaunchFaultKind.UNDECLARED_ARG: "roslaunch stops with an error",
@@ -38,7 +38,7 @@ _OF_COMMANDS = (
 _FILES = ("load", "textfile", "binfile")
 
 
-@rule("ROS010", "broken-launch-file", Severity.ERROR)
+@rule("ROS010", "broken-launch-file", Severity.ERROR, Concern.INTERFACE)
 def check(package: Package, launch: LaunchGraph) -> Findings:
     """Report faults that stop roslaunch, in the files that are started."""
     if launch.unknown_commands:

@@ -13,14 +13,14 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.resources import table
 from checker.package.package import Package
-from checker.rule import Context, Findings, Safety, Severity, finding, replace_text, rule
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
 _FIND = re.compile(r"\$\(find\s{1,20}([\w-]{1,100})\s{0,20}\)")
 
 
-@rule("ROS011", "renamed-package", Severity.WARNING)
+@rule("ROS011", "renamed-package", Severity.WARNING, Concern.PORTABILITY)
 def check(package: Package, context: Context) -> Findings:
     """Report old and later names in the launch files and in package.xml."""
     renamed: Mapping[str, str] = table("renamed_packages")["releases"].get(context.release, {})

@@ -19,14 +19,14 @@ from checker.model.ros.robot_description import fixed_frames, robot_descriptions
 from checker.model.ros.transforms import state_publishers, static_transforms
 from checker.package.inheritance import Found
 from checker.package.package import Package
-from checker.rule import Findings, HasSpan, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, HasSpan, Severity, finding, rule, unchecked
 from checker.source.xml import XmlDocument
 
 _TOPICS = "launch/vehicle_topics.launch"
 _TRUE = ("true", "1")
 
 
-@rule("ROS012", "no-static-transforms", Severity.WARNING)
+@rule("ROS012", "no-static-transforms", Severity.WARNING, Concern.INTERFACE)
 def check(
     package: Package,
     robot: Robot,

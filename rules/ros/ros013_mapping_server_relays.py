@@ -17,12 +17,12 @@ from checker.expand.launch.graph import Include, LaunchGraph, UnresolvedInclude
 from checker.expand.launch.substitution import is_known
 from checker.package.inheritance import Found
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _TOPICS = "launch/vehicle_topics.launch"
 
 
-@rule("ROS013", "mapping-server-relays", Severity.WARNING)
+@rule("ROS013", "mapping-server-relays", Severity.WARNING, Concern.INTERFACE)
 def check(
     package: Package, launch: LaunchGraph, *, relays: str = "mapping_server_relays.launch"
 ) -> Findings:

@@ -20,7 +20,7 @@ from checker.model.ros.robot_description import (
 )
 from checker.package.inheritance import SUBMISSION_NAME, Found
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
@@ -29,7 +29,7 @@ _PROGRAMS = ("scripts/", "bin/", "src/", "nodes/")
 """Folders of programs that a package builds or installs, which are not in its sources."""
 
 
-@rule("ROS014", "robot-description", Severity.ERROR)
+@rule("ROS014", "robot-description", Severity.ERROR, Concern.INTERFACE)
 def check(package: Package, launch: LaunchGraph) -> Findings:
     """Check the parameters named robot_description in the started files."""
     descriptions = robot_descriptions(launch)

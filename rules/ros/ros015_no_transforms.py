@@ -18,12 +18,12 @@ from checker.model.ros.transforms import (
 )
 from checker.package.inheritance import Found
 from checker.package.package import Package
-from checker.rule import Context, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _TOPICS = "launch/vehicle_topics.launch"
 
 
-@rule("ROS015", "no-transforms", Severity.WARNING)
+@rule("ROS015", "no-transforms", Severity.WARNING, Concern.INTERFACE)
 def check(package: Package, launch: LaunchGraph, context: Context) -> Findings:
     """Look for a node or bridge that publishes TF in all started files."""
     if any(map(publishes_transforms, launch.nodes)) or any(map(carries_transforms, launch.bridges)):

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from checker.base.files import NotReadable
 from checker.package.inheritance import Found
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import SourceText, Span
 from checker.source.xml_positions import XmlFault
 
@@ -21,7 +21,7 @@ FORGIVING = (".sdf", ".world", ".config")
 """Files that only Gazebo reads."""
 
 
-@rule("SDF001", "not-well-formed", Severity.ERROR)
+@rule("SDF001", "not-well-formed", Severity.ERROR, Concern.ROBOT)
 def check(package: Package) -> Findings:
     """Report files that an XML parser refuses, and those that only a tolerant one reads."""
     model = package.model_path

@@ -16,6 +16,7 @@ from checker.model.sdf.document import SdfDocument, parse_version
 from checker.model.sdf.schema import VERSIONS
 from checker.package.manifests import Paperwork, SdfEntry
 from checker.rule import (
+    Concern,
     Context,
     Finding,
     Findings,
@@ -31,7 +32,7 @@ OLDER = ("1.0", "1.2", "1.3")
 """Versions that exist, but whose elements are not in the tables."""
 
 
-@rule("SDF002", "sdf-version", Severity.ERROR)
+@rule("SDF002", "sdf-version", Severity.ERROR, Concern.PORTABILITY)
 def check(sdf: SdfDocument, paperwork: Paperwork, context: Context) -> Findings:
     """Report versions that differ from the target's, from one another, or that do not exist."""
     if sdf.root.tag != "sdf":

@@ -14,14 +14,14 @@ from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.schema import all_tags
-from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 
 GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
 """Places where a lost element changes how the robot moves."""
 
 
-@rule("SDF003", "unknown-element", Severity.WARNING)
+@rule("SDF003", "unknown-element", Severity.WARNING, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report elements that no place of this SDF version knows."""
     unknown = [

@@ -10,13 +10,13 @@ Source: SDFormat specification, the version that the file states.
 
 from checker.base.words import Suggestions
 from checker.model.sdf.document import SdfDocument
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
 ELSEWHERE = {("pose", "frame")}
 """Attributes, with their elements, that another rule judges."""
 
 
-@rule("SDF004", "unknown-attribute", Severity.WARNING)
+@rule("SDF004", "unknown-attribute", Severity.WARNING, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report attributes that this SDF version does not know at this element."""
     for element, kind in sdf.typed_elements:

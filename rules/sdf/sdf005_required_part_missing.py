@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.schema import ElementType
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 CHOICES = frozenset({"geometry"})
@@ -23,7 +23,7 @@ ENDS = ("parent", "child")
 """Children of a model's joint, which KIN001 reports."""
 
 
-@rule("SDF005", "required-part-missing", Severity.ERROR)
+@rule("SDF005", "required-part-missing", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report required parts that are missing."""
     if sdf.root.tag != "sdf":

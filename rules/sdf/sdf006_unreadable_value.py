@@ -16,12 +16,12 @@ from checker.base.resources import table
 from checker.model.sdf.document import QUATERNION_POSE, SdfDocument, misread, out_of_bounds
 from checker.model.sdf.poses import in_degrees
 from checker.model.sdf.schema import ElementType
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
 
-@rule("SDF006", "unreadable-value", Severity.ERROR)
+@rule("SDF006", "unreadable-value", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report texts and attributes that are not values of their type."""
     words = table("sdf_words")

@@ -10,7 +10,7 @@ Source: SDFormat specification: elements hold either one value or other elements
 from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Span
 from checker.source.xml import Element
 from checker.source.xml_insertion import with_blanks
@@ -18,7 +18,7 @@ from checker.source.xml_insertion import with_blanks
 _SHOWN = 60
 
 
-@rule("SDF007", "stray-text", Severity.ERROR)
+@rule("SDF007", "stray-text", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report text in elements that hold no value."""
     for element, kind in sdf.typed_elements:

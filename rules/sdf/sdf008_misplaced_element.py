@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.schema import ElementType, all_tags, parents_of
-from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
 
@@ -24,7 +24,7 @@ _LISTED = 3
 _Kinds = Mapping[Element, ElementType | None]
 
 
-@rule("SDF008", "misplaced-element", Severity.ERROR)
+@rule("SDF008", "misplaced-element", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report elements that this SDF version knows, but not below this parent."""
     belonging: dict[tuple[str, ...], Sequence[str]] = {}

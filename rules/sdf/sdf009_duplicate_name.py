@@ -15,7 +15,7 @@ import re
 from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument, sdf_version
-from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -31,7 +31,7 @@ NAME_OF_PHYSICS = "default_physics"
 Version = tuple[int, int]
 
 
-@rule("SDF009", "duplicate-name", Severity.ERROR)
+@rule("SDF009", "duplicate-name", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report siblings with the same name, and reserved names."""
     version = sdf_version(sdf.document)

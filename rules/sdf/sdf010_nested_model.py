@@ -20,12 +20,12 @@ from checker.fix.flattening.names import SUFFIXES, FlatNames, mentions
 from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
 from checker.package.package import Package
-from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.text import SourceText
 from checker.source.xml import Element
 
 
-@rule("SDF010", "nested-model", Severity.ERROR)
+@rule("SDF010", "nested-model", Severity.ERROR, Concern.PORTABILITY)
 def check(sdf: SdfDocument, robot: Robot, package: Package) -> Findings:
     """Report `<model>` and `<include>` below a model."""
     nested = list(_nested(sdf, robot))

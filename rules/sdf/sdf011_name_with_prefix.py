@@ -19,13 +19,13 @@ from checker.fix.flattening.renames import Renaming
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
 from checker.package.package import Package
-from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.text import SourceText
 
 _NAMED = {Link: "link", Joint: "joint"}
 
 
-@rule("SDF011", "name-with-prefix", Severity.WARNING)
+@rule("SDF011", "name-with-prefix", Severity.WARNING, Concern.PAPERWORK)
 def check(robot: Robot, package: Package) -> Findings:
     """Report names with a slash; they are errors if all links have the same prefix."""
     if robot.format != "sdf":

@@ -12,11 +12,11 @@ libsdformat: "A model must have at least one link."
 from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument, sdf_version
-from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 
-@rule("SDF012", "not-one-model", Severity.ERROR)
+@rule("SDF012", "not-one-model", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report what prevents a model file from being one robot."""
     if sdf.root.tag != "sdf":

@@ -8,7 +8,7 @@ Source: SDFormat specification, "Required: 0" or "1" at the element: at most one
 
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.schema import ElementType
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 ELSEWHERE = {("sdf", "model")}
@@ -17,7 +17,7 @@ SEVERAL = {("contact", "collision")}
 """Parents and elements of which simulators read several, despite the tables."""
 
 
-@rule("SDF013", "element-twice", Severity.WARNING)
+@rule("SDF013", "element-twice", Severity.WARNING, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report second elements of a kind that may occur once."""
     for element, kind in sdf.typed_elements:

@@ -9,10 +9,10 @@ the empty attribute that Gazebo 9's converter wrote.
 """
 
 from checker.model.sdf.document import SdfDocument
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
 
-@rule("SDF014", "pose-frame", Severity.WARNING)
+@rule("SDF014", "pose-frame", Severity.WARNING, Concern.PORTABILITY)
 def check(sdf: SdfDocument) -> Findings:
     """Report the attribute, empty or not."""
     for element in sdf.elements():

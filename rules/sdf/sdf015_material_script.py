@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
-from checker.rule import Context, Finding, Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import removal
 
@@ -22,7 +22,7 @@ SCRIPTED = ("", "classic")
 _COLOURS = frozenset({"ambient", "diffuse", "specular", "emissive", "pbr"})
 
 
-@rule("SDF015", "material-script", Severity.ERROR)
+@rule("SDF015", "material-script", Severity.ERROR, Concern.PORTABILITY)
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report scripts that the target does not read, and empty materials."""
     for element in sdf.elements():

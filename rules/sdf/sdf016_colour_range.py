@@ -10,14 +10,14 @@ Source: SDFormat specification, type color; libsdformat refuses other values.
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.model.values import ValueReader
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
 EIGHT_BIT = 255.0
 
 
-@rule("SDF016", "colour-range", Severity.ERROR)
+@rule("SDF016", "colour-range", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument, *, eight_bit_from: float = 16.0) -> Findings:
     """Report colours with a number below 0 or above 1.
 

@@ -10,10 +10,10 @@ Source: SDFormat specification 1.7, "Pose frame semantics", and 1.8, model/@plac
 
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.frame_faults import world_frame_faults
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("SDF017", "unknown-frame-of-world", Severity.ERROR)
+@rule("SDF017", "unknown-frame-of-world", Severity.ERROR, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report unknown frames, and frames that refer to each other in a circle."""
     for fault in world_frame_faults(sdf.document):

@@ -12,10 +12,10 @@ Source: types that SDFormat reads, and systems that simulate them, per release
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.sensing.kind import sensor_types
-from checker.rule import Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 
-@rule("SEN001", "sensor-not-simulated", Severity.ERROR)
+@rule("SEN001", "sensor-not-simulated", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, context: Context) -> Findings:
     """Report types of sensors that are unknown or not simulated by the target release."""
     types = sensor_types(context.release)

@@ -16,7 +16,7 @@ from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sdf.document import sdf_version
 from checker.model.sensing.kind import SensorType
-from checker.rule import Context, Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.text import Span
 
 _OLD = {"gpu_ray": "gpu_lidar", "ray": "lidar"}
@@ -25,7 +25,7 @@ _FIRST_GPU_LIDAR = (1, 6)
 """SDF version since which `<lidar>` exists."""
 
 
-@rule("SEN002", "older-sensor-spelling", Severity.WARNING)
+@rule("SEN002", "older-sensor-spelling", Severity.WARNING, Concern.PORTABILITY)
 def check(robot: Robot, context: Context) -> Findings:
     """Report older spellings of lidars, and lidars that the target release does not simulate."""
     if context.release == _CLASSIC or (

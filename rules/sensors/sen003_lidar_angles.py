@@ -15,14 +15,14 @@ from collections.abc import Iterator
 from checker.finding import Fix
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Scan
-from checker.rule import Finding, Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, rule
 
 _TURN = 2 * math.pi
 _NEAR = 0.1
 """Radians: an angle this close to a full turn is meant to be one."""
 
 
-@rule("SEN003", "lidar-angles", Severity.WARNING)
+@rule("SEN003", "lidar-angles", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, *, tolerance: float = 1e-3, near: float = _NEAR) -> Findings:
     """Report scans over more than a full turn, from 0 to 2π, or without width.
 

@@ -19,10 +19,10 @@ from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Lidar
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
-@rule("SEN004", "lidar-samples", Severity.WARNING)
+@rule("SEN004", "lidar-samples", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot, devices: SensorDevices, *, copied: int = 10_000, tolerance: float = 0.02
 ) -> Findings:

@@ -9,10 +9,10 @@ Source: reviews of SubT models, which asked for 1 instead of 0.1 and 0.03; sdfor
 """
 
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
 
-@rule("SEN005", "lidar-scan-resolution", Severity.WARNING)
+@rule("SEN005", "lidar-scan-resolution", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, *, expected: float = 1.0) -> Findings:
     """Report lidars whose rows have an unexpected resolution.
 

@@ -14,7 +14,7 @@ from checker.base.words import either
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevices
 from checker.model.robot import Robot
-from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
 _PROFILE = "subt"
@@ -24,7 +24,7 @@ _WORDS = {
 }
 
 
-@rule("SEN006", "lidar-range-standard", Severity.WARNING)
+@rule("SEN006", "lidar-range-standard", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot,
     devices: SensorDevices,

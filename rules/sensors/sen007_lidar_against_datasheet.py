@@ -20,7 +20,7 @@ from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.devices.known import KnownDevices, devices_of_shape, vertical_degrees
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Lidar
-from checker.rule import Finding, Findings, HasSpan, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, HasSpan, Severity, finding, rule
 
 _SPOKEN_OF = {
     "rows": r"\brows?\b|\bchannels?\b|\bbeams?\b|\brays?\b|\blayers?\b",
@@ -41,7 +41,7 @@ class _Difference(Record, eq=False):
     expected: str
 
 
-@rule("SEN007", "lidar-against-datasheet", Severity.WARNING)
+@rule("SEN007", "lidar-against-datasheet", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot,
     devices: SensorDevices,

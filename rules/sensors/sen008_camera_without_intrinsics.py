@@ -15,11 +15,11 @@ from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.camera import DEFAULT_PINHOLE, Camera
 from checker.model.sensing.kind import SensorType
-from checker.rule import Context, Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml_insertion import append_to
 
 
-@rule("SEN008", "camera-without-intrinsics", Severity.WARNING)
+@rule("SEN008", "camera-without-intrinsics", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot,
     context: Context,

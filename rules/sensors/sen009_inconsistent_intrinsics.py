@@ -20,7 +20,7 @@ from checker.finding import Fix
 from checker.model.robot import Robot
 from checker.model.sensing.camera import Intrinsics, Pinhole
 from checker.model.sensing.kind import SensorType
-from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml_insertion import append_to
 
@@ -33,7 +33,7 @@ class _Wrong(NamedTuple):
     expected: float
 
 
-@rule("SEN009", "inconsistent-intrinsics", Severity.WARNING)
+@rule("SEN009", "inconsistent-intrinsics", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, *, tolerance: float = 0.01, centre_tolerance: float = 1.0) -> Findings:
     """Compare intrinsics with the image.
 

@@ -21,7 +21,7 @@ from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.robot import Robot
 from checker.model.sensing.camera import Camera
 from checker.model.sensing.kind import SensorType
-from checker.rule import Context, Finding, Findings, HasSpan, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, HasSpan, Severity, finding, rule
 
 _SIZE = r"resolution|pixel|image size"
 _RATE = r"\brates?\b|\bHz\b|\bfps\b"
@@ -41,7 +41,7 @@ class _Gap(NamedTuple):
     expected: str
 
 
-@rule("SEN010", "camera-off-its-datasheet", Severity.WARNING)
+@rule("SEN010", "camera-off-its-datasheet", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot,
     devices: SensorDevices,

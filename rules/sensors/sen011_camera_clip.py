@@ -16,10 +16,10 @@ from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.camera import Camera, Clip
 from checker.model.sensing.kind import SensorType
-from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 
-@rule("SEN011", "camera-clip", Severity.WARNING)
+@rule("SEN011", "camera-clip", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot, context: Context, *, depth_far: float = 10.0, thermal_far: float = 100.0
 ) -> Findings:

@@ -9,10 +9,10 @@ later releases render it.
 """
 
 from checker.model.robot import Robot
-from checker.rule import Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 
-@rule("SEN012", "ignored-distortion", Severity.WARNING)
+@rule("SEN012", "ignored-distortion", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, context: Context, *, releases: tuple[str, ...] = ("dome",)) -> Findings:
     """Report coefficients that are not 0 on releases that ignore them.
 

@@ -20,7 +20,7 @@ from checker.model.robot import Robot
 from checker.model.sensing.imu import QUANTITIES, Imu
 from checker.model.sensing.kind import SensorType
 from checker.model.sensing.noise import Noise
-from checker.rule import Finding, Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, rule
 from checker.source.xml_insertion import append_to, insert_into
 
 _GAUSSIAN = ("gaussian", "gaussian_quantized")
@@ -29,7 +29,7 @@ _UNITS = {"angular_velocity": "rad/s", "linear_acceleration": "m/s²"}
 _Figures = Mapping[str, float]
 
 
-@rule("SEN013", "imu-noise", Severity.WARNING)
+@rule("SEN013", "imu-noise", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, *, tolerance: float = 0.01) -> Findings:
     """Compare the noise of IMUs with the standard.
 

@@ -12,13 +12,13 @@ from checker.finding import Fix
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.rule import Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.xml_insertion import insert_into, removal
 
 _OFF = "<enable_orientation>0</enable_orientation>"
 
 
-@rule("SEN014", "imu-orientation", Severity.ERROR)
+@rule("SEN014", "imu-orientation", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot) -> Findings:
     """Report IMUs whose orientation is not switched off."""
     for sensor in robot.sensors:

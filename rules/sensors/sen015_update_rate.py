@@ -12,13 +12,13 @@ Source: SDFormat specification, sensor/update_rate; SubT model reviews; the robo
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.rule import Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 EXEMPT = (SensorType.CONTACT, SensorType.OTHER)
 """Sensors that measure on events, and those that SEN001 reports."""
 
 
-@rule("SEN015", "update-rate", Severity.WARNING)
+@rule("SEN015", "update-rate", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, context: Context, *, imu_rate: float = 50.0) -> Findings:
     """Report rates that are missing, 0 or negative; in SubT also IMUs with an unusual one.
 

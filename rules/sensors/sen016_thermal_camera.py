@@ -18,14 +18,14 @@ from checker.base.resources import table
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.rule import Context, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _CLASS = "ThermalSensor"
 _EIGHT_BITS = ("L8", "L_INT8")
 _UNITS = {"min_temp": " K", "max_temp": " K", "resolution": " K"}
 
 
-@rule("SEN016", "thermal-camera", Severity.WARNING)
+@rule("SEN016", "thermal-camera", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, context: Context, *, tolerance: float = 0.01) -> Findings:
     """Compare thermal cameras with SubT's.
 

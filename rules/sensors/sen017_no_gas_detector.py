@@ -15,12 +15,12 @@ from checker.model.robot import Robot
 from checker.package.inheritance import SPAWNER
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _ROBOTS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
 
 
-@rule("SEN017", "no-gas-detector", Severity.ERROR)
+@rule("SEN017", "no-gas-detector", Severity.ERROR, Concern.INTERFACE)
 def check(package: Package, robot: Robot) -> Findings:
     """Report robots without the gas detector; packages for others to build on need none."""
     standard = table("subt_standards")["gas_sensor"]["plugin"]

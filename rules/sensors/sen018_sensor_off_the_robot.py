@@ -14,10 +14,10 @@ from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import placed, union
 from checker.model.robot import Robot
 from checker.model.sensing.mounts import Mounted, mounted_sensors
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("SEN018", "sensor-off-the-robot", Severity.WARNING)
+@rule("SEN018", "sensor-off-the-robot", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, *, sizes: float = 0.5) -> Findings:
     """Report sensors far outside the robot.
 

@@ -19,10 +19,10 @@ to 29 % of a lidar's; the limits here are higher.
 from collections.abc import Iterator
 
 from checker.model.sensing.view import SensorViews, View
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("SEN019", "view-blocked", Severity.WARNING)
+@rule("SEN019", "view-blocked", Severity.WARNING, Concern.INTERFACE)
 def check(
     seen: SensorViews,
     *,

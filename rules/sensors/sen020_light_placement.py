@@ -22,13 +22,13 @@ from checker.model.geometry.interpenetration import is_convex
 from checker.model.geometry.placed_shapes import Placed, placed
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 
 _PLACED = 60
 """Greatest number of lights whose places are checked; more are reported as too many."""
 
 
-@rule("SEN020", "light-placement", Severity.WARNING)
+@rule("SEN020", "light-placement", Severity.WARNING, Concern.ROBOT)
 def check(
     robot: Robot,
     *,

@@ -9,10 +9,10 @@ Source: SDFormat specification, sensor/visualize; SubT model reviews (`subt_stan
 
 from checker.model.robot import Robot
 from checker.model.values import ValueReader
-from checker.rule import Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
 
-@rule("SEN021", "sensor-is-visualized", Severity.INFO)
+@rule("SEN021", "sensor-is-visualized", Severity.INFO, Concern.INTERFACE)
 def check(robot: Robot) -> Findings:
     """Report sensors whose `<visualize>` is true."""
     for sensor in robot.sensors:

@@ -11,12 +11,12 @@ from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 from checker.package.kind import PackageKind
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _ROBOTS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
 
 
-@rule("SEN022", "no-imu", Severity.ERROR)
+@rule("SEN022", "no-imu", Severity.ERROR, Concern.INTERFACE)
 def check(package: Package, robot: Robot) -> Findings:
     """Report robots without an IMU; packages for others to build on need none."""
     if package.kind not in _ROBOTS or any(s.kind is SensorType.IMU for s in robot.sensors):

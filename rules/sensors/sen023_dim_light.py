@@ -13,13 +13,13 @@ those that Gazebo Classic makes by 0.51 (general knowledge).
 """
 
 from checker.model.robot import Robot
-from checker.rule import Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _NOT_DARKER = ("", "classic")
 """Releases to which this does not apply: no particular release, and Gazebo Classic."""
 
 
-@rule("SEN023", "dim-light", Severity.INFO)
+@rule("SEN023", "dim-light", Severity.INFO, Concern.ROBOT)
 def check(
     robot: Robot,
     context: Context,

@@ -16,13 +16,13 @@ import math
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
 from checker.model.sensing.mounts import Mounted, mounted_sensors
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _COMPARED = 100
 """Greatest number of cameras of each kind; a robot has ten."""
 
 
-@rule("SEN024", "colour-and-depth-apart", Severity.WARNING)
+@rule("SEN024", "colour-and-depth-apart", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findings:
     """Report colour and depth cameras with the same place and direction.
 

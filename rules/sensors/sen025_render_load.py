@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _NAMED = 5
 """Greatest number of sensors that the finding lists."""
@@ -34,7 +34,7 @@ class _Load(Record, eq=False):
         return self.amount * self.rate
 
 
-@rule("SEN025", "render-load", Severity.WARNING)
+@rule("SEN025", "render-load", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, *, most: float = 250e6) -> Findings:
     """Add up the pixels and rays per second; sensors without a rate do not count.
 

@@ -12,10 +12,10 @@ import math
 
 from checker.model.robot import Robot
 from checker.model.sensing.mounts import called_directions, mounted_sensors
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("SEN026", "sensor-looks-elsewhere", Severity.WARNING)
+@rule("SEN026", "sensor-looks-elsewhere", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot,
     *,

@@ -13,12 +13,12 @@ from checker.base.resources import table
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.rule import Context, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _SHOWN = 40
 
 
-@rule("SEN027", "image-format", Severity.WARNING)
+@rule("SEN027", "image-format", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, context: Context) -> Findings:
     """Report unknown formats, and formats of colour cameras that the release lacks."""
     formats = table("camera_formats")

@@ -8,10 +8,10 @@ packages that we checked shows this.
 """
 
 from checker.expand.spawner.reader import Spawner
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("SPW001", "not-valid-ruby", Severity.ERROR)
+@rule("SPW001", "not-valid-ruby", Severity.ERROR, Concern.INTERFACE)
 def check(spawner: Spawner) -> Findings:
     """Report syntax errors that are certain."""
     for span, message in spawner.syntax_faults:

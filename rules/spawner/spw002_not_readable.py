@@ -16,12 +16,12 @@ from checker.expand.spawner.reader import (
     SPAWNER_ARGUMENTS,
     Spawner,
 )
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 ARGUMENTS = {"spawner": SPAWNER_ARGUMENTS, "rosExecutables": EXECUTABLES_ARGUMENTS}
 
 
-@rule("SPW002", "spawner-not-readable", Severity.INFO)
+@rule("SPW002", "spawner-not-readable", Severity.INFO, Concern.INTERFACE)
 def check(spawner: Spawner) -> Findings:
     """Report what stopped the evaluation; errors that Ruby itself raises are warnings."""
     if spawner.syntax_faults:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from checker.expand.spawner.reader import Spawner
 from checker.expand.spawner.scope import Function
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 EXPECTED = {
     "spawner": ["_name", "_modelURI", "_worldName", "_x", "_y", "_z", "_roll", "_pitch", "_yaw"],
@@ -21,7 +21,7 @@ EXPECTED = {
 }
 
 
-@rule("SPW003", "missing-spawner-function", Severity.ERROR)
+@rule("SPW003", "missing-spawner-function", Severity.ERROR, Concern.INTERFACE)
 def check(spawner: Spawner) -> Findings:
     """Report functions that are missing or cannot be called with the launcher's arguments."""
     for name, expected in EXPECTED.items():

@@ -11,7 +11,7 @@ Source: XML specification; SubT spawner templates.
 from collections.abc import Iterator
 
 from checker.expand.spawner.reader import Spawner, Unread
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
 from checker.source.xml import XmlDocument
 from checker.source.xml_fragments import parse_fragments
@@ -20,7 +20,7 @@ from checker.source.xml_positions import XmlFault
 _HARMLESS = frozenset("\"' \t\r\n")
 
 
-@rule("SPW004", "broken-emitted-xml", Severity.ERROR)
+@rule("SPW004", "broken-emitted-xml", Severity.ERROR, Concern.INTERFACE)
 def check(spawner: Spawner) -> Findings:
     """Report emitted text that no XML reader accepts."""
     for name, text in (("spawner", spawner.spawn), ("rosExecutables", spawner.executables)):

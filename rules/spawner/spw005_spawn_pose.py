@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from checker.expand.spawner.emitted_xml import SpawnedXml
 from checker.expand.spawner.reader import Spawner
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 COORDINATES = ("x", "y", "z", "roll", "pitch", "yaw")
@@ -21,7 +21,7 @@ FIRST = 3
 """`spawner` takes the name, the model's URI and the world's name before the coordinates."""
 
 
-@rule("SPW005", "spawn-pose", Severity.ERROR)
+@rule("SPW005", "spawn-pose", Severity.ERROR, Concern.INTERFACE)
 def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     """Report a `<pose>` directly below `<spawn>` that misses or mixes up coordinates."""
     function = spawner.functions.get("spawner")

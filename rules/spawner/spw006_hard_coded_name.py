@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from checker.expand.spawner.emitted_xml import SpawnedXml
 from checker.expand.spawner.reader import Spawner
-from checker.rule import Findings, Safety, Severity, finding, replace_text, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
@@ -20,7 +20,7 @@ NAME, MODEL = 0, 1
 """Positions of the parameters of `spawner`."""
 
 
-@rule("SPW006", "hard-coded-name", Severity.ERROR)
+@rule("SPW006", "hard-coded-name", Severity.ERROR, Concern.INTERFACE)
 def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     """Report names and URIs below `<spawn>` that are constants."""
     function = spawner.functions.get("spawner")

@@ -8,10 +8,10 @@ this.
 """
 
 from checker.expand.spawner.emitted_xml import SpawnedXml
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("SPW007", "gazebo-factory", Severity.ERROR)
+@rule("SPW007", "gazebo-factory", Severity.ERROR, Concern.INTERFACE)
 def check(spawned: SpawnedXml) -> Findings:
     """Report the wrapper that Ignition Launch once used."""
     for plugin in spawned.gazebo_factories:

@@ -18,7 +18,7 @@ from checker.expand.spawner.emitted_xml import SpawnedXml
 from checker.expand.spawner.reader import GROUND_TRUTH, Spawner
 from checker.model.components import Plugin
 from checker.model.robot import Robot
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 WANTED = (
@@ -33,7 +33,7 @@ TRUE_POSE = "publish_nested_model_pose"
 _YES = ("true", "1")
 
 
-@rule("SPW008", "pose-publisher", Severity.ERROR)
+@rule("SPW008", "pose-publisher", Severity.ERROR, Concern.INTERFACE)
 def check(
     robot: Robot, spawner: Spawner, spawned: SpawnedXml, launch: LaunchGraph, *, rate: float = 1.0
 ) -> Findings:

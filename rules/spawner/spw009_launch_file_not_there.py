@@ -18,13 +18,13 @@ from checker.expand.spawner.reader import Spawner
 from checker.package.inheritance import SUBMISSION_NAME, Found
 from checker.package.package import Package
 from checker.package.references import PROVIDED, ReferenceKind
-from checker.rule import Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 from checker.source.text import Located
 
 USUAL = ("description.launch", "vehicle_topics.launch")
 
 
-@rule("SPW009", "launch-file-not-there", Severity.ERROR)
+@rule("SPW009", "launch-file-not-there", Severity.ERROR, Concern.INTERFACE)
 def check(package: Package, spawner: Spawner, started: StartedXml, launch: LaunchGraph) -> Findings:
     """Report commands that fail, and launch files that nothing starts."""
     names = {include.file.rsplit("/", 1)[-1] for include in launch.includes}

@@ -18,7 +18,7 @@ from checker.model.components import Collision, Link
 from checker.model.locomotion.drive import is_legged
 from checker.model.mesh import MeshFault
 from checker.model.robot import Robot
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Span
 
 DOWN = (0.0, 0.0, -1.0)
@@ -26,7 +26,7 @@ GROUND = SPAWNER_ARGUMENTS[5]
 """Value of `_z` with which the spawner is evaluated, metres."""
 
 
-@rule("SPW010", "spawn-height", Severity.WARNING)
+@rule("SPW010", "spawn-height", Severity.WARNING, Concern.INTERFACE)
 def check(
     robot: Robot, spawned: SpawnedXml, *, deepest: float = 0.005, highest: float = 0.3
 ) -> Findings:

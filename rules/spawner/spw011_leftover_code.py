@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from checker.expand.spawner.reader import Spawner
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.ruby import RubyNode
 
 _ASSIGNMENTS = ("assignment", "operator_assignment")
@@ -22,7 +22,7 @@ _READING_ALL = ("binding", "eval", "local_variables")
 """Methods that use variables without naming them."""
 
 
-@rule("SPW011", "leftover-code", Severity.WARNING)
+@rule("SPW011", "leftover-code", Severity.WARNING, Concern.PAPERWORK)
 def check(spawner: Spawner) -> Findings:
     """Report unused variables and constant conditions in the package's own Ruby files."""
     for tree in spawner.trees:

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 from checker.expand.spawner.emitted_xml import SpawnedXml
 from checker.expand.spawner.reader import Spawner
-from checker.rule import Finding, Findings, Safety, Severity, finding, replace_text, rule
+from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.xml import Element
 
 FLAGS = {"is_performer": True, "allow_renaming": False}
@@ -24,7 +24,7 @@ WORLD = 2
 _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
-@rule("SPW012", "incomplete-spawn", Severity.ERROR)
+@rule("SPW012", "incomplete-spawn", Severity.ERROR, Concern.INTERFACE)
 def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     """Report `<spawn>` elements without world or with wrong flags."""
     function = spawner.functions.get("spawner")

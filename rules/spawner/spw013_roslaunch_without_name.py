@@ -13,7 +13,7 @@ from itertools import zip_longest
 from checker.expand.launch.launch_file import LaunchCommand
 from checker.expand.spawner.emitted_xml import StartedXml
 from checker.expand.spawner.reader import EXECUTABLES_ARGUMENTS, Spawner
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 ARGUMENTS = (
     ("name", "_name", Severity.ERROR),
@@ -22,7 +22,7 @@ ARGUMENTS = (
 """Arguments of launch files and the parameters of `rosExecutables` that belong to them."""
 
 
-@rule("SPW013", "roslaunch-without-name", Severity.ERROR)
+@rule("SPW013", "roslaunch-without-name", Severity.ERROR, Concern.INTERFACE)
 def check(spawner: Spawner, started: StartedXml) -> Findings:
     """Report commands whose `name:=` or `world_name:=` is missing or a constant."""
     function = spawner.functions.get("rosExecutables")

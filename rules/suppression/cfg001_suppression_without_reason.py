@@ -6,11 +6,11 @@ Fix: write the reason after the bracket: `subt-check: ignore[SEN015] the device 
 Source: README, section "Suppress".
 """
 
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.suppression.parts import Suppressions
 
 
-@rule("CFG001", "suppression-without-reason", Severity.WARNING)
+@rule("CFG001", "suppression-without-reason", Severity.WARNING, Concern.PAPERWORK)
 def check(suppressions: Suppressions) -> Findings:
     """Report comments that name rules, but give no reason."""
     for comment in suppressions.comments:

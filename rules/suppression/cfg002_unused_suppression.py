@@ -10,11 +10,11 @@ Source: README, section "Suppress".
 
 from collections.abc import Iterator
 
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.rulebook.suppression.parts import Suppressions, UnusedEntries
 
 
-@rule("CFG002", "unused-suppression", Severity.WARNING)
+@rule("CFG002", "unused-suppression", Severity.WARNING, Concern.PAPERWORK)
 def check(suppressions: Suppressions) -> Findings:
     """Report comments and entries of the settings without a finding."""
     for each in suppressions.unused:

@@ -9,14 +9,14 @@ Source: README, section "Suppress".
 
 from itertools import islice
 
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.suppression.parts import Suppressions
 
 _NAMED = 5
 """Greatest number of unknown names in the message; the rest is counted."""
 
 
-@rule("CFG003", "unknown-suppressed-rule", Severity.WARNING)
+@rule("CFG003", "unknown-suppressed-rule", Severity.WARNING, Concern.PAPERWORK)
 def check(suppressions: Suppressions) -> Findings:
     """Report comments with words that are not rules, or without any."""
     names = dict.fromkeys(f"{each.name!r}{each.hint}" for each in suppressions.unknown)

@@ -10,11 +10,11 @@ Source: README, section "Suppress".
 from collections.abc import Sequence
 
 from checker.finding import Place
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.rulebook.suppression.parts import BaselineUse
 
 
-@rule("CFG004", "stale-baseline-entry", Severity.INFO)
+@rule("CFG004", "stale-baseline-entry", Severity.INFO, Concern.PAPERWORK)
 def check(baseline: BaselineUse) -> Findings:
     """Report entries without a finding, one finding per rule."""
     for each in baseline.stale:

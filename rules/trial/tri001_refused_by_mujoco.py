@@ -11,13 +11,13 @@ Source: MuJoCo documentation, XML reference: checks of the compiler.
 import re
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 _OF_INERTIA = re.compile(r"\b(mass|moments?)\b")
 """Repairs that the rules on inertia report in more detail."""
 
 
-@rule("TRI001", "refused-by-mujoco", Severity.ERROR)
+@rule("TRI001", "refused-by-mujoco", Severity.ERROR, Concern.ROBOT)
 def check(driven: RobotTrial) -> Findings:
     """Report why the model is refused, and each repair that the trial needed."""
     trial = driven.trial

@@ -13,10 +13,10 @@ from collections.abc import Iterator
 
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.trial import Trial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI002", "does-not-settle", Severity.ERROR)
+@rule("TRI002", "does-not-settle", Severity.ERROR, Concern.ROBOT)
 def check(
     driven: RobotTrial,
     *,

@@ -10,10 +10,10 @@ Source: a prototype trial of 60 accepted ground robots: all reach 0.98 to 1.00 o
 
 from checker.model.locomotion.locomotion import DriveKind
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("TRI003", "speed-not-reached", Severity.ERROR)
+@rule("TRI003", "speed-not-reached", Severity.ERROR, Concern.ROBOT)
 def check(
     driven: RobotTrial, *, warning_beyond: float = 0.05, error_beyond: float = 0.15
 ) -> Findings:

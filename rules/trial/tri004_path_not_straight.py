@@ -10,10 +10,10 @@ Source: a prototype trial of 60 accepted ground robots: all are straight to thre
 import math
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI004", "path-not-straight", Severity.ERROR)
+@rule("TRI004", "path-not-straight", Severity.ERROR, Concern.ROBOT)
 def check(
     driven: RobotTrial,
     *,

@@ -13,10 +13,10 @@ from collections.abc import Iterator
 from checker.model.components import Joint
 from checker.model.locomotion.locomotion import Side
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI005", "moves-the-wrong-way", Severity.ERROR)
+@rule("TRI005", "moves-the-wrong-way", Severity.ERROR, Concern.ROBOT)
 def check(driven: RobotTrial) -> Findings:
     """Report motion against the command."""
     said = {}

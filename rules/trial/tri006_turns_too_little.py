@@ -10,10 +10,10 @@ Source: quasi-static balance of Coulomb friction over the wheels; it predicts th
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI006", "turns-too-little", Severity.WARNING)
+@rule("TRI006", "turns-too-little", Severity.WARNING, Concern.ROBOT)
 def check(
     driven: RobotTrial, *, warning_below: float = 0.5, error_below_command: float = 0.05
 ) -> Findings:

@@ -9,10 +9,10 @@ the weight.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI007", "wheel-without-load", Severity.ERROR)
+@rule("TRI007", "wheel-without-load", Severity.ERROR, Concern.ROBOT)
 def check(
     driven: RobotTrial, *, warning_below: float = 0.05, error_below: float = 0.002
 ) -> Findings:

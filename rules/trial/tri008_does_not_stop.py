@@ -9,10 +9,10 @@ more time.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI008", "does-not-stop", Severity.ERROR)
+@rule("TRI008", "does-not-stop", Severity.ERROR, Concern.ROBOT)
 def check(driven: RobotTrial, *, error_above: float = 0.05) -> Findings:
     """Report a speed above the command after a stop.
 

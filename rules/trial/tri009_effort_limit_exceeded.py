@@ -9,10 +9,10 @@ the drive at full speed, compared with `<effort>`.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI009", "effort-limit-exceeded", Severity.WARNING)
+@rule("TRI009", "effort-limit-exceeded", Severity.WARNING, Concern.ROBOT)
 def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
     """Report joints that need more torque or force than their effort limit.
 

@@ -12,10 +12,10 @@ smallest largest share of any rotor's thrust.
 import math
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI010", "does-not-fly", Severity.ERROR)
+@rule("TRI010", "does-not-fly", Severity.ERROR, Concern.ROBOT)
 def check(
     driven: RobotTrial,
     *,

@@ -11,10 +11,10 @@ Source: experience; a position and velocity controller holds each joint.
 import math
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI011", "pose-not-held", Severity.WARNING)
+@rule("TRI011", "pose-not-held", Severity.WARNING, Concern.ROBOT)
 def check(
     driven: RobotTrial,
     *,

@@ -9,10 +9,10 @@ Source: warnings BADQPOS, BADQVEL and BADQACC of MuJoCo that remain at half the 
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI012", "solver-trouble", Severity.ERROR)
+@rule("TRI012", "solver-trouble", Severity.ERROR, Concern.ROBOT)
 def check(driven: RobotTrial) -> Findings:
     """Report warnings of the solver, and figures that are not numbers."""
     for trouble in driven.trial.trouble:

@@ -9,10 +9,10 @@ Source: contact forces depend on the inertia of the bodies that touch; accepted 
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI013", "presses-into-ground", Severity.WARNING)
+@rule("TRI013", "presses-into-ground", Severity.WARNING, Concern.ROBOT)
 def check(
     driven: RobotTrial,
     *,

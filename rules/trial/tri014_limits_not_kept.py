@@ -10,10 +10,10 @@ Source: the plugin's `max_velocity` and `max_acceleration`, compared with 2 s at
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI014", "limits-not-kept", Severity.WARNING)
+@rule("TRI014", "limits-not-kept", Severity.WARNING, Concern.ROBOT)
 def check(
     driven: RobotTrial, *, full_speed_above: float = 1.05, full_acceleration_above: float = 1.25
 ) -> Findings:

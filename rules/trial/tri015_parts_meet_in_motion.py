@@ -8,10 +8,10 @@ Source: a collision query in steps through the range of each joint, one at a tim
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("TRI015", "parts-meet-in-motion", Severity.WARNING)
+@rule("TRI015", "parts-meet-in-motion", Severity.WARNING, Concern.ROBOT)
 def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
     """Report parts that overlap when a joint moves through its range.
 

@@ -10,7 +10,7 @@ Source: a sound simulation converges: half the step changes almost nothing.
 
 from checker.physics.trial.measures.figures import MEASURES
 from checker.physics.trial.robot_trial import RepeatedTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 _MATTERS = {
     "settle_drop": 0.02,
@@ -30,7 +30,7 @@ _MATTERS = {
 """Greatest change of a figure before another rule could judge it differently."""
 
 
-@rule("TRI016", "depends-on-time-step", Severity.WARNING)
+@rule("TRI016", "depends-on-time-step", Severity.WARNING, Concern.ROBOT)
 def check(driven: RepeatedTrial, *, factor: float = 1.0) -> Findings:
     """Report figures that change too much.
 

@@ -10,10 +10,10 @@ m.
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI017", "gains-energy", Severity.WARNING)
+@rule("TRI017", "gains-energy", Severity.WARNING, Concern.ROBOT)
 def check(driven: RobotTrial, *, warning_above: float = 0.1) -> Findings:
     """Report a gain of energy while nothing drives the robot.
 

@@ -10,10 +10,10 @@ Source: quasi-static balance of Coulomb friction at the contact points with thei
 """
 
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("TRI018", "drifts-while-turning", Severity.WARNING)
+@rule("TRI018", "drifts-while-turning", Severity.WARNING, Concern.ROBOT)
 def check(driven: RobotTrial, *, warning_above: float = 0.5) -> Findings:
     """Report a robot that moves away while it turns in place.
 

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.files import UrdfFiles
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.xml import Element
 
 _BRACES = re.compile(r"(?<!\$)\{([A-Za-z_]\w{0,80})\}")
@@ -27,7 +27,7 @@ _FOREIGN = ("gazebo",)
 """Elements with content that URDF does not define, so braces may mean anything."""
 
 
-@rule("URD001", "xacro-does-not-expand", Severity.ERROR)
+@rule("URD001", "xacro-does-not-expand", Severity.ERROR, Concern.ROBOT)
 def check(files: UrdfFiles) -> Findings:
     """Report files that xacro refuses, and expressions that it leaves."""
     for reason in files.unread:

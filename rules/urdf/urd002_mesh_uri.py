@@ -15,14 +15,14 @@ from collections.abc import Iterator
 
 from checker.model.urdf.description import UrdfDescription
 from checker.package.package import Package
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
 _PACKAGE = re.compile(r"package://([^/]+)/(.*)", re.DOTALL)
 _FETCHED = ("http://", "https://")
 
 
-@rule("URD002", "mesh-uri", Severity.ERROR)
+@rule("URD002", "mesh-uri", Severity.ERROR, Concern.ROBOT)
 def check(package: Package, description: UrdfDescription) -> Findings:
     """Report meshes without `package://`; for RViz, also those that do not exist.
 

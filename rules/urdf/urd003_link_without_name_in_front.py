@@ -9,10 +9,10 @@ Source: Model Migration Guide: "Prefix each link in the xacro file with the robo
 
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS
 from checker.model.urdf.description import UrdfDescription
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("URD003", "link-without-name-in-front", Severity.WARNING)
+@rule("URD003", "link-without-name-in-front", Severity.WARNING, Concern.INTERFACE)
 def check(description: UrdfDescription) -> Findings:
     """Report links of a description for RViz that do not start with the robot's name."""
     if not description.for_rviz:

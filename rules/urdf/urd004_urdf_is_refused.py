@@ -17,13 +17,13 @@ from checker.base.words import Suggestions
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
 from checker.model.urdf.description import UrdfDescription
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 TYPES = ("continuous", "fixed", "floating", "planar", "prismatic", "revolute")
 LIMITED = ("prismatic", "revolute")
 
 
-@rule("URD004", "urdf-refused", Severity.ERROR)
+@rule("URD004", "urdf-refused", Severity.ERROR, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
     """Report what prevents a description from being read as a tree of links."""
     robot = description.robot

@@ -12,13 +12,13 @@ from collections.abc import Iterator
 from checker.model.robot import Robot
 from checker.model.tree import rigid_bodies
 from checker.model.urdf.description import UrdfDescription
-from checker.rule import Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
 _SHOWN = 5
 _SCOPES = str.maketrans({":": "_", "/": "_"})
 
 
-@rule("URD005", "urdf-differs-from-sdf", Severity.WARNING)
+@rule("URD005", "urdf-differs-from-sdf", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) -> Findings:
     """Report links that one of the two lacks, and masses that differ.
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.urdf.description import GazeboTag, UrdfDescription
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 OF_LINKS = frozenset(
     {
@@ -30,7 +30,7 @@ OF_JOINTS = frozenset(
 )
 
 
-@rule("URD006", "gazebo-tag-in-vain", Severity.ERROR)
+@rule("URD006", "gazebo-tag-in-vain", Severity.ERROR, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
     """Report `<gazebo>` tags that refer to nothing, and elements without effect."""
     if description.for_rviz:

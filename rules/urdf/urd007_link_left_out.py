@@ -13,12 +13,12 @@ from collections.abc import Iterator
 from checker.model.components import Link
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.fixed_joints import Lumping
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _NO_LINK = "world"
 
 
-@rule("URD007", "link-left-out", Severity.ERROR)
+@rule("URD007", "link-left-out", Severity.ERROR, Concern.ROBOT)
 def check(description: UrdfDescription, *, share: float = 0.01) -> Findings:
     """Report links without inertia, and links with mass that lack shapes.
 

@@ -15,14 +15,14 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.model.robot import Robot
 from checker.model.urdf.description import Transmission, TransmissionEnd, UrdfDescription
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
 _MOVING = ("continuous", "prismatic", "revolute")
 _PREFIX = "hardware_interface/"
 
 
-@rule("URD008", "broken-transmission", Severity.ERROR)
+@rule("URD008", "broken-transmission", Severity.ERROR, Concern.INTERFACE)
 def check(description: UrdfDescription) -> Findings:
     """Report transmissions without effect, and joints without one unlike others of their type."""
     if description.for_rviz:

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from checker.model.components import Plugin, Sensor
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.fixed_joints import Lumping
-from checker.rule import Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 OF_LINKS = ("bodyName", "linkName", "link_name", "body_name")
 """Parameters of plugins that name a link of the simulated model."""
@@ -25,7 +25,7 @@ OF_JOINTS = ("jointName", "joint_name")
 _COLLISION = "_collision"
 
 
-@rule("URD009", "frame-lost-by-lumping", Severity.WARNING)
+@rule("URD009", "frame-lost-by-lumping", Severity.WARNING, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
     """Report plugins and contact sensors that name merged links, joints or collisions."""
     if description.for_rviz:

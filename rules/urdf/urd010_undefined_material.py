@@ -9,13 +9,13 @@ Source: URDF specification, visual/material.
 
 from checker.base.words import Suggestions
 from checker.model.urdf.description import UrdfDescription
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 _DEFINING = ("color", "texture")
 
 
-@rule("URD010", "undefined-material", Severity.WARNING)
+@rule("URD010", "undefined-material", Severity.WARNING, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
     """Report names of materials without a colour or texture in the file."""
     root = description.document.root

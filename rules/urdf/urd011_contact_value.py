@@ -10,14 +10,14 @@ Source: Gazebo Classic, "Using a URDF in Gazebo": mu1, mu2, kp, kd; Open Dynamic
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.extensions import extension_text
 from checker.model.values import parse_number
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 UNITS = {"mu1": "", "mu2": "", "kp": " N/m", "kd": " N·s/m"}
 MAY_BE_ZERO = ("mu1", "mu2", "kd")
 """Tags that may be zero: a part may slide without friction, and a contact may have no damping."""
 
 
-@rule("URD011", "contact-value", Severity.WARNING)
+@rule("URD011", "contact-value", Severity.WARNING, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
     """Report mu1, mu2, kp and kd that are not positive."""
     if description.for_rviz:

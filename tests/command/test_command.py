@@ -21,9 +21,9 @@ from tests.each import of_each
 from tests.test_samples import SCHEMA
 
 CRASHING = """
-from checker.rule import rule, Severity
+from checker.rule import Concern, rule, Severity
 from checker.package.package import Package
-@rule("CRA001", "crash", Severity.ERROR)
+@rule("CRA001", "crash", Severity.ERROR, Concern.ROBOT)
 def check(package: Package):
     raise ValueError("on purpose")
     yield
@@ -221,7 +221,13 @@ def test_a_rule_is_explained_by_id_or_name(run: Run) -> None:
     by_id, by_name = run("rule", "ref001"), run("rule", "absolute-uri")
     assert by_id.stdout == by_name.stdout
     assert by_id.returncode == 0
-    for words in ("REF001 absolute-uri (error)", "Fix: ", "Source: ", "Reported:", "Right:"):
+    for words in (
+        "REF001 absolute-uri (error, about portability)",
+        "Fix: ",
+        "Source: ",
+        "Reported:",
+        "Right:",
+    ):
         assert words in by_id.stdout
 
 
@@ -229,7 +235,9 @@ def test_a_rule_is_explained_by_id_or_name(run: Run) -> None:
 def test_every_rule_has_a_page(rule: Rule, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["rule", rule.id]) == 0
     page = capsys.readouterr()
-    assert page.out.startswith(f"{rule.id} {rule.name} ({rule.severity})\n\n")
+    assert page.out.startswith(
+        f"{rule.id} {rule.name} ({rule.severity}, about {rule.concern.words})\n\n"
+    )
     assert not re.search(r"^ *@", page.out, re.MULTILINE)
 
 
@@ -244,7 +252,18 @@ def test_the_rules_are_listed_as_text_and_as_json(run: Run) -> None:
     listed = json.loads(run("rules", "--format", "json").stdout)
     lines = run("rules").stdout.splitlines()
     assert [each["id"] for each in listed] == [line.split()[0] for line in lines]
-    told = {"id", "name", "severity", "title", "why", "fix", "source", "options", "option_words"}
+    told = {
+        "id",
+        "name",
+        "severity",
+        "concern",
+        "title",
+        "why",
+        "fix",
+        "source",
+        "options",
+        "option_words",
+    }
     assert told == set(listed[0])
 
 

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from checker.base.parts import NotAvailable
 from checker.engine.run import Outcome, run_rules
 from checker.finding import Place
-from checker.rule import Finding, Findings, Rule, Severity
+from checker.rule import Concern, Finding, Findings, Rule, Severity
 from checker.rulebook.profiles import Profile, profile
 from checker.settings import Settings
 
@@ -39,7 +39,9 @@ def rule_saying(*found: Finding, id: str = "TST001", severity: Severity = Severi
     def check(_: Wheel) -> Findings:
         yield from found
 
-    return Rule(id, f"fault-{id.lower()}", severity, check, "Something.\n\nIt matters.")
+    return Rule(
+        id, f"fault-{id.lower()}", severity, Concern.ROBOT, check, "Something.\n\nIt matters."
+    )
 
 
 def run(

@@ -21,10 +21,10 @@ Fix: eat it.
 Source: a kitchen.
 """
 from checker.package.package import Package
-from checker.rule import Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("{id}", "cheese-wheel", Severity.WARNING)
+@rule("{id}", "cheese-wheel", Severity.WARNING, Concern.ROBOT)
 def check(package: Package, *, ripe: bool = True) -> Findings:
     """Report every package."""
     yield finding(package.folder_place(), f"smells of cheese, ripe: {{ripe}}")

@@ -8,12 +8,12 @@ import pytest
 
 from checker.base.parts import NotAvailable
 from checker.report.report import Cause, NotChecked
-from checker.rule import Context, Findings, Rule, Severity, finding, unchecked
+from checker.rule import Concern, Context, Findings, Rule, Severity, finding, unchecked
 from tests.engine.stage import Parts, Wheel, at, reported, rule_saying, run, subt
 
 
 def rule_of(check: object, id: str = "TST009") -> Rule:
-    return Rule(id, "fault", Severity.ERROR, check, "Something.")  # type: ignore[arg-type]  # any
+    return Rule(id, "fault", Severity.ERROR, Concern.ROBOT, check, "Something.")  # type: ignore[arg-type]  # any
 
 
 def broken(wheel: Wheel) -> Findings:

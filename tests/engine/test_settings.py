@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from checker.base.errors import InvalidSettings
 from checker.engine.options import check_against_rules, no_such_rule, options_of
-from checker.rule import Findings, Rule, Severity, unchecked
+from checker.rule import Concern, Findings, Rule, Severity, unchecked
 from checker.settings import Settings, find_settings, folders_above
 
 
@@ -27,8 +27,8 @@ def check(
 
 
 RULES = (
-    Rule("SEN005", "lidar-scan-resolution", Severity.ERROR, check, ""),
-    Rule("INE001", "no-inertial", Severity.ERROR, check, ""),
+    Rule("SEN005", "lidar-scan-resolution", Severity.ERROR, Concern.INTERFACE, check, ""),
+    Rule("INE001", "no-inertial", Severity.ERROR, Concern.ROBOT, check, ""),
 )
 
 
@@ -67,6 +67,24 @@ def test_everything_that_can_be_set(tmp_path: Path) -> None:
         thorough=True,
     )
     assert "; without trial; thorough" in settings.description
+
+
+@pytest.mark.parametrize(
+    ("text", "chosen"),
+    [
+        ('select = ["concern:robot"]', ["INE001"]),
+        ('ignore = ["concern:robot"]', ["SEN005"]),
+        ('select = ["concern:robot", "SEN"]', ["SEN005", "INE001"]),
+    ],
+)
+def test_rules_are_chosen_by_their_concern(text: str, chosen: list[str], tmp_path: Path) -> None:
+    settings = settings_from(text, tmp_path)
+    assert [rule.id for rule in RULES if settings.selects(rule)] == chosen
+
+
+def test_a_concern_that_does_not_exist_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(InvalidSettings, match="did you mean concern:robot"):
+        settings_from('select = ["concern:robots"]', tmp_path)
 
 
 def test_a_section_of_pyproject_toml_will_do(tmp_path: Path) -> None:

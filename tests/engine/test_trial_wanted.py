@@ -11,7 +11,7 @@ from checker.engine.run import Outcome, needed_parts, run_rules
 from checker.finding import Severity
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.report.report import NO_TRIAL, Cause, NotChecked
-from checker.rule import Findings, Rule, finding
+from checker.rule import Concern, Findings, Rule, finding
 from checker.settings import Settings
 from tests.engine.stage import Wheel, at, rule_saying, subt
 
@@ -24,8 +24,9 @@ def of_both(_: RepeatedTrial) -> Findings:
     yield finding(at(2), "the second time it did not")
 
 
-ONCE = Rule("TRI902", "falls", Severity.ERROR, of_trial, "Falls.\n\nIt matters.")
-TWICE = Rule("TRI916", "differs", Severity.WARNING, of_both, "Differs.\n\nIt matters.")
+ONCE = Rule("TRI902", "falls", Severity.ERROR, Concern.ROBOT, of_trial, "Falls.\n\nIt matters.")
+DIFFERS = "Differs.\n\nIt matters."
+TWICE = Rule("TRI916", "differs", Severity.WARNING, Concern.ROBOT, of_both, DIFFERS)
 STATIC = rule_saying(finding(at(3), "bent"), id="KIN901")
 RULES = (ONCE, TWICE, STATIC)
 

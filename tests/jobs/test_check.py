@@ -200,9 +200,9 @@ def test_a_result_with_a_damaged_summary_is_made_again(
 
 CRASHING = """
 from checker.package.package import Package
-from checker.rule import Findings, Severity, rule
+from checker.rule import Concern, Findings, Severity, rule
 
-@rule("OWN001", "crash", Severity.ERROR)
+@rule("OWN001", "crash", Severity.ERROR, Concern.ROBOT)
 def check(package: Package) -> Findings:
     raise ValueError(f"{package.root} is too much")
     yield

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.finding import Severity
+from checker.finding import Concern, Severity
 from checker.report.report import (
     Cause,
     NotChecked,
@@ -19,7 +19,7 @@ from checker.report.report import (
 from checker.service.jobs.exchange import read_summary, summary
 from checker.service.jobs.outcome import Checked
 
-FINDING = ReportedFinding("XML001", "odd", Severity.WARNING, "is odd", "f", ())
+FINDING = ReportedFinding("XML001", "odd", Severity.WARNING, Concern.ROBOT, "is odd", "f", ())
 PACKAGE = {"name": "a", "folder": "", "verdict": "ready", "errors": 0, "warnings": 1, "infos": 0}
 SAID = {"packages": [PACKAGE], "words": "Ready"}
 JSON = st.recursive(

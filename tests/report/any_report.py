@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
 from checker.report.report import (
     Cause,
     NotChecked,
@@ -44,6 +44,7 @@ FINDINGS = st.builds(
     RULE,
     st.from_regex(r"[a-z]+(-[a-z0-9]+)*", fullmatch=True).map(lambda name: name[:60]),
     st.sampled_from(Severity),
+    st.sampled_from(Concern),
     TEXT.map(lambda text: f"x{text}"),
     st.from_regex(r"[0-9a-f]{16}", fullmatch=True),
     st.lists(places(), min_size=1, max_size=3).map(tuple),
@@ -85,6 +86,7 @@ def many(number: int, rule: str = "SDF004", severity: Severity = Severity.ERROR)
             rule,
             "unknown-element",
             severity,
+            Concern.PORTABILITY,
             f"element {index} " + "\N{ROBOT FACE}" * 900,
             f"{index:016x}",
             (Place("model.sdf", index + 1, 1, index + 1, 4, snippet="<a/>"), place),

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
 from checker.package.kind import PackageKind
 from checker.pipeline import check_package
 from checker.report.json_form import report_schema
@@ -36,7 +36,9 @@ NOTHING_THERE = NotChecked("SEN001", "the package has none", Cause.NOT_APPLICABL
 
 
 def found(severity: Severity) -> ReportedFinding:
-    return ReportedFinding("SEN005", "fault", severity, "is 3", "0" * 16, (Place("a"),))
+    return ReportedFinding(
+        "SEN005", "fault", severity, Concern.ROBOT, "is 3", "0" * 16, (Place("a"),)
+    )
 
 
 def package(*not_checked: NotChecked, severities: tuple[Severity, ...] = ()) -> PackageReport:
@@ -70,7 +72,16 @@ def test_any_text_makes_a_valid_report_that_is_safe_to_print(text: str, kind: Pa
     place = Place(text, element=text, note=text, snippet=text)
     fix = Fix(Safety.SAFE, (Edit(place, text, text),))
     finding = ReportedFinding(
-        "SEN005", "a-fault", Severity.INFO, f"x{text}", "0" * 16, (place,), fix, text, text
+        "SEN005",
+        "a-fault",
+        Severity.INFO,
+        Concern.PAPERWORK,
+        f"x{text}",
+        "0" * 16,
+        (place,),
+        fix,
+        text,
+        text,
     )
     one = PackageReport(text, text, str(kind), (finding,), (NOT_AT_HAND,), facts={"robot": text})
     written = to_json(Report((one,), {"python": "3"}, (NotOpened(text, text, failed=True),)))

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 from sarif_pydantic import Sarif
 
-from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
 from checker.pipeline import check_package
 from checker.report.report import (
     Cause,
@@ -39,6 +39,7 @@ FAULT = ReportedFinding(
     "SEN005",
     "lidar-scan-resolution",
     Severity.ERROR,
+    Concern.INTERFACE,
     "scan resolution is 0.1, expected 1",
     "0123456789abcdef",
     (PLACE,),
@@ -122,7 +123,7 @@ def test_the_page_of_a_rule_that_found_something_is_carried_along() -> None:
         "subt-check rule SEN005",
     ]
     assert rule["defaultConfiguration"] == {"level": "error"}
-    assert rule["properties"] == {"tags": ["SEN"]}
+    assert rule["properties"] == {"tags": ["SEN", "interface"]}
 
 
 def test_paths_are_relative_to_where_the_command_was_run() -> None:

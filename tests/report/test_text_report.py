@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 
 from checker.base.words import count, listed, plain, shortened
-from checker.finding import Place, Severity
+from checker.finding import Concern, Place, Severity
 from checker.report.render_settings import Palette
 from checker.report.report import (
     Cause,
@@ -26,6 +26,7 @@ FAULT = ReportedFinding(
     "SEN005",
     "lidar-scan-resolution",
     Severity.ERROR,
+    Concern.INTERFACE,
     "scan resolution is 0.1, expected 1",
     "0" * 16,
     (PLACE,),

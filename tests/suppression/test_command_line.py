@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import main
-from checker.finding import Place, Severity
+from checker.finding import Concern, Place, Severity
 from checker.report.report import IN_BASELINE, ReportedFinding, Suppressed, SuppressedBy
 from checker.report.text_report import suppressed_text
 from checker.rule_testing import NAME, write_example
@@ -196,7 +196,7 @@ def test_what_is_set_aside_is_not_fixed(
 
 def suppressed(rule: str, reason: str) -> Suppressed:
     place = (Place("model.sdf"),)
-    found = ReportedFinding(rule, "name", Severity.ERROR, "message", "0", place)
+    found = ReportedFinding(rule, "name", Severity.ERROR, Concern.ROBOT, "message", "0", place)
     by = SuppressedBy.BASELINE if reason == IN_BASELINE else SuppressedBy.SETTINGS
     return Suppressed(found, by, reason)
 

@@ -7,7 +7,7 @@ from collections import Counter
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.finding import Place, Severity
+from checker.finding import Concern, Place, Severity
 from checker.report.report import ReportedFinding
 from checker.rulebook.suppression.baseline import BaselineEntry
 from checker.rulebook.suppression.baseline_match import Held, Matched, matched
@@ -144,7 +144,7 @@ def test_stale_entries_are_those_of_rules_that_looked_or_do_not_exist() -> None:
 
 def test_related_places_are_no_places_of_the_fault() -> None:
     places = (Place("a"), Place("b", note="first named here"), Place("c"))
-    fault = ReportedFinding("KIN001", "name", ERROR, "m", "0", places)
+    fault = ReportedFinding("KIN001", "name", ERROR, Concern.ROBOT, "m", "0", places)
     assert [each.place for each in spots_of(fault)] == ["a", "c"]
 
 

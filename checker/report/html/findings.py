@@ -128,6 +128,7 @@ class RuleGroup(Record):
     """
 
     severity: str
+    concern: str
     rule: str
     name: str
     why: str
@@ -149,8 +150,8 @@ def groups_of(findings: Sequence[ReportedFinding]) -> list[RuleGroup]:
         first = found[0]
         groups.append(
             RuleGroup(
-                str(severity), plain(first.rule), plain(first.name), plain(first.why),
-                plain(first.how), tuple(_shown(each) for each in shown),
+                str(severity), str(first.concern), plain(first.rule), plain(first.name),
+                plain(first.why), plain(first.how), tuple(_shown(each) for each in shown),
                 len(found) - len(shown),
             )
         )  # fmt: skip

@@ -11,7 +11,7 @@ from lxml import html
 from msgspec.structs import replace
 
 from checker.base.words import plain
-from checker.finding import Edit, Fix, Place, Safety, Severity
+from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
 from checker.report.html.page import to_html, to_index, with_code
 from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import (
@@ -45,7 +45,8 @@ def finding(text: str, number: int = 0) -> ReportedFinding:
     severity = list(Severity)[number % 3]
     fingerprint = f"{number:016x}"
     return ReportedFinding(
-        "SEN005", "lidar-scan-resolution", severity, text, fingerprint, (place, place),
+        "SEN005", "lidar-scan-resolution", severity, Concern.INTERFACE, text,
+        fingerprint, (place, place),
         fix, "Why.", "write `1`.",
     )  # fmt: skip
 
