@@ -90,6 +90,7 @@ class Place(Record):
         element: Path of the XML element (`sdf/model[rover]/link[wheel]`), else empty.
         note: What this place has to do with the finding, when it is not the main one.
         snippet: The line's text, so that a report can show it without the file.
+        message: What is wrong here, where it differs from what is said of the first place.
     """
 
     file: str
@@ -100,6 +101,7 @@ class Place(Record):
     element: str = ""
     note: str = ""
     snippet: str = ""
+    message: str = ""
 
     def __str__(self) -> str:
         """Give the place as editors and terminals understand it."""

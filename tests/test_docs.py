@@ -45,6 +45,7 @@ DOCUMENTS = [
     ROOT / "docs/pre-commit.md",
     ROOT / "docs/security.md",
     ROOT / "docs/service.md",
+    ROOT / "docs/severity.md",
     ROOT / "docs/trial.md",
     USAGE,
 ]

@@ -194,7 +194,7 @@ def _report(
         groups.setdefault((severity, each.key or each.message), []).append(each)
     for (severity, _), group in groups.items():
         first = group[0]
-        places = tuple(dict.fromkeys(_bounded(place) for each in group for place in each.places))
+        places = _joined_places(group)
         yield ReportedFinding(
             rule.id,
             rule.name,
@@ -212,8 +212,16 @@ def _report(
         )
 
 
-def _bounded(place: Place) -> Place:
-    return replace(place, note=shortened(place.note, TEXT_LIMIT))
+def _joined_places(group: Sequence[Finding]) -> tuple[Place, ...]:
+    """Return the places of findings that are one, each once, with what differs from the first."""
+    places: dict[Place, Place] = {}
+    said = group[0].message
+    for finding in group:
+        own = "" if finding.message == said else shortened(finding.message, TEXT_LIMIT)
+        for number, place in enumerate(finding.places):
+            bounded = replace(place, note=shortened(place.note, TEXT_LIMIT))
+            places.setdefault(bounded, replace(bounded, message="" if number else own))
+    return tuple(places.values())
 
 
 def _joined_fix(fixes: list[Fix]) -> Fix | None:

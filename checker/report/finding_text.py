@@ -55,14 +55,16 @@ def _where(place: Place, package: PackageReport) -> str:
 
 
 def _other_places(places: Sequence[Place], package: PackageReport) -> Iterator[str]:
-    notes = [place for place in places if place.note]
-    repeats = [place for place in places if not place.note]
-    for other in notes[:MORE_PLACES]:
-        yield f"    {_where(other, package)}: {plain(shortened(other.note, MESSAGE_LIMIT))}"
-    if repeats:
-        named = [_where(place, package) for place in repeats[:MORE_PLACES]]
-        more = len(repeats) - len(named)
-        yield f"    also {', '.join(named)}" + (f" and {count(more, 'more place')}" if more else "")
+    own = [(place, place.note or place.message) for place in places]
+    told = [(place, words) for place, words in own if words]
+    named = [_where(place, package) for place, words in own if not words][:MORE_PLACES]
+    for other, words in told[:MORE_PLACES]:
+        yield f"    {_where(other, package)}: {plain(shortened(words, MESSAGE_LIMIT))}"
+    more = len(places) - len(told[:MORE_PLACES]) - len(named)
+    parts = [f"also {', '.join(named)}"] if named else []
+    parts += [f"and {count(more, 'more place')}"] if more else []
+    if parts:
+        yield f"    {' '.join(parts)}"
 
 
 def _frame(place: Place, palette: Palette) -> Iterator[str]:

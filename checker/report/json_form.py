@@ -40,6 +40,9 @@ class PlaceJson(Record):
     element: str
     note: str
     snippet: Annotated[str, Meta(description="The text of the line.")] = ""
+    message: Annotated[
+        str, Meta(description="What is wrong here, where it differs from the finding's message.")
+    ] = ""
 
 
 class EditJson(Record):

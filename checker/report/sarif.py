@@ -94,7 +94,7 @@ def words(message: str) -> str:
 
 
 def _related(place: Place, package: PackageReport, folder: str) -> Json:
-    said = words(place.note) if place.note else "also here"
+    said = words(place.note or place.message or "also here")
     return {**location(place, package, folder), "message": {"text": said}}
 
 

@@ -93,3 +93,12 @@ def test_fingerprints_are_distinct_and_do_not_depend_on_lines(found: list, moved
 
 def test_a_message_of_half_a_surrogate_pair_has_a_fingerprint() -> None:
     assert fingerprints([finding(at(1), "\udcff")])
+
+
+def test_each_place_of_a_group_says_what_is_wrong_there() -> None:
+    first, again, other = (
+        finding(at(line), message, key="colour")
+        for line, message in ((1, "is 2"), (2, "is 2"), (3, "is 7"))
+    )
+    (found,) = run(rule_saying(first, again, other)).findings
+    assert [place.message for place in found.places] == ["", "", "is 7"]

@@ -175,7 +175,8 @@ def _shown(found: ReportedFinding) -> ShownFinding:
 
 def _spot(place: Place) -> Spot:
     where = f"{place.file}:{place.line}:{place.column}" if place.file else "the package's folder"
-    return Spot(plain(where), plain(shortened(place.note, _TEXT_LIMIT)), plain(place.element))
+    words = shortened(place.note or place.message, _TEXT_LIMIT)
+    return Spot(plain(where), plain(words), plain(place.element))
 
 
 def _elements(places: Sequence[Place]) -> Iterator[str]:

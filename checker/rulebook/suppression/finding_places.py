@@ -43,7 +43,8 @@ def spots_of(finding: ReportedFinding) -> Iterator[Spot]:
     """Yield the main places of a finding; the others bear notes."""
     for number, place in enumerate(finding.places):
         if number == 0 or not place.note:
-            yield spot(finding.rule, finding.severity, place, finding.key, finding.message)
+            message = place.message or finding.message
+            yield spot(finding.rule, finding.severity, place, finding.key, message)
 
 
 def place_name(place: Place, key: str) -> str:
