@@ -1,8 +1,8 @@
 """A material with a script.
 
-Ignition Gazebo does not read OGRE material scripts: a part coloured only by a script is grey or
-black. If the material also has plain colours or PBR textures, Gazebo uses these, and the script
-does nothing. Only this rule checks `file://media` URIs of scripts.
+Ignition Gazebo does not read OGRE material scripts: a part coloured only by a script is black. If
+the script is black too, or the material also has plain colours or PBR textures, which Gazebo uses,
+the script does nothing. Only this rule checks `file://media` URIs of scripts.
 
 Fix: give `<ambient>`, `<diffuse>` and `<specular>`, or `<pbr>` with textures of the package, and
 remove the script.
@@ -19,10 +19,11 @@ from checker.source.xml_insertion import removal
 
 SCRIPTED = ("", "classic")
 """Releases that read scripts, and no particular release."""
+BLACK = frozenset({"Gazebo/Black", "Gazebo/FlatBlack"})
 _COLOURS = frozenset({"ambient", "diffuse", "specular", "emissive", "pbr"})
 
 
-@rule("SDF015", "material-script", Severity.ERROR, Concern.PORTABILITY)
+@rule("SDF015", "material-script", Severity.WARNING, Concern.ROBOT)
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report scripts that the target does not read, and empty materials."""
     for element in sdf.elements():
@@ -47,8 +48,14 @@ def _script(material: Element, script: Element) -> Iterator[Finding]:
         yield finding(
             script,
             f"the material script{called} is not read: the other colours of the material are used",
-            severity=Severity.WARNING,
+            severity=Severity.INFO,
             fix=Fix(Safety.SAFE, (removal(script),)),
+        )
+    elif name is not None and name.text.value.strip() in BLACK:
+        yield finding(
+            script,
+            f"the material script{called} is not read: the part is black without it",
+            severity=Severity.INFO,
         )
     else:
         yield finding(
@@ -70,5 +77,6 @@ GOOD = [_visual("<material><diffuse>1 0 0 1</diffuse></material>"), _visual("")]
 BAD = [
     _visual(f"<material>{_SCRIPT}</material>  <!-- ^ SDF015 -->"),
     _visual(f"<material>{_SCRIPT}<ambient>1 0 0 1</ambient></material>  <!-- ^ SDF015 -->"),
+    _visual(f"<material>{_SCRIPT.replace('Red', 'Black')}</material>  <!-- ^ SDF015 -->"),
     _visual("<material/>  <!-- ^ SDF015 -->"),
 ]

@@ -1,30 +1,33 @@
 """A colour outside 0…1.
 
-Red, green, blue and alpha are numbers from 0 to 1. With numbers of 0 to 255 the part is white, or
-the parser refuses the file.
+Red, green, blue and alpha are numbers from 0 to 1. From libsdformat 11.4 on, the parser refuses a
+file with others. Up to Dome it divides numbers above 1 by 255: 255 is full, but 1.5 is nearly dark.
 
 Fix: divide by 255.
-Source: SDFormat specification, type color; libsdformat refuses other values.
+Source: SDFormat specification, type color; libsdformat 11.4, Param.cc; ign-math 6, Color::Clamp.
 """
 
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.model.values import ValueReader
-from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
 EIGHT_BIT = 255.0
+LENIENT = ("dome", "classic")
+"""Releases whose parser changes such numbers instead of refusing the file."""
 
 
 @rule("SDF016", "colour-range", Severity.ERROR, Concern.ROBOT)
-def check(sdf: SdfDocument, *, eight_bit_from: float = 16.0) -> Findings:
+def check(sdf: SdfDocument, context: Context, *, eight_bit_from: float = 16.0) -> Findings:
     """Report colours with a number below 0 or above 1.
 
     Options:
         eight_bit_from: Least value of the largest of red, green and blue for which a fix divides by
             255; all numbers must be whole and from 0 to 255.
     """
+    lenient = context.release in LENIENT
     for element, kind in sdf.typed_elements:
         if kind is None or kind.value_type != "color":
             continue
@@ -35,10 +38,18 @@ def check(sdf: SdfDocument, *, eight_bit_from: float = 16.0) -> Findings:
         if not all(0.0 <= number.value <= 1.0 for number in colour):
             yield finding(
                 element.text,
-                f"<{element.tag}> is {element.text.value[:60]}, expected numbers from 0 to 1",
+                f"<{element.tag}> is {element.text.value[:60]}, expected numbers from 0 to 1"
+                + (f"; it is read as {_read(colour)}" if lenient else ""),
+                severity=Severity.WARNING if lenient else None,
                 key="colour",
                 fix=_divided(element, colour, eight_bit_from),
             )
+
+
+def _read(colour: tuple[Located[float], ...]) -> str:
+    """Return what a lenient parser makes of a colour."""
+    values = (max(0.0, number.value) for number in colour)
+    return " ".join(f"{value / EIGHT_BIT if value > 1 else value:.2g}" for value in values)
 
 
 def _divided(element: Element, colour: tuple[Located[float], ...], least: float) -> Fix | None:
