@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType, all_tags, parents_of
+from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of
 from checker.rule import Concern, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
@@ -38,9 +38,11 @@ def check(sdf: SdfDocument) -> Findings:
         if path not in belonging:
             belonging[path] = _places(*path, parents_of(sdf.version))
         listed = belonging[path]
-        named = (f"another <{each}>" if each == parent.tag else f"<{each}>" for each in listed)
+        named = (_named(sdf.version, each, *path) for each in listed)
         belongs = "; it belongs in " + " or ".join(named) if listed else ""
-        harmless = (parent.tag, element.tag) in HARMLESS
+        is_set = len(listed) == 1 and _is_set(element, listed[0])
+        belongs += ", where it is set" if is_set else ""
+        harmless = is_set or (parent.tag, element.tag) in HARMLESS
         yield finding(
             element,
             f"<{element.tag}> has no effect in <{parent.tag}>{belongs}",
@@ -48,6 +50,23 @@ def check(sdf: SdfDocument) -> Findings:
             key=f"{parent.tag}/{element.tag}",
             fix=_moved(element, listed[0], kinds) if len(listed) == 1 and not harmless else None,
         )
+
+
+def _named(version: str, place: str, around: str, parent: str, tag: str) -> str:
+    """Name a place; of another element of the same tag, say which one: `contact/ode`."""
+    if place != parent:
+        return f"<{place}>"
+    holders = [holder for holder in holders_of(version, place, tag) if holder != around]
+    return " or ".join(f"<{holder}/{place}>" for holder in holders) or f"another <{place}>"
+
+
+def _is_set(element: Element, place: str) -> bool:
+    """Whether the right place, next to or around the wrong one, has such an element already."""
+    parent = element.parent
+    if parent is None:
+        return False
+    around = [parent.parent] if parent.parent is not None and parent.parent.tag == place else []
+    return any(holder.child(element.tag) is not None for holder in (*around, *parent.all(place)))
 
 
 def _places(
@@ -103,9 +122,23 @@ BAD = [
 </sensor>
 """,
     """
+<sensor name="imu" type="imu">
+  <enable_orientation>0</enable_orientation>  <!-- ^ SDF008 -->
+  <imu><enable_orientation>0</enable_orientation></imu>
+</sensor>
+""",
+    """
 <link name="arm">
   <mass>3</mass>  <!-- ^ SDF008 -->
 </link>
+""",
+    """
+<collision name="foot">
+  <geometry><sphere><radius>0.1</radius></sphere></geometry>
+  <surface><friction><ode>
+    <kp>1e6</kp>  <!-- ^ SDF008 -->
+  </ode></friction></surface>
+</collision>
 """,
     """
 <sensor name="barometer" type="air_pressure">

@@ -124,19 +124,33 @@ def all_tags(version: str) -> frozenset[str]:
 @cache
 def parents_of(version: str) -> Mapping[str, tuple[str, ...]]:
     """Return, for each tag, the tags that it may stand directly below, sorted."""
-    types = _types(version)
     parents: dict[str, set[str]] = {}
-    stack: list[Any] = [*types.values()]
+    for _, parent, tag in _triples(version):
+        parents.setdefault(tag, set()).add(parent)
+    return {tag: tuple(sorted(names)) for tag, names in parents.items()}
+
+
+@cache
+def holders_of(version: str, parent: str, tag: str) -> tuple[str, ...]:
+    """Return the tags below which a `parent` may hold a `tag`, sorted: `kp` in `contact/ode`."""
+    return tuple(sorted({top for top, *rest in _triples(version) if rest == [parent, tag] and top}))
+
+
+@cache
+def _triples(version: str) -> frozenset[tuple[str, str, str]]:
+    """Return what may hold what that may hold what; the first is empty where any may."""
+    types = _types(version)
+    triples: set[tuple[str, str, str]] = set()
+    stack: list[tuple[str, Any]] = [("", entry) for entry in types.values()]
     while stack:
-        entry = stack.pop()
+        top, entry = stack.pop()
         for kid in entry.get("kids", ()):
             kind = kid.get("ref") or kid.get("self")
-            parents.setdefault(types[kind]["name"] if kind else kid["name"], set()).add(
-                entry["name"]
-            )
+            tag = types[kind]["name"] if kind else kid["name"]
+            triples.add((top, entry["name"], tag))
             if not kind:
-                stack.append(kid)
-    return {tag: tuple(sorted(names)) for tag, names in parents.items()}
+                stack.append((entry["name"], kid))
+    return frozenset(triples)
 
 
 def walk(root: Element, version: str) -> Iterator[tuple[Element, ElementType | None]]:
