@@ -70,7 +70,7 @@ def with_hook(text: str) -> str | None:
 
 
 def _mappings(value: object) -> list[dict[Any, Any]]:
-    return [each for each in value if isinstance(each, dict)] if isinstance(value, list) else []
+    return [entry for entry in value if isinstance(entry, dict)] if isinstance(value, list) else []
 
 
 def _loaded(text: str) -> Any:
@@ -204,7 +204,7 @@ def _settings(folder: Path) -> Iterator[str]:
 
 
 def _hook(folder: Path) -> Iterator[str]:
-    root = next((each for each in folders_above(folder) if (each / ".git").exists()), None)
+    root = next((parent for parent in folders_above(folder) if (parent / ".git").exists()), None)
     if root is None:
         yield f"added no hook: {plain(str(folder))} is not in a git repository"
         return

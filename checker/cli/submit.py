@@ -114,7 +114,7 @@ def _seen_from_here(report: Report, given: Path) -> Report:
         replace(package, path=_package_path(package.path, package.name, given))
         for package in report.packages
     )
-    not_opened = (replace(each, path=str(given / _below(each.path))) for each in report.not_opened)
+    not_opened = (replace(item, path=str(given / _below(item.path))) for item in report.not_opened)
     return replace(report, packages=tuple(packages), not_opened=tuple(not_opened))
 
 

@@ -184,7 +184,7 @@ class ShapeWriter:
             if blob.tag != element.tag:
                 continue
             for child in blob.children:
-                for there in [each for each in element if each.tag == child.node.tag]:
+                for there in [node for node in element if node.tag == child.node.tag]:
                     element.remove(there)
                 element.append(copied(child.node))
 

@@ -164,13 +164,13 @@ class LinkWriter:
         if material is None:
             return ("", "")
         colour = material.colours.get("diffuse") or material.colours.get("ambient") or ()
-        rgba = [each.value for each in colour]
+        rgba = [number.value for number in colour]
         if len(rgba) in (3, 4):
             rgba = [*rgba, 1.0][:4]
             see_through = stated_number(visual.element, "transparency")
             rgba[3] *= 1.0 - (see_through.value if see_through is not None else 0.0)
             # As in Gazebo; readers of URDF refuse what lies beyond.
-            rgba = [min(max(each, 0.0), 1.0) for each in rgba]
+            rgba = [min(max(number, 0.0), 1.0) for number in rgba]
         texture = material.textures[0].value if self._has_texture(visual) else ""
         said = " ".join(map(exact, rgba)) if len(rgba) == 4 else ""
         return (said, self.mesh_uri(texture) if texture else "")

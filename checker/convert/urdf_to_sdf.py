@@ -182,7 +182,7 @@ def _add_inertial(link: etree._Element, body: Body) -> None:
         if not is_identity(pose):
             add(element, "pose", " ".join(six_numbers(pose, source.pose)))
         # A single link's moments stay along its own axes.
-        mass, moments = exact(source.mass.value), [exact(each.value) for each in source.moments]
+        mass, moments = exact(source.mass.value), [exact(moment.value) for moment in source.moments]
     else:
         joined = joined_inertial(body.parts)
         if any(joined.centre):

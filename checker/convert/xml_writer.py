@@ -94,7 +94,7 @@ def _same(first: Transform, second: Transform) -> bool:
 
 
 def _entries(pose: Transform) -> Sequence[float]:
-    return (*pose.translation, *(each for row in pose.rotation for each in row))
+    return (*pose.translation, *(value for row in pose.rotation for value in row))
 
 
 def add(parent: etree._Element, tag: str, text: str = "", **attributes: str) -> etree._Element:

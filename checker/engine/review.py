@@ -69,7 +69,7 @@ def run_and_set_aside(
 
 def _looked(outcome: Outcome) -> set[str]:
     """Return the rules that looked at all they ask for, so that their silence tells something."""
-    return set(outcome.looked) - {each.rule for each in outcome.not_checked}
+    return set(outcome.looked) - {skipped.rule for skipped in outcome.not_checked}
 
 
 def _stale(silencer: Silencer, outcome: Outcome, settings: Settings) -> BaselineUse:
@@ -160,7 +160,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         outcome.findings,
         (*outcome.not_checked, *blind, *trouble, *undrawn),
         tuple(
-            InheritedPart(each.part, each.package_name, each.at_hand) for each in package.inherited
+            InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited
         ),
         facts,
         dict(subject.stages.seconds),

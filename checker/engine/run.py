@@ -71,7 +71,7 @@ def run_rules(
             not_checked.append(said)
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
-        found = [each for each in said if isinstance(each, Finding)]
+        found = [item for item in said if isinstance(item, Finding)]
         spot_of = partial(_spot, rule, profile, settings)
         for silence, group in parted(rule.id, found, silencer, spot_of).items():
             reported = _report(rule, group, profile, settings)
@@ -79,9 +79,10 @@ def run_rules(
                 findings += reported
             else:
                 suppressed += [
-                    Suppressed(each, silence.by, silence.reason, silence.place) for each in reported
+                    Suppressed(finding, silence.by, silence.reason, silence.place)
+                    for finding in reported
                 ]
-        unchecked = (each.reason for each in said if isinstance(each, Unchecked))
+        unchecked = (item.reason for item in said if isinstance(item, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
     return _outcome(_sorted(findings), suppressed, not_checked, looked)
@@ -94,15 +95,15 @@ def _outcome(
     looked: Mapping[str, Mapping[str, Any]],
 ) -> Outcome:
     """Number findings that would have one fingerprint: those that count first."""
-    aside = [each.finding for each in suppressed]
-    prints = numbered(each.fingerprint for each in (*findings, *aside))
+    aside = [item.finding for item in suppressed]
+    prints = numbered(finding.fingerprint for finding in (*findings, *aside))
     distinct = [
-        replace(each, fingerprint=own)
-        for each, own in zip((*findings, *aside), prints, strict=True)
+        replace(finding, fingerprint=own)
+        for finding, own in zip((*findings, *aside), prints, strict=True)
     ]
     counting, others = distinct[: len(findings)], distinct[len(findings) :]
     set_aside = (
-        replace(each, finding=found) for each, found in zip(suppressed, others, strict=True)
+        replace(item, finding=found) for item, found in zip(suppressed, others, strict=True)
     )
     return Outcome(tuple(counting), tuple(not_checked), looked, tuple(set_aside))
 
@@ -180,7 +181,7 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
         if isinstance(had, NotAvailable):
             return had
         wanted[name] = had
-    return [dict(zip(wanted, each, strict=True)) for each in product(*wanted.values())]
+    return [dict(zip(wanted, choice, strict=True)) for choice in product(*wanted.values())]
 
 
 def _report(
@@ -189,12 +190,14 @@ def _report(
     """Join findings that are one fault in many places, and add what the rule's page says."""
     page = parse_page(rule.page)
     groups: dict[tuple[Severity, str], list[Finding]] = {}
-    for each in found:
-        severity = _severity(rule, each, profile, settings)
-        groups.setdefault((severity, each.key or each.message), []).append(each)
+    for finding in found:
+        severity = _severity(rule, finding, profile, settings)
+        groups.setdefault((severity, finding.key or finding.message), []).append(finding)
     for (severity, _), group in groups.items():
         first = group[0]
-        places = tuple(dict.fromkeys(_bounded(place) for each in group for place in each.places))
+        places = tuple(
+            dict.fromkeys(_bounded(place) for finding in group for place in finding.places)
+        )
         yield ReportedFinding(
             rule.id,
             rule.name,
@@ -202,7 +205,7 @@ def _report(
             shortened(first.message, TEXT_LIMIT),
             fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
             places,
-            _joined_fix([each.fix for each in group if each.fix]),
+            _joined_fix([finding.fix for finding in group if finding.fix]),
             page.reason,
             " ".join(page.fix.split()),
             first.key,
@@ -250,8 +253,8 @@ def _identity(found: Finding) -> str:
 
 
 def _sorted(findings: list[ReportedFinding]) -> list[ReportedFinding]:
-    def key(each: ReportedFinding) -> tuple[int, str, int, int, str]:
-        place = each.places[0]
-        return each.severity.rank, place.file, place.line, place.column, each.rule
+    def key(reported: ReportedFinding) -> tuple[int, str, int, int, str]:
+        place = reported.places[0]
+        return reported.severity.rank, place.file, place.line, place.column, reported.rule
 
     return sorted(findings, key=key)

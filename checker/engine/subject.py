@@ -102,7 +102,7 @@ class Subject(Record, eq=False, dict=True):
 
     def provided(self, kind: type[T]) -> Sequence[T]:
         """Return a part that some rule had; nothing when none asked for it or it is not at hand."""
-        return [each for each in self._provided.get(kind, ()) if isinstance(each, kind)]
+        return [item for item in self._provided.get(kind, ()) if isinstance(item, kind)]
 
     def start(self, kinds: Collection[type]) -> None:
         """Begin with parts that take long, so that they come about while the rules run."""
@@ -136,9 +136,9 @@ class Subject(Record, eq=False, dict=True):
             if isinstance(robot.meshes, PackageMeshes):
                 robot.meshes.stop()
         names = ("trials", "describing", "display", "robot_views")
-        for each in map(self.__dict__.get, names):
-            if each is not None and not isinstance(each, NotAvailable):
-                each.stop()
+        for value in map(self.__dict__.get, names):
+            if value is not None and not isinstance(value, NotAvailable):
+                value.stop()
 
     @cached_property
     def paperwork(self) -> Paperwork:
@@ -231,7 +231,11 @@ class Subject(Record, eq=False, dict=True):
             return self.model
         if self.model.root.tag == "robot":
             found = self.descriptions
-            return found if isinstance(found, NotAvailable) else tuple(each.robot for each in found)
+            return (
+                found
+                if isinstance(found, NotAvailable)
+                else tuple(description.robot for description in found)
+            )
         robots = read_sdf(self.model, ModelIncludes(self.package))
         if self.package.kind is not PackageKind.SINGLE_FILE:
             robots = robots[:1]
@@ -385,7 +389,7 @@ class Subject(Record, eq=False, dict=True):
         if not isinstance(path, Missing):
             numbers.add(configuration_number(path.package))
         found = [find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots]
-        known = tuple(each for devices in found for each in devices.known)
+        known = tuple(device for devices in found for device in devices.known)
         return SensorDevices(known, found[0].diversions)
 
 

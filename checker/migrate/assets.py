@@ -69,7 +69,7 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
         answer = from_json(said)
         if "pictures" not in answer:
             return Thumbnails(trouble=_trouble(str(answer.get("unable", "there is no picture"))))
-        pictures = (base64.b64decode(each) for each in answer["pictures"])
+        pictures = (base64.b64decode(picture) for picture in answer["pictures"])
         return Thumbnails(dict(zip(NAMES, pictures, strict=True)))
     except NONSENSE:
         return Thumbnails(trouble=_trouble("the process that draws sent an invalid answer"))
@@ -114,7 +114,7 @@ def _file(visual: Visual, folder: Path) -> str:
 
 def _colour(visual: Visual) -> list[float]:
     said = visual.material.colours.get("diffuse", ()) if visual.material is not None else ()
-    values = [min(max(each.value, 0.0), 1.0) for each in said[:4]]
+    values = [min(max(number.value, 0.0), 1.0) for number in said[:4]]
     return [*values, *_GREY[len(values) :]]
 
 

@@ -160,7 +160,7 @@ def _steering(robot: Robot, plain: Drive) -> Drive:
         raise NotMigrated(f"joint {joints[0].name.value!r} steers, but its place is not known")
     base = abs(fmean(p[0] for p in places) - fmean(w.centre[0] for w in rear if w.centre))
     limits = [abs(x.value) for j in joints for x in (j.axes[0].lower, j.axes[0].upper)]
-    limit = min((each for each in limits if 0.0 < each < math.pi / 2), default=_STEERING_LIMIT)
+    limit = min((angle for angle in limits if 0.0 < angle < math.pi / 2), default=_STEERING_LIMIT)
     names = tuple(joint.name.value for joint in joints)
     said = f"AckermannSteering steers by {', '.join(names)}: {plain.wheels.reason}"
     return replace(

@@ -103,7 +103,7 @@ _KINDS = {
 
 def _box(robot: Robot, *, visuals_too: bool) -> Box | None:
     return union(
-        each.box
+        piece.box
         for link in robot.links
-        for each in placed(robot, link, (*link.collisions, *(link.visuals if visuals_too else ())))
+        for piece in placed(robot, link, (*link.collisions, *(link.visuals if visuals_too else ())))
     )

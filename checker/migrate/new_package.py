@@ -194,7 +194,7 @@ def _made(destination: Path) -> list[Path]:
     """Make the destination; return the folders that were not there, innermost first."""
     try:
         if destination.is_dir():
-            held = [each.name for each in destination.iterdir()]
+            held = [entry.name for entry in destination.iterdir()]
             if held := sorted(name for name in held if not name.startswith(_PREFIX)):
                 raise NotMigrated(
                     f"{destination} is not empty (it contains {held[0]}); give a folder that is "
@@ -205,7 +205,7 @@ def _made(destination: Path) -> list[Path]:
             raise NotMigrated(
                 f"{destination} is not a folder; give one that is empty or does not exist"
             )
-        missing = [each for each in (destination, *destination.parents) if not each.exists()]
+        missing = [folder for folder in (destination, *destination.parents) if not folder.exists()]
         destination.mkdir(parents=True)
     except OSError as error:
         raise _not_written(destination, error) from None

@@ -205,11 +205,11 @@ def _body(carried: CarriedPlugin, conversion: Conversion, base: str) -> tuple[st
 
 
 def _link(tree: etree._Element, name: str) -> etree._Element | None:
-    return next((each for each in tree.iter("link") if each.get("name") == name), None)
+    return next((link for link in tree.iter("link") if link.get("name") == name), None)
 
 
 def _free_name(link: etree._Element, name: str) -> str:
-    taken, number_ = {each.get("name") for each in link.iterfind("sensor")}, 2
+    taken, number_ = {sensor.get("name") for sensor in link.iterfind("sensor")}, 2
     unique = name
     while unique in taken:
         unique, number_ = f"{name}_{number_}", number_ + 1
@@ -238,14 +238,14 @@ def _merged(carried: CarriedPlugin, tree: etree._Element) -> Iterator[str]:
     if not cameras:
         yield f"{name} names no camera of the model, so no camera can replace it"
         return
-    kept = next((each for each in cameras if "color" in each.get("name", "")), cameras[0])
-    depth = next((each for each in cameras if each.get("type") == "depth"), None)
+    kept = next((camera for camera in cameras if "color" in camera.get("name", "")), cameras[0])
+    depth = next((camera for camera in cameras if camera.get("type") == "depth"), None)
     prefix = _prefix(carried) or carried.reference or kept.get("name", "")
-    names = [each.get("name", "") for each in cameras]
-    for each in cameras:
-        parent = each.getparent()
-        if each is not kept and parent is not None:
-            parent.remove(each)
+    names = [camera.get("name", "") for camera in cameras]
+    for sensor in cameras:
+        parent = sensor.getparent()
+        if sensor is not kept and parent is not None:
+            parent.remove(sensor)
     kept.set("name", prefix.strip("_/ ") or "rgbd_camera")
     kept.set("type", "rgbd_camera")
     near = number_at(carried.node, "rangeMinDepth", 0.0)
@@ -262,7 +262,7 @@ def _cameras_of(carried: CarriedPlugin, tree: etree._Element) -> Sequence[etree.
 
     They bear the plugin's prefix, stand in its link, or are called by what they see.
     """
-    cameras = [each for each in tree.iter("sensor") if each.get("type") in _LENSES]
+    cameras = [sensor for sensor in tree.iter("sensor") if sensor.get("type") in _LENSES]
     prefix = _prefix(carried)
     named = [camera for camera in cameras if prefix and camera.get("name", "").startswith(prefix)]
     if named:
@@ -283,7 +283,7 @@ def _prefix(carried: CarriedPlugin) -> str:
 
 
 def _lights(tree: etree._Element) -> Iterator[str]:
-    names = [each.get("name", "") for each in tree.iter("light")]
+    names = [light.get("name", "") for light in tree.iter("light")]
     if names:
         yield (
             f"lights {', '.join(names)} are darker in Ignition Gazebo than in Gazebo 9: make them "

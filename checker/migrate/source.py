@@ -76,7 +76,7 @@ def _package_of(opened: Opened, path: Path, urdf: str) -> Package:
         raise NotMigrated(
             f"{path} contains several packages ({names}); give the folder of one of them"
         )
-    with_model = [each for each in opened.packages if each.index.with_suffix(".sdf")]
+    with_model = [item for item in opened.packages if item.index.with_suffix(".sdf")]
     if with_model:
         raise NotMigrated(
             f"{path} already has an SDF model ({with_model[0].index.with_suffix('.sdf')[0].path}), "
@@ -99,7 +99,7 @@ def _file_in(package: Package, urdf: str) -> str:
     real = Path(os.path.realpath(urdf))
     if real.is_relative_to(package.root) and real.is_file():
         return real.relative_to(package.root).as_posix()
-    found = [each.path for each in package.index.with_suffix(".urdf", ".xacro")]
+    found = [file.path for file in package.index.with_suffix(".urdf", ".xacro")]
     raise NotMigrated(
         f"{urdf} is not a file of {package.name}; found: {_listed(found) or 'no URDF file'}"
     )
@@ -184,8 +184,12 @@ def papers_of(source: Source) -> Papers:
     """Return what is known; what is not stands as TODO."""
     manifest = source.manifest
     people = (*manifest.maintainers, *manifest.authors) if manifest is not None else ()
-    person = next((each for each in people if each.name.value and each.email.value), None)
-    license = next((each.value for each in manifest.licenses if each.value), "") if manifest else ""
+    person = next(
+        (candidate for candidate in people if candidate.name.value and candidate.email.value), None
+    )
+    license = (
+        next((entry.value for entry in manifest.licenses if entry.value), "") if manifest else ""
+    )
     open_points = []
     if person is None:
         open_points.append("the maintainer, with email (package.xml, model.config)")

@@ -103,7 +103,7 @@ def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], content: Content, num
     sizes = shape["sizes"]
     match shape["shape"]:
         case "box":
-            half = [max(abs(each) / 2, 1e-6) for each in sizes["size"]]
+            half = [max(abs(length) / 2, 1e-6) for length in sizes["size"]]
             spec.worldbody.add_geom(type=kind.mjGEOM_BOX, size=half, **given)
         case "sphere":
             size = [max(sizes["radius"][0], 1e-6), 0, 0]

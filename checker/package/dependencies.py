@@ -37,7 +37,7 @@ class Lenders(Record):
 
     def libraries(self) -> frozenset[str]:
         """Return the names of all libraries, without `lib` and `.so`."""
-        return frozenset(name for each in self.at_hand for name in libraries_of(each))
+        return frozenset(name for package in self.at_hand for name in libraries_of(package))
 
 
 def lenders_of(package: Package) -> Lenders:

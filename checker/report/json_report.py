@@ -58,7 +58,7 @@ def to_dict(report: Report) -> dict[str, Any]:
             SCHEMA_VERSION,
             ToolJson(versions=report.versions),
             tuple(map(_package_json, report.packages)),
-            tuple(NotOpenedJson(each.path, each.reason, each.failed) for each in report.not_opened),
+            tuple(NotOpenedJson(item.path, item.reason, item.failed) for item in report.not_opened),
         )
     )
     return members
@@ -144,7 +144,7 @@ def _report(read: ReportJson) -> Report:
     return Report(
         tuple(map(_package, read.packages)),
         read.tool.versions,
-        tuple(NotOpened(each.path, each.reason, each.failed) for each in read.not_opened),
+        tuple(NotOpened(item.path, item.reason, item.failed) for item in read.not_opened),
     )
 
 

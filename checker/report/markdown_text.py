@@ -39,7 +39,7 @@ def with_code(text: str) -> str:
     pieces = text.split("`")
     if len(pieces) % 2 == 0:
         return escaped(text)
-    return "".join(code(each) if n % 2 else escaped(each) for n, each in enumerate(pieces))
+    return "".join(code(piece) if n % 2 else escaped(piece) for n, piece in enumerate(pieces))
 
 
 def code(text: str) -> str:

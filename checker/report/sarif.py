@@ -77,7 +77,7 @@ def result(said: Said, index: int, marks: Marks, folder: str) -> Json:
     if others:
         related = (_related(other, package, folder) for other in others[:RELATED_LIMIT])
         # The standard wants them distinct, and words made plain may have become alike.
-        made["relatedLocations"] = list({str(each): each for each in related}.values())
+        made["relatedLocations"] = list({str(item): item for item in related}.values())
         made["occurrenceCount"] = 1 + sum(not other.note for other in others)
     if fix := fixes(finding.fix, finding.how, package, folder):
         made["fixes"] = fix
@@ -131,16 +131,16 @@ def to_sarif(report: Report, folder: str) -> str:
 def _run(report: Report, folder: str) -> Json:
     said = sorted(
         _all_said(report),
-        key=lambda each: (each.suppressed is not None, each.finding.severity.rank),
+        key=lambda item: (item.suppressed is not None, item.finding.severity.rank),
     )
     shown = said[:RESULTS_LIMIT]
     rules = _first_by_rule(shown)
-    driver: Json = {"name": "subt-check", "rules": [_rule(each) for each in rules.values()]}
+    driver: Json = {"name": "subt-check", "rules": [_rule(rule) for rule in rules.values()]}
     # An installation may not know its own version.
     if (version := report.versions.get("subt-check", ""))[:1].isdigit():
         driver["version"] = plain(version)
     indices = {rule: index for index, rule in enumerate(rules)}
-    marks = Marks(any(each.in_baseline for each in said), any(each.set_aside for each in said))
+    marks = Marks(any(item.in_baseline for item in said), any(item.set_aside for item in said))
     return {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
@@ -148,7 +148,7 @@ def _run(report: Report, folder: str) -> Json:
             BASE: {"description": {"text": "The folder where subt-check was run."}}
         },
         "invocations": [_invocation(report, len(said) - len(shown))],
-        "results": [result(each, indices[each.finding.rule], marks, folder) for each in shown],
+        "results": [result(item, indices[item.finding.rule], marks, folder) for item in shown],
         "properties": {"packages": [_package(package) for package in report.packages]},
     }
 
@@ -157,8 +157,8 @@ def _all_said(report: Report) -> Iterator[Said]:
     for package, finding in each_once(report):
         yield Said(package, finding)
     for package in report.packages:
-        for each in package.suppressed:
-            yield Said(package, each.finding, each)
+        for suppressed in package.suppressed:
+            yield Said(package, suppressed.finding, suppressed)
 
 
 def _package(package: PackageReport) -> Json:
@@ -168,8 +168,8 @@ def _package(package: PackageReport) -> Json:
 def _first_by_rule(said: Sequence[Said]) -> Mapping[str, ReportedFinding]:
     """Return the first finding of each rule, which is the gravest that counts."""
     rules: dict[str, ReportedFinding] = {}
-    for each in said:
-        rules.setdefault(each.finding.rule, each.finding)
+    for item in said:
+        rules.setdefault(item.finding.rule, item.finding)
     return rules
 
 
@@ -198,13 +198,13 @@ def _rule(finding: ReportedFinding) -> Json:
 def _invocation(report: Report, left_out: int) -> Json:
     """Say what went wrong or could not be looked at."""
     crashed = any(package.crashed for package in report.packages)
-    failed = any(each.failed for each in report.not_opened)
+    failed = any(item.failed for item in report.not_opened)
     said = [_notification(n, package) for package in report.packages for n in package.blind_spots]
-    for each in report.not_opened:
-        level = "error" if each.failed else "note"
-        text = f"{plain(each.path)} {plain(each.reason)}"
+    for item in report.not_opened:
+        level = "error" if item.failed else "note"
+        text = f"{plain(item.path)} {plain(item.reason)}"
         said.append({"level": level, "message": {"text": words(text)}})
-    said = sorted(said, key=lambda each: str(each["level"]))[:NOTIFICATIONS_LIMIT]
+    said = sorted(said, key=lambda notification: str(notification["level"]))[:NOTIFICATIONS_LIMIT]
     if left_out:
         text = f"{count(left_out, 'result')} left out, {RESULTS_LIMIT} shown, the most severe first"
         said.append({"level": "warning", "message": {"text": text}})

@@ -125,4 +125,4 @@ def fixes(fix: Fix | None, how: str, package: PackageReport, folder: str) -> lis
 
 
 def _is_text(edit: Edit) -> bool:
-    return not any("\ud800" <= each <= "\udfff" for each in edit.replacement)
+    return not any("\ud800" <= character <= "\udfff" for character in edit.replacement)

@@ -60,7 +60,7 @@ def _unseen(package: PackageReport) -> str:
 
 
 def _aside(package: PackageReport) -> str:
-    off = [each.reason for each in package.not_checked if each.cause is Cause.SWITCHED_OFF]
+    off = [skipped.reason for skipped in package.not_checked if skipped.cause is Cause.SWITCHED_OFF]
     others = sum(reason != NO_TRIAL for reason in off)
     said = ["trial not run"] if NO_TRIAL in off else []
     said += [f"{count(others, 'rule')} switched off"] if others else []
@@ -69,7 +69,7 @@ def _aside(package: PackageReport) -> str:
 
 
 def _suppressed(package: PackageReport) -> str:
-    errors = sum(each.finding.severity is Severity.ERROR for each in package.suppressed)
+    errors = sum(item.finding.severity is Severity.ERROR for item in package.suppressed)
     of_them = f", {errors} of them {'an error' if errors == 1 else 'errors'}" if errors else ""
     return f"{len(package.suppressed)} suppressed{of_them}"
 
@@ -100,7 +100,7 @@ def summary_markdown(packages: Sequence[PackageReport], room: int) -> tuple[str,
     words = _counted(packages)
     heads = [f"{word}s" if word in list(Severity) else word for word in words]
     head = "| package | verdict | " + " | ".join(heads) + " |"
-    rows, left = fitting(packages, lambda each: _row_in_markdown(each, len(words)), room)
+    rows, left = fitting(packages, lambda package: _row_in_markdown(package, len(words)), room)
     return "\n".join([head, "|---|---|" + "---:|" * len(words), *rows]), left
 
 
@@ -151,8 +151,10 @@ def statistics_text(report: Report) -> str:
 def _rows(report: Report) -> Iterator[tuple[str, str, str, str, str]]:
     """Count a rule apart for each severity that it found something of."""
     packages: dict[tuple[str, Severity, str], list[str]] = {}
-    for package, each in each_once(report):
-        packages.setdefault((each.rule, each.severity, each.name), []).append(package.path)
+    for package, reported in each_once(report):
+        packages.setdefault((reported.rule, reported.severity, reported.name), []).append(
+            package.path
+        )
     ordered = sorted(packages.items(), key=lambda row: (-len(row[1]), row[0][0], row[0][1].rank))
     for (rule, severity, name), found_in in ordered:
         yield rule, str(severity), str(len(found_in)), str(len(set(found_in))), plain(name)

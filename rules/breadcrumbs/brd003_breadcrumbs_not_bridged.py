@@ -67,7 +67,7 @@ def _unbridged(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
 def _uncounted(bridges: Iterable[Bridge]) -> Iterator[Finding]:
     """Report launch files that drop breadcrumbs and do not tell how many remain."""
     given = list(bridges)
-    counting = {each.ign_topic.removesuffix(REMAINING) for each in given if _counts(each)}
+    counting = {bridge.ign_topic.removesuffix(REMAINING) for bridge in given if _counts(bridge)}
     for bridge in given:
         if _drops(bridge) and bridge.ign_topic.removesuffix(DEPLOY) not in counting:
             yield finding(

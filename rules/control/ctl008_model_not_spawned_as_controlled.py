@@ -77,8 +77,12 @@ def _same(name: str, known: Iterable[str]) -> bool:
     """Whether a name is a known one, perhaps with a number or more words around."""
     plain = name.rstrip("0123456789_").lower()
     return any(
-        each and (each.lower() in name.lower() or plain in (each.rstrip("0123456789_").lower(), ""))
-        for each in known
+        namespace
+        and (
+            namespace.lower() in name.lower()
+            or plain in (namespace.rstrip("0123456789_").lower(), "")
+        )
+        for namespace in known
     )
 
 

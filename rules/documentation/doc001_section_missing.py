@@ -34,13 +34,13 @@ def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Fi
     empty = [
         having[0]
         for having in found.values()
-        if having and all(specification.says_nothing(each) for each in having)
+        if having and all(specification.says_nothing(section) for section in having)
     ]
     said = []
     if missing:
         said.append(f"{_are(missing)} missing: {', '.join(missing)}")
     if empty:
-        said.append(f"{_are(empty)} empty: {', '.join(each.title for each in empty)}")
+        said.append(f"{_are(empty)} empty: {', '.join(section.title for section in empty)}")
     for section in empty:
         yield finding(section, "; ".join(said), key=KEY)
     if missing and not empty:

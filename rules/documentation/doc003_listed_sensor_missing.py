@@ -28,13 +28,13 @@ def check(package: Package, robot: Robot, specification: Specification) -> Findi
         return
     number = configuration_number(package)
     listed = [
-        each
-        for each in specification.sensors
-        if each.kind in TYPES and (not each.configurations or number in each.configurations)
+        item
+        for item in specification.sensors
+        if item.kind in TYPES and (not item.configurations or number in item.configurations)
     ]
     families: dict[frozenset[str], list[ListedSensor]] = defaultdict(list)
-    for each in listed:
-        families[TYPES[each.kind]].append(each)
+    for item in listed:
+        families[TYPES[item.kind]].append(item)
     present = [sensor.type.value for sensor in robot.sensors]
     for types, items in families.items():
         amount = sum(kind in types for kind in present)

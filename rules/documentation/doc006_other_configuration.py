@@ -91,7 +91,7 @@ def _of_itself(sheet: Specification, owner: str, number: int) -> Iterator[Findin
     """Report statements that the sheet describes another configuration."""
     for passage in sheet.markdown.passages:
         for found in _ITSELF.finditer(passage.text):
-            group = next(i for i, each in enumerate(found.groups(), 1) if each)
+            group = next(i for i, text in enumerate(found.groups(), 1) if text)
             if int(found.group(group)) != number:
                 yield finding(
                     passage.part(*found.span()),

@@ -51,7 +51,7 @@ def check(
     # Several drives may be the halves of a jointed robot, which turns in its own way.
     if len(drives) != 1:
         return
-    radii = [each for each in specification.turning_radii if not each.configurations]
+    radii = [radius for radius in specification.turning_radii if not radius.configurations]
     if moved.kind in _TURNS_ON_THE_SPOT:
         for stated in radii:
             if stated.value > on_the_spot:

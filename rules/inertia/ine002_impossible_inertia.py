@@ -69,7 +69,7 @@ def _moments(
 ) -> Iterator[Finding]:
     name = inertia.link.name.value
     if any(math.isnan(moment) for moment in inertia.principal):
-        wrong = next(each for each in inertial.moments if not math.isfinite(each.value))
+        wrong = next(moment for moment in inertial.moments if not math.isfinite(moment.value))
         yield finding(
             wrong,
             f"link {name!r} has a moment of inertia of {wrong.value:g} kg·m², expected a finite "

@@ -84,7 +84,7 @@ def _differences(
     if size is None:
         return
     sizes = _sizes(robot, link)
-    if sizes and all(_any_off(each, sorted(size), tolerance) for each in sizes):
+    if sizes and all(_any_off(lengths, sorted(size), tolerance) for lengths in sizes):
         said = " × ".join(f"{1000 * length:.3g}" for length in sizes[0])
         expected = " × ".join(f"{1000 * length:.3g}" for length in sorted(size))
         yield link.span, f"measures {said} mm, expected {expected} mm"

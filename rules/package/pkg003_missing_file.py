@@ -78,7 +78,7 @@ def _topics(package: Package) -> Iterator[Finding | Unchecked]:
     started = [
         reference for reference in package.references if reference.kind is ReferenceKind.ROSLAUNCH
     ]
-    if not any(_may_bridge(package, each) for each in started):
+    if not any(_may_bridge(package, node) for node in started):
         yield from _missing(package, {TOPICS: "which bridges topics to ROS"}, Severity.ERROR)
 
 

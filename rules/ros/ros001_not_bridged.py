@@ -121,7 +121,7 @@ def _findings(missing: Iterable[Channel], place: Place, assuming: str) -> Iterat
             by_owner[channel.owner, channel.need].append(channel)
         seen.add(channel.topics)
     for (owner, need), lacking in by_owner.items():
-        names = ", ".join(_GROUPS.get(each.group, each.what) for each in lacking)
+        names = ", ".join(_GROUPS.get(topic.group, topic.what) for topic in lacking)
         yield finding(
             place,
             f"no bridge for {names} of {lacking[0].owner_name}{assuming}",

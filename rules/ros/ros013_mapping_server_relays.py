@@ -54,12 +54,16 @@ def check(
     if not reasons:
         part = package.part(_TOPICS)
         place = package.place(part.path) if isinstance(part, Found) else package.folder_place()
-        off = [each for each in launch.dormant_includes if posixpath.basename(each.file) == relays]
+        off = [
+            include
+            for include in launch.dormant_includes
+            if posixpath.basename(include.file) == relays
+        ]
         yield finding(
             place,
             f"nothing includes {relays} of subt_ros: expected it in the group of the robot, "
             "with its name",
-            related=[(each, "switched off") for each in off],
+            related=[(include, "switched off") for include in off],
         )
 
 

@@ -54,10 +54,10 @@ def _children(element: Element, kind: ElementType) -> Iterator[Finding]:
         stated = element.all(name)
         if not stated and _has_to_be_said(child):
             yield finding(element, f"{_named(element)} lacks <{name}>", key=f"{element.tag}/{name}")
-        for each in stated:
-            if child.value_type and not each.text.stated:
+        for part in stated:
+            if child.value_type and not part.text.stated:
                 message = f"<{name}> of {_named(element)} is empty"
-                yield finding(each, message, key=f"{element.tag}/{name} empty")
+                yield finding(part, message, key=f"{element.tag}/{name} empty")
 
 
 def _has_to_be_said(child: ElementType) -> bool:

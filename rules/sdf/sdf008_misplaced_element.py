@@ -38,7 +38,7 @@ def check(sdf: SdfDocument) -> Findings:
         if path not in belonging:
             belonging[path] = _places(*path, parents_of(sdf.version))
         listed = belonging[path]
-        named = (f"another <{each}>" if each == parent.tag else f"<{each}>" for each in listed)
+        named = (f"another <{tag}>" if tag == parent.tag else f"<{tag}>" for tag in listed)
         belongs = "; it belongs in " + " or ".join(named) if listed else ""
         harmless = (parent.tag, element.tag) in HARMLESS
         yield finding(

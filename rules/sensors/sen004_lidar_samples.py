@@ -70,9 +70,9 @@ def _expected(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
     at_rate = by_rate.get(sensor.update_rate.value)
     listed = at_rate or [sample for samples in by_rate.values() for sample in samples]
     share = _share_of_turn(lidar, device)
-    expected = [float(each) for each in listed]
+    expected = [float(number) for number in listed]
     if share < 1 and max(expected, default=1) > 1:
-        expected += [float(round(each * share)) for each in listed]
+        expected += [float(round(number * share)) for number in listed]
     defaults = device.values.get("seed_defaults", {})
     if expected and "samples" in defaults and sensor.update_rate.value == defaults.get("rate"):
         expected.append(float(defaults["samples"]))
@@ -89,7 +89,7 @@ def _share_of_turn(lidar: Lidar, device: Device) -> float:
 
 
 def _fits(samples: float, expected: list[float], tolerance: float) -> bool:
-    return any(abs(samples - each) <= max(1.0, tolerance * each) for each in expected)
+    return any(abs(samples - number) <= max(1.0, tolerance * number) for number in expected)
 
 
 def _finding(

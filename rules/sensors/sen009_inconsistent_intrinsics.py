@@ -55,8 +55,8 @@ def check(robot: Robot, *, tolerance: float = 0.01, centre_tolerance: float = 1.
         wrong = [*lengths, *others]
         if not wrong:
             continue
-        said = ", ".join(f"{each.tag} = {each.value.value:.6g}" for each in wrong)
-        expected = ", ".join(f"{each.tag} = {each.expected:.6g}" for each in wrong)
+        said = ", ".join(f"{entry.tag} = {entry.value.value:.6g}" for entry in wrong)
+        expected = ", ".join(f"{entry.tag} = {entry.expected:.6g}" for entry in wrong)
         calibrated = given.are_measured and not lengths
         yield finding(
             given,
@@ -86,7 +86,9 @@ def _wrong_centre(given: Intrinsics, picture: Pinhole, tolerance: float) -> Iter
 
 def _fix(given: Intrinsics, wrong: Sequence[_Wrong]) -> Fix:
     edits = [
-        each.value.span.replaced_by(f"{each.expected:.6g}") for each in wrong if each.value.stated
+        entry.value.span.replaced_by(f"{entry.expected:.6g}")
+        for entry in wrong
+        if entry.value.stated
     ]
     missing = [f"<{w.tag}>{w.expected:.6g}</{w.tag}>" for w in wrong if not w.value.stated]
     if missing:

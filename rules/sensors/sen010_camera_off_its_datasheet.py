@@ -133,7 +133,7 @@ def _view_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap
     if not angles or values.get("fisheye"):
         return
     accepted = [*angles, *values.get("hfov_rad_seen", ())]
-    if not any(math.isclose(view.value, each, rel_tol=tolerance) for each in accepted):
+    if not any(math.isclose(view.value, width, rel_tol=tolerance) for width in accepted):
         expected = " or ".join(dict.fromkeys(f"{angle:.4g}" for angle in sorted(angles)))
         said = f"a horizontal_fov of {view.value:.4g} rad"
         said = said if view.stated else f"no <horizontal_fov> (default {view.value:.4g} rad)"

@@ -74,7 +74,7 @@ def _differing(
         if not difference:
             continue
         noise = imu.noises.get((quantity, axis))
-        axes = ", ".join(each for each in "xyz" if said[each] == difference)
+        axes = ", ".join(letter for letter in "xyz" if said[letter] == difference)
         yield finding(
             noise or imu,
             f"IMU {sensor.name.value!r} has {quantity} ({_UNITS[quantity]}) on {axes} with "

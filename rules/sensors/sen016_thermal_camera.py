@@ -40,7 +40,9 @@ def check(robot: Robot, context: Context, *, tolerance: float = 0.01) -> Finding
         if sensor.kind is not SensorType.THERMAL_CAMERA:
             continue
         yield from _format(sensor)
-        plugin = next((each for each in sensor.plugins if each.class_name == _CLASS), None)
+        plugin = next(
+            (candidate for candidate in sensor.plugins if candidate.class_name == _CLASS), None
+        )
         if plugin is None:
             yield finding(
                 sensor,

@@ -61,7 +61,7 @@ def check(
             related=[(light, "another light") for _, light in lights[most + 1 :]],
         )
     yield from _without_range(light for _, light in lights)
-    visuals = [each for link in robot.links for each in placed(robot, link, link.visuals)]
+    visuals = [piece for link in robot.links for piece in placed(robot, link, link.visuals)]
     for link, light in islice(lights, _PLACED):
         pose = robot.pose_of_part(link, light.pose)
         if pose is None or light.type == "directional":

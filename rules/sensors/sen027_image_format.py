@@ -46,7 +46,7 @@ def check(robot: Robot, context: Context) -> Findings:
 def _listed(formats: Sequence[str], names: Mapping[str, str]) -> str:
     """Return the formats by the names that people write: `R8G8B8` for `RGB_INT8`."""
     usual = {meant: name for name, meant in reversed(list(names.items()))}
-    return ", ".join(usual[each] for each in formats)
+    return ", ".join(usual[key] for key in formats)
 
 
 def _camera(format_: str, kind: str = "camera") -> str:

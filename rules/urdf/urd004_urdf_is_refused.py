@@ -49,7 +49,7 @@ def _type_and_limit(joint: Joint) -> Iterator[Finding]:
         message = f"{kind} joint {name!r} has no <limit>, expected one with effort and velocity"
         yield finding(joint, message)
         return
-    missing = [each for each in ("effort", "velocity") if limit.get(each) is None]
+    missing = [name for name in ("effort", "velocity") if limit.get(name) is None]
     if missing:
         yield finding(limit.span, f"<limit> of joint {name!r} has no {' and no '.join(missing)}")
 

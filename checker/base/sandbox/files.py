@@ -130,7 +130,7 @@ def read(
     """
     size = (os.fstat(descriptor).st_size if end is None else end) - start
     tail = os.pread(descriptor, _TAIL, start + max(0, size - _TAIL))
-    message, table = (int.from_bytes(each, "big") for each in (tail[:_LENGTH], tail[_LENGTH:]))
+    message, table = (int.from_bytes(field, "big") for field in (tail[:_LENGTH], tail[_LENGTH:]))
     at = size - _TAIL - table - message
     if len(tail) < _TAIL or at < 0:
         raise Damaged("is cut off")

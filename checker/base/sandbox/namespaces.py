@@ -96,8 +96,8 @@ def end(wrapper: int) -> None:
     """
     with suppress(OSError):
         started = Path(f"/proc/{wrapper}/task/{wrapper}/children").read_text("ascii")
-        for each in started.split():
-            os.kill(int(each), signal.SIGKILL)
+        for word in started.split():
+            os.kill(int(word), signal.SIGKILL)
 
 
 def leave_network() -> None:

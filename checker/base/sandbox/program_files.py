@@ -57,5 +57,5 @@ def _private(path: str) -> bool:
         return False
     # A service may have none but the root of the system.
     return home != Path(home.anchor) and any(
-        each.is_relative_to(path) for each in (home, home.resolve())
+        folder.is_relative_to(path) for folder in (home, home.resolve())
     )

@@ -176,7 +176,7 @@ def _python() -> Result:
 
 def _libraries() -> Iterator[Result]:
     try:
-        needed = [_NEEDED.fullmatch(each) for each in requires("subt-check") or ()]
+        needed = [_NEEDED.fullmatch(requirement) for requirement in requires("subt-check") or ()]
     except PackageNotFoundError:
         yield Result(State.NOTE, "subt-check runs without being installed", "see README.md")
         return

@@ -128,7 +128,9 @@ class _Expansion:
         self._dormant_bridges += dormant._bridges
         self._dormant_nodes += dormant._nodes
         assumed = set(dormant._assumed)
-        self._dormant_includes += [each for each in dormant._unresolved if each not in assumed]
+        self._dormant_includes += [
+            include for include in dormant._unresolved if include not in assumed
+        ]
 
     def _arg(self, element: Element, scope: Scope) -> None:
         name = element.get("name") or ""

@@ -232,7 +232,7 @@ class LaunchGraph(Record, eq=False, dict=True):
             and include.package != _SIMULATOR
             and posixpath.basename(include.file) != _DESCRIPTION
         )
-        reasons = [f"{each.file} is not read: {each.reason}" for each in missing]
+        reasons = [f"{file.file} is not read: {file.reason}" for file in missing]
         reasons += [
             f"the condition {condition.value!r} is not known before the launch"
             for condition in self.undecided

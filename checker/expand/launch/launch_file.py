@@ -64,7 +64,9 @@ def read_command(command: str) -> Iterator[Load]:
         return
     pairs = (word.partition(":=") for word in words)
     args = {name: value for name, assigned, value in pairs if assigned and is_known(value)}
-    tools = {each.rpartition("/")[2].removesuffix(".py") for each in (program, *words)}
+    tools = {
+        program_word.rpartition("/")[2].removesuffix(".py") for program_word in (program, *words)
+    }
     yield Load(file, args, by_xacro="xacro" in tools)
 
 

@@ -145,7 +145,9 @@ class LaunchFiles(Record):
             return f"package {package} is not available"
         holder = self.package if not prefix else self.package.workspace.package(package)
         files = holder.index.files if holder else ()
-        named = (each.path for each in files if posixpath.basename(each.path) == file)
+        named = (
+            candidate.path for candidate in files if posixpath.basename(candidate.path) == file
+        )
         path = next(named, f"launch/{file}")
         return self._read(posixpath.join(prefix, path))
 

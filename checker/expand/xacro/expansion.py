@@ -90,7 +90,7 @@ class Expansions:
         self._cache = cache
         self._gathered = Gathered(package)
         self._jobs: list[dict[str, Any]] = [
-            {"file": path_of(package, each.path), "args": dict(each.args)} for each in wanted
+            {"file": path_of(package, wish.path), "args": dict(wish.args)} for wish in wanted
         ]
         self._gathered.follow(job["file"] for job in self._jobs)
         self._begun = self._begin()

@@ -77,18 +77,18 @@ def _sum(budget: Budget, items: Any, /) -> float:
 
 def _distance(budget: Budget, *points: Any) -> float:
     found = [listed(budget, point) for point in points]
-    for each in found:
-        weigh(each, budget)
+    for value in found:
+        weigh(value, budget)
     return math.dist(*found)
 
 
 def _product(budget: Budget, items: Any, /, *, start: Any = 1) -> Any:
     found = listed(budget, items)
-    if not all(type(each) in NUMBERS for each in (*found, start)):
+    if not all(type(value) in NUMBERS for value in (*found, start)):
         weigh(found, budget)
     result = start
-    for each in found:
-        result = multiply(result, each, budget)
+    for value in found:
+        result = multiply(result, value, budget)
     return result
 
 
@@ -200,7 +200,7 @@ def global_symbols(load_yaml: LoadYaml) -> dict[str, Any]:
         [("arg", _arg), ("fatal", _fatal), ("tokenize", _tokens)]
         + [(f"xacro.{name}", _silent) for name in _SILENT]
     )
-    own = {each.rpartition(".")[2]: work for each, work in (named | others).items()}
+    own = {dotted.rpartition(".")[2]: work for dotted, work in (named | others).items()}
     return {
         **{name: FUNCTIONS[name] for name in _DIRECT},
         **_TRUTH,
@@ -236,7 +236,7 @@ def _silent(budget: Budget, *said: Any, **how: Any) -> str:
 
 
 def _fatal(budget: Budget, *said: Any) -> Any:
-    raise xacro.XacroException(" ".join(text_of(each, budget) for each in said))
+    raise xacro.XacroException(" ".join(text_of(value, budget) for value in said))
 
 
 def _tokens(budget: Budget, s: Any, sep: Any = ",; ", skip_empty: Any = True) -> list[str]:

@@ -170,9 +170,9 @@ class ControlSystem(Record, eq=False, dict=True):
     def spawned(self) -> tuple[Spawned, ...]:
         """Controllers that launch files start; each place once."""
         found = {
-            (each.full_name, each.span.source.file, each.span.start): each
+            (controller.full_name, controller.span.source.file, controller.span.start): controller
             for launch in self.launches
-            for each in launch.spawned
+            for controller in launch.spawned
         }
         return tuple(found.values())
 
@@ -188,7 +188,7 @@ class ControlSystem(Record, eq=False, dict=True):
     @cached_property
     def namespaces(self) -> frozenset[str]:
         """Namespaces in which launch files start controllers."""
-        return frozenset(each.namespace for each in self.spawned)
+        return frozenset(controller.namespace for controller in self.spawned)
 
     @cached_property
     def plugin_namespaces(self) -> Mapping[str, Span]:
@@ -223,14 +223,14 @@ class ControlSystem(Record, eq=False, dict=True):
     @cached_property
     def namesakes(self) -> Mapping[str, Controller]:
         """Controllers that launch files load, by name, whatever their namespace."""
-        return {each.name: each for each in self.configured.values()}
+        return {controller.name: controller for controller in self.configured.values()}
 
     def publishers(self, launch: ControlLaunch) -> Iterator[Spawned]:
         """Yield the controllers of a launch file that publish joint states."""
-        for each in launch.spawned:
-            controller = self.configured.get(each.full_name) or self.namesakes.get(each.name)
+        for spawned in launch.spawned:
+            controller = self.configured.get(spawned.full_name) or self.namesakes.get(spawned.name)
             if controller is not None and controller.kind == STATE_CONTROLLER:
-                yield each
+                yield spawned
 
     @cached_property
     def interfaces(self) -> Mapping[str, Located[str]]:

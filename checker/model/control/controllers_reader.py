@@ -89,9 +89,9 @@ def _joints(node: YamlNode) -> Iterator[Located[str]]:
         named = node.get(key)
         if named is None:
             continue
-        for each in named.items if named.kind == "sequence" else (named,):
-            if isinstance(each.scalar, str) and "$(" not in each.scalar:
-                yield Located(each.scalar, each.span)
+        for item in named.items if named.kind == "sequence" else (named,):
+            if isinstance(item.scalar, str) and "$(" not in item.scalar:
+                yield Located(item.scalar, item.span)
 
 
 def _gains(node: YamlNode, joints: tuple[Located[str], ...]) -> dict[str, Mapping[str, Gain]]:

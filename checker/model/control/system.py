@@ -199,9 +199,9 @@ def control_system(
         transmissions=tuple(
             transmission for one in described for transmission in one.transmissions
         ),
-        plugins=tuple(_plugin(each) for each in _called(plugins, MANAGER_PLUGIN)),
+        plugins=tuple(_plugin(plugin) for plugin in _called(plugins, MANAGER_PLUGIN)),
         publishes_states=bool(_called(plugins, _STATE_PLUGIN)),
-        has_manager=any(_MANAGER in library_stem(each.filename.value) for each in plugins),
+        has_manager=any(_MANAGER in library_stem(plugin.filename.value) for plugin in plugins),
         otherwise_moved=frozenset(_mentioned(plugins)),
         controllers=tuple(parameters.controllers),
         simulator_gains=tuple(parameters.gains),
@@ -247,7 +247,10 @@ def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlL
     listeners = (read_listener(node) for node in graph.nodes)
     models = (read_model(node) for node in graph.nodes)
     topics = (published_states(node) for node in graph.nodes)
-    unread += (f"whether {each.value} is true is known only at launch" for each in graph.undecided)
+    unread += (
+        f"whether {condition.value} is true is known only at launch"
+        for condition in graph.undecided
+    )
     return ControlLaunch(
         entry.file,
         tuple(_spawned(graph.nodes, unread)),

@@ -99,7 +99,7 @@ class SensorDevices(Record, eq=False, dict=True):
 
     @cached_property
     def _by_sensor(self) -> dict[Sensor, SensorDevice]:
-        return {each.sensor: each for each in self.known}
+        return {device.sensor: device for device in self.known}
 
     def of(self, sensor: Sensor) -> SensorDevice | None:
         """Return the device that a sensor stands for; None when nothing tells."""

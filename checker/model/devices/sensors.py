@@ -46,7 +46,7 @@ _KINDS = {
 
 def class_of_device(device: Device) -> LidarClass | None:
     """Return how a device scans; None when it is no lidar."""
-    return next((each for each in LidarClass if each.value == device.kind), None)
+    return next((kind for kind in LidarClass if kind.value == device.kind), None)
 
 
 def class_of_kind(kind: SensorKind) -> LidarClass | None:
@@ -222,8 +222,8 @@ def _fits(item: _Item, group: Sequence[_Named]) -> bool:
     if count is None:
         return len({_settings(named.sensor) for named in group}) == 1
     values = device.values if device is not None else {}
-    each = values.get("cameras", values.get("cameras_per_device", 1))
-    return len(group) in (count, count * each)
+    cameras = values.get("cameras", values.get("cameras_per_device", 1))
+    return len(group) in (count, count * cameras)
 
 
 def _settings(sensor: Sensor) -> tuple[float, ...]:

@@ -49,10 +49,10 @@ def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
         TooManyPairs: More collisions lie side by side than are compared.
     """
     shapes = [
-        each
+        piece
         for link in robot.tree.links.values()
-        for each in placed(robot, link, link.collisions)
-        if is_convex(robot, each)
+        for piece in placed(robot, link, link.collisions)
+        if is_convex(robot, piece)
     ]
     bodies = rigid_bodies(robot)
     tied = _tied(robot, bodies)

@@ -56,7 +56,7 @@ def rolling_parts(robot: Robot) -> list[RollingPart]:
     tracks = {track.link.scoped_name for track in robot.locomotion.tracks}
     found = []
     for links, wheel in _parts(robot):
-        shapes = [each.box for link in links for each in placed(robot, link, link.collisions)]
+        shapes = [piece.box for link in links for piece in placed(robot, link, link.collisions)]
         box = union(shapes)
         above = robot.tree.above.get(links[0].scoped_name, ())
         suspended = any(giving.get(tie.parent, False) for tie in above)

@@ -113,7 +113,7 @@ def sensor_channels(sensor: Sensor) -> Iterator[Channel]:
             topics = [stated]
         else:
             prefix = _prefix(sensor)
-            topics = [posixpath.normpath(f"{prefix}/{each}") for each in entry["topics"]]
+            topics = [posixpath.normpath(f"{prefix}/{suffix}") for suffix in entry["topics"]]
         yield _channel(entry, sensor, topics)
 
 

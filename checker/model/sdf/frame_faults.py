@@ -182,7 +182,7 @@ def _attachments(robot: Robot) -> Iterator[Fault]:
             path[at] = None
             at = attached[at]
         done.update(path)
-        if at in path and any(frames[each].pose.relative_to for each in path):
+        if at in path and any(frames[step].pose.relative_to for step in path):
             message = f"frame {at!r} is attached to itself through {attached[at]!r}"
             yield Fault(FaultKind.FRAME, frames[at].span, message)
 

@@ -87,11 +87,13 @@ def endurance(stated: Sequence[Quantity]) -> Quantity | None:
     What the model is limited to counts more than what the robot reaches.
     """
     general = [duration for duration in stated if not duration.configurations]
-    limits = [each for each in general if each.kind is QuantityKind.ENDURANCE_LIMIT]
+    limits = [quantity for quantity in general if quantity.kind is QuantityKind.ENDURANCE_LIMIT]
     for same_kind in (limits, general):
         if same_kind:
             first = same_kind[0]
-            agree = all(abs(each.value - first.value) <= _SAME * first.value for each in same_kind)
+            agree = all(
+                abs(quantity.value - first.value) <= _SAME * first.value for quantity in same_kind
+            )
             return first if agree else None
     return None
 

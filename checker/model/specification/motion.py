@@ -180,7 +180,9 @@ def limit_of(stated: Sequence[Limit], quantity: MotionQuantity, axis: str) -> Li
         if limit.quantity is quantity and (axis in limit.axes or not limit.axes)
     ]
     best = [limit for limit in fitting if limit.modeled] or fitting
-    agree = all((each.minimum, each.maximum) == (best[0].minimum, best[0].maximum) for each in best)
+    agree = all(
+        (limit.minimum, limit.maximum) == (best[0].minimum, best[0].maximum) for limit in best
+    )
     return best[0] if best and agree else None
 
 

@@ -185,7 +185,7 @@ def _contains(title: str, wanted: str) -> bool:
 
 
 def _sections(passages: tuple[Passage, ...]) -> Iterator[Section]:
-    headings = [i for i, each in enumerate(passages) if each.kind is PassageKind.HEADING]
+    headings = [i for i, passage in enumerate(passages) if passage.kind is PassageKind.HEADING]
     # From the back, so that the end of each level is known when a heading is met.
     ends = [len(passages)] * 7
     found = []

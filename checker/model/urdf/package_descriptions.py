@@ -89,7 +89,11 @@ def _outermost(package: Package) -> Iterator[str]:
     """Yield the files that call themselves a robot and that no other file includes."""
     paths = [path for path in _files(package) if not _is_empty(package, path)]
     documents = {path: package.xml(path) for path in paths}
-    roots = {path: each.root for path, each in documents.items() if isinstance(each, XmlDocument)}
+    roots = {
+        path: document.root
+        for path, document in documents.items()
+        if isinstance(document, XmlDocument)
+    }
     included = {
         posixpath.basename(descendant.get("filename") or "")
         for path, root in roots.items()
@@ -161,7 +165,7 @@ class Describing:
     def files(self) -> UrdfFiles:
         """What became of the files; the first call waits for their expansion."""
         outcomes = self._expansions.outcomes() if self._expansions is not None else []
-        expanded = dict(zip((each.path for each in self._wanted), outcomes, strict=True))
+        expanded = dict(zip((wish.path for wish in self._wanted), outcomes, strict=True))
         descriptions, faults = [], []
         unread: list[tuple[Candidate, str]] = []
         for candidate in self._candidates:
@@ -180,8 +184,8 @@ class Describing:
         return UrdfFiles(
             tuple(descriptions),
             tuple(faults),
-            tuple(reason for each, reason in unread if each.loaded or not self._for_rviz),
-            tuple(reason for each, reason in unread if self._for_rviz and not each.loaded),
+            tuple(reason for file, reason in unread if file.loaded or not self._for_rviz),
+            tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
         )
 
     def stop(self) -> None:

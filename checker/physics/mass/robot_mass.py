@@ -147,13 +147,13 @@ class Weights(Record):
     """What they say of some bodies.
 
     Attributes:
-        each: In the order of the bodies.
+        of_bodies: In the order of the bodies.
         centre: Of the mass of all that weigh something and whose place is known, in the robot's
             frame, metres; None where nothing is known of it.
         inertia: Rows of the 3×3 inertia about this centre, robot's axes, kg·m²; likewise.
     """
 
-    each: tuple[Weight, ...]
+    of_bodies: tuple[Weight, ...]
     centre: Vector | None
     inertia: Rows | None
 
@@ -175,7 +175,7 @@ def _from_json(members: Any, number: int) -> Weights | None:
         known = msgspec.convert(members, Weights)
     except msgspec.ValidationError:
         return None
-    return known if len(known.each) == number else None
+    return known if len(known.of_bodies) == number else None
 
 
 def _three(numbers: Sequence[float]) -> Vector:
@@ -187,17 +187,17 @@ def _weighed(bodies: Sequence[Body]) -> Weights:
     import numpy as np
     import pinocchio as pin
 
-    each = []
+    weights = []
     total = pin.Inertia.Zero()
     doubtful = False
     for body in bodies:
         moments = np.array(body.moments)
         weight = Weight(principal_moments(moments), pseudo_eigenvalue(body.mass, moments))
-        each.append(weight)
+        weights.append(weight)
         if body.pose is not None and 0.0 < body.mass < math.inf:
             total += placed_inertia(body.mass, moments, body.pose)
             doubtful |= math.isnan(weight.principal[0])
-    return Weights(tuple(each), _centre(total), None if doubtful else _rows(total))
+    return Weights(tuple(weights), _centre(total), None if doubtful else _rows(total))
 
 
 def _centre(total: pin.Inertia) -> Vector | None:
@@ -229,7 +229,7 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
     links = {
         name: _link_inertia(link, body, weight)
         for (name, link), body, weight in zip(
-            robot.tree.links.items(), bodies, weights.each, strict=True
+            robot.tree.links.items(), bodies, weights.of_bodies, strict=True
         )
     }
     stand = stand_of(robot)

@@ -105,15 +105,15 @@ def appearances(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) 
         files: All of these, under the names that the items give them.
         forks: Reads them.
     """
-    if any(each["pictures"] for each in items):
+    if any(item["pictures"] for item in items):
         import_module("PIL.Image")
     shared = _shared_pictures(items, files, forks)
-    read = forks([partial(_as_json, each, files, shared) for each in items])
+    read = forks([partial(_as_json, item, files, shared) for item in items])
     return [
-        json.dumps(appearance_to_json(each.reason)).encode()
-        if isinstance(each, WorkerFailed)
-        else each
-        for each in read
+        json.dumps(appearance_to_json(answer.reason)).encode()
+        if isinstance(answer, WorkerFailed)
+        else answer
+        for answer in read
     ]
 
 
@@ -141,9 +141,9 @@ def appearance_of(
     except NoSurface as none:
         return none.reason
     painted = [_painted(piece, asked["pictures"], files, shared) for piece in pieces]
-    most = shares([len(each.faces) for each in painted], asked["triangles"], _SMALL)
+    most = shares([len(look.faces) for look in painted], asked["triangles"], _SMALL)
     return tuple(
-        thinned(each, count) for each, count in zip(painted, most, strict=True) if count > 0
+        thinned(look, count) for look, count in zip(painted, most, strict=True) if count > 0
     )
 
 
@@ -167,7 +167,7 @@ def _picture(files: Files, path: str) -> Array | None:
 
 def _shared_pictures(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> Pictures:
     """Read the pictures that several files use: to decode one can take half a second."""
-    uses = Counter(path for each in items for path in set(each["pictures"].values()))
+    uses = Counter(path for item in items for path in set(item["pictures"].values()))
     shared = [path for path, number in uses.most_common(_SHARED) if number > 1]
     read = forks([partial(_pixels, files, path) for path in shared])
     return dict(zip(shared, map(_as_picture, read), strict=True))

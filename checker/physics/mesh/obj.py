@@ -103,7 +103,7 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
     for line in _CONTINUED.sub(b" ", data).splitlines():
         if words := line.split():
             reading.line(words)
-    materials = dict(each for content in material_files for each in _materials_in(content))
+    materials = dict(material for content in material_files for material in _materials_in(content))
     pieces = tuple(_pieces(reading, materials))
     return MeshContent(pieces, materials=_names(_MATERIALS, data), parts=_names(_PART, data))
 

@@ -52,7 +52,7 @@ def answer(request: bytes, files: Files) -> bytes:
 def _facts(items: Sequence[Mapping[str, str]], files: Files, forks: Forks) -> list[bytes]:
     """Return what files hold; each item has a `file`, and the `name` that the model knows."""
     read = forks([partial(_fact, item, files) for item in items])
-    return [_failed(each) if isinstance(each, WorkerFailed) else each for each in read]
+    return [_failed(result) if isinstance(result, WorkerFailed) else result for result in read]
 
 
 def _fact(item: Mapping[str, str], files: Files) -> bytes:
@@ -83,7 +83,9 @@ def _view(item: Mapping[str, Any], files: Files, forks: Forks) -> dict[str, Any]
         return json.dumps(seen_of_mesh(sensors, mesh, files.read(mesh["file"]))).encode()
 
     told = forks([partial(seen, mesh) for mesh in item["meshes"]])
-    read = [each.reason if isinstance(each, WorkerFailed) else json.loads(each) for each in told]
+    read = [
+        result.reason if isinstance(result, WorkerFailed) else json.loads(result) for result in told
+    ]
     return views_of(item, sensors, read)
 
 

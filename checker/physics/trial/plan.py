@@ -124,10 +124,10 @@ class Plan(Record):
         return cls(
             **{
                 **said,
-                "legs": tuple(Leg(**each) for each in said["legs"]),
-                "wheels": tuple(DrivenWheel(**each) for each in said["wheels"]),
-                "belts": tuple(Belt(**each) for each in said["belts"]),
-                "rotors": tuple(PlannedRotor(**each) for each in said["rotors"]),
+                "legs": tuple(Leg(**leg) for leg in said["legs"]),
+                "wheels": tuple(DrivenWheel(**wheel) for wheel in said["wheels"]),
+                "belts": tuple(Belt(**belt) for belt in said["belts"]),
+                "rotors": tuple(PlannedRotor(**rotor) for rotor in said["rotors"]),
                 "notes": tuple(said["notes"]),
             }
         )

@@ -68,13 +68,13 @@ def asked_of(robot: Robot, content: Content) -> Asked:
             scene.add(number, visual, robot.pose_of_part(link, visual.pose), content)
     request = {
         "sensors": [
-            {"pose": _numbers(each.pose), "grid": grid.as_json()} for each, grid in looking
+            {"pose": _numbers(mount.pose), "grid": grid.as_json()} for mount, grid in looking
         ],
         "solids": scene.solids,
         "meshes": list(scene.meshes.values()),
     }
     contents = tuple(key for key, _ in scene.meshes)
-    seen = tuple(each for each, _ in looking)
+    seen = tuple(mount for mount, _ in looking)
     return Asked(request, contents, seen, tuple(visuals), tuple(dict.fromkeys(scene.unseen)))
 
 
@@ -127,7 +127,7 @@ class _Scene(Record, eq=False):
             self.unseen.append(f"{named} {found.reason}")
             return
         part, whole = _part(visual)
-        scale = [each.value for each in visual.geometry.sizes.get("scale", ())]
+        scale = [factor.value for factor in visual.geometry.sizes.get("scale", ())]
         if not whole or len(scale) != 3 or not all(map(math.isfinite, scale)):
             self.unseen.append(f"{named} is only partly used (<submesh>)")
             return

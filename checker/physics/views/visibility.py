@@ -57,7 +57,7 @@ def views_of(
         else:
             found += seen
     views = [
-        _view(grid, [each for each in found if each["sensor"] == number])
+        _view(grid, [hit for hit in found if hit["sensor"] == number])
         for number, (_, grid) in enumerate(sensors)
     ]
     return {"views": views, "unread": unread}
@@ -78,12 +78,12 @@ def _view(grid: Grid, met: Iterable[Met]) -> dict[str, Any]:
     first = np.full(len(grid.weights), np.inf)
     cut = np.zeros(len(grid.weights), bool)
     most = (0.0, -1)
-    for each in met:
-        rays = each["rays"]
-        first[rays] = np.minimum(first[rays], each["reach"])
-        cut[each["cut"]] = True
-        near = [*rays, *each["cut"]]
-        most = max(most, (float(grid.weights[near].sum()), each["visual"]))
+    for hit in met:
+        rays = hit["rays"]
+        first[rays] = np.minimum(first[rays], hit["reach"])
+        cut[hit["cut"]] = True
+        near = [*rays, *hit["cut"]]
+        most = max(most, (float(grid.weights[near].sum()), hit["visual"]))
     filled = np.flatnonzero(np.isfinite(first) & (grid.weights > 0.0))
     return {
         "shares": grid.weights[filled].round(6).tolist(),

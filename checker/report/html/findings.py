@@ -150,7 +150,7 @@ def groups_of(findings: Sequence[ReportedFinding]) -> list[RuleGroup]:
         groups.append(
             RuleGroup(
                 str(severity), plain(first.rule), plain(first.name), plain(first.why),
-                plain(first.how), tuple(_shown(each) for each in shown),
+                plain(first.how), tuple(_shown(place) for place in shown),
                 len(found) - len(shown),
             )
         )  # fmt: skip

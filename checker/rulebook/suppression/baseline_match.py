@@ -38,14 +38,14 @@ def matched(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Matched:
     taken: dict[int, int] = {}
     for tell in _TELLS:
         free = _free(entries, left, tell)
-        for at, each in enumerate(spots):
-            entry = None if at in taken else _take(each, free, left, tell)
+        for at, spot in enumerate(spots):
+            entry = None if at in taken else _take(spot, free, left, tell)
             if entry is not None:
                 taken[at] = entry
     used = set(taken.values())
     # What is left at a place of an unused entry is graver than that: the fault is not gone.
-    left_over = [each for at, each in enumerate(spots) if at not in taken]
-    graver = {_told(tell, each) for each in left_over for tell in _TELLS}
+    left_over = [spot for at, spot in enumerate(spots) if at not in taken]
+    graver = {_told(tell, spot) for spot in left_over for tell in _TELLS}
     unused = (at for at in range(len(entries)) if at not in used)
     stale = tuple(at for at in unused if graver.isdisjoint(_tales(entries[at])))
     return Matched(tuple(map(taken.get, range(len(spots)))), stale)
@@ -85,7 +85,7 @@ def _told(tell: _Tell, spot: Spot) -> Hashable:
 def _tales(entry: BaselineEntry) -> Iterator[Hashable]:
     for place in entry.places:
         told = (tell(entry.rule, place, entry.key, entry.message) for tell in _TELLS)
-        yield from (each for each in told if each is not None)
+        yield from (entry for entry in told if entry is not None)
 
 
 class Held:
@@ -118,7 +118,7 @@ class Held:
             looked: Ids of those that looked at all they ask for.
             file: What to call the baseline's file.
         """
-        gone = {rule: tuple(each.message for each in self._stale[rule]) for rule in self._stale}
+        gone = {rule: tuple(entry.message for entry in self._stale[rule]) for rule in self._stale}
         of_rules = [
             StaleEntries((rule,), gone[rule], file)
             for rule in sorted(gone)

@@ -50,7 +50,7 @@ def entries_of(value: object) -> tuple[SettingsEntry, ...]:
     """
     if not isinstance(value, list) or len(value) > ENTRIES_LIMIT:
         raise ValueError(f"suppress is not a list of at most {ENTRIES_LIMIT} tables")
-    return tuple(_entry(number, each) for number, each in enumerate(value, 1))
+    return tuple(_entry(number, item) for number, item in enumerate(value, 1))
 
 
 def _entry(number: int, value: object) -> SettingsEntry:

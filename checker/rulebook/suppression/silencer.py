@@ -89,13 +89,13 @@ class Silencer:
             found: All that it found.
             spot_of: Returns how the baseline knows a finding.
         """
-        silences = [self._by_wish(rule, each.places[0]) for each in found]
+        silences = [self._by_wish(rule, finding.places[0]) for finding in found]
         if not self.held.knows(rule):
             return silences
         # A place that is reported twice in the same words is one place of the finding.
         spots = {
-            at: (each.places[0], spot_of(each))
-            for at, each in enumerate(found)
+            at: (finding.places[0], spot_of(finding))
+            for at, finding in enumerate(found)
             if silences[at] is None
         }
         distinct = list(dict.fromkeys(spots.values()))
@@ -109,7 +109,7 @@ class Silencer:
     def _by_wish(self, rule: str, place: Place) -> Silence | None:
         """Return the comment or the entry of the settings that is about a place."""
         comment = self._comment_at(rule, place)
-        entries = [each for each in self._entries.get(rule, ()) if each.covers(place)]
+        entries = [entry for entry in self._entries.get(rule, ()) if entry.covers(place)]
         self._used_entries.update(entries)
         if comment:
             return Silence(SuppressedBy.COMMENT, comment.reason, comment.place)
@@ -217,6 +217,6 @@ def parted(
     nothing = [None] * len(found)
     silences = silencer.silences(rule, found, spot_of) if silencer else nothing
     parts: dict[Silence | None, list[Finding]] = {}
-    for each, silence in zip(found, silences, strict=True):
-        parts.setdefault(silence, []).append(each)
+    for finding, silence in zip(found, silences, strict=True):
+        parts.setdefault(silence, []).append(finding)
     return parts

@@ -60,7 +60,7 @@ class Standing(Struct, frozen=True):
     @property
     def end(self) -> End | None:
         """How it has ended; None while it has not."""
-        return next((each for each in End if each == self.stage), None)
+        return next((end for end in End if end == self.stage), None)
 
     def __str__(self) -> str:
         """Say it in a few words."""

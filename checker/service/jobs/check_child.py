@@ -41,7 +41,7 @@ def without_folder(report: Report, place: Path) -> Report:
         report: As it came out of the check.
         place: The folder, laid out by `checker.service.jobs.exchange`.
     """
-    folders = "|".join(re.escape(str(each)) for each in {place, place.resolve()})
+    folders = "|".join(re.escape(str(folder)) for folder in {place, place.resolve()})
     unpacked = rf"{TEMPORARY}/[^/\s]+|{re.escape(GIVEN)}"
     pattern = re.compile(rf"(?:{folders})(?:/(?:{unpacked}))?/?")
     said: Report = _changed(report, lambda text: pattern.sub("", text))
@@ -54,11 +54,11 @@ def _changed(value: Any, change: Callable[[str], str]) -> Any:
         case str() if type(value) is str:
             return change(value)
         case tuple():
-            return tuple(_changed(each, change) for each in value)
+            return tuple(_changed(item, change) for item in value)
         case list():
-            return [_changed(each, change) for each in value]
+            return [_changed(item, change) for item in value]
         case Mapping():
-            return {_changed(key, change): _changed(each, change) for key, each in value.items()}
+            return {_changed(key, change): _changed(item, change) for key, item in value.items()}
         case Record():
             members = {name: _changed(part, change) for name, part in asdict(value).items()}
             return replace(value, **members)
@@ -148,7 +148,7 @@ def _checked(
     except (InvalidSettings, UnreadableInput) as error:
         return _refused(shortened(str(error), 1_000))
     if not report.packages:
-        reasons = (f"{each.path} {each.reason}" for each in report.not_opened)
+        reasons = (f"{item.path} {item.reason}" for item in report.not_opened)
         return _refused(shortened(". ".join(reasons), 1_000))
     return summary(report), _files(report, stage, asked)
 

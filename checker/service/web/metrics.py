@@ -87,6 +87,6 @@ def _gauge(name: str, about: str, value: float) -> GaugeMetricFamily:
 
 def _gauges(name: str, about: str, label: str, values: Mapping[str, float]) -> GaugeMetricFamily:
     family = GaugeMetricFamily(f"{_OURS}_{name}", about, labels=(label,))
-    for each, value in sorted(values.items()):
-        family.add_metric((each,), value)
+    for key, value in sorted(values.items()):
+        family.add_metric((key,), value)
     return family

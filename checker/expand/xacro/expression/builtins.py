@@ -114,11 +114,11 @@ def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[A
         among: How many keys the dictionary has.
     """
     found = tuple(list(argument) if type(argument) in LAZY else argument for argument in arguments)
-    for each in found:
-        weigh(each, budget)
-        keys = each if type(each) in MAPPINGS else []
-        if type(consumed(each, budget)) in SEQUENCES:
-            keys = [pair[0] for pair in each if type(pair) in SEQUENCES and pair]
+    for value in found:
+        weigh(value, budget)
+        keys = value if type(value) in MAPPINGS else []
+        if type(consumed(value, budget)) in SEQUENCES:
+            keys = [pair[0] for pair in value if type(pair) in SEQUENCES and pair]
         spend_on_keys(keys, among + len(keys), budget)
     return found
 
@@ -172,12 +172,12 @@ def extreme(native: Any) -> Work:
 def total(budget: Budget, items: Any, /, start: Any = 0) -> Any:
     """Do what `sum` does."""
     found = listed(budget, items)
-    if all(type(each) in NUMBERS or type(each) is str for each in (*found, start)):
+    if all(type(value) in NUMBERS or type(value) is str for value in (*found, start)):
         weigh(found, budget)
         return sum(found, start)
     result = plain(start)
-    for each in found:
-        result = apply_binary(_ADD, result, each, budget)
+    for value in found:
+        result = apply_binary(_ADD, result, value, budget)
     return result
 
 
@@ -188,7 +188,7 @@ def decided(native: Any) -> Work:
 
 def mapped(budget: Budget, function: Any, /, *items: Any) -> Any:
     """Do what `map` does."""
-    return map(function, *(consumed(each, budget) for each in items))
+    return map(function, *(consumed(item, budget) for item in items))
 
 
 def filtered(budget: Budget, function: Any, items: Any, /) -> Any:
@@ -198,7 +198,7 @@ def filtered(budget: Budget, function: Any, items: Any, /) -> Any:
 
 def zipped(budget: Budget, *items: Any, strict: Any = False) -> Any:
     """Do what `zip` does."""
-    iterators = [counted(consumed(each, budget), budget) for each in items]
+    iterators = [counted(consumed(item, budget), budget) for item in items]
     return zip(*iterators, strict=bool(strict))
 
 

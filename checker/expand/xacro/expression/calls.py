@@ -59,16 +59,16 @@ def _function(found: Any) -> Found:
 def _positional(
     run: Interpreter, node: ast.Call, scope: Scope | None, takes: frozenset[int | str]
 ) -> list[Any]:
-    if takes and any(type(each) is ast.Starred for each in node.args[:1]):
+    if takes and any(type(argument) is ast.Starred for argument in node.args[:1]):
         takes = frozenset()
     found: list[Any] = []
-    for number, each in enumerate(node.args):
+    for number, argument in enumerate(node.args):
         if number in takes:
-            found.append(_function_or_value(run, each, scope))
-        elif type(each) is ast.Starred:
-            found.extend(items(run, [each], scope))
+            found.append(_function_or_value(run, argument, scope))
+        elif type(argument) is ast.Starred:
+            found.extend(items(run, [argument], scope))
         else:
-            found.append(run.value(each, scope))
+            found.append(run.value(argument, scope))
     return found
 
 
@@ -110,7 +110,7 @@ def _lambda(run: Interpreter, node: ast.Lambda, scope: Scope | None) -> Callable
     of = node.args
     if of.vararg or of.kwarg or of.kwonlyargs:
         raise RefusedExpression("a lambda function with other than plain parameters")
-    parameters = [each.arg for each in (*of.posonlyargs, *of.args)]
+    parameters = [parameter.arg for parameter in (*of.posonlyargs, *of.args)]
     defaults = [run.data(default, scope) for default in of.defaults]
 
     def called(*arguments: Any) -> Any:

@@ -73,8 +73,8 @@ def _bind(run: Interpreter, target: ast.expr, item: Any, scope: Scope) -> None:
         raise ValueError(f"too many values to unpack (expected {wanted})")
     if len(found) < wanted:
         raise ValueError(f"not enough values to unpack (expected {wanted}, got {len(found)})")
-    for each, value in zip(targets, found, strict=True):
-        _bind(run, each, value, scope)
+    for part, value in zip(targets, found, strict=True):
+        _bind(run, part, value, scope)
 
 
 def _list(run: Interpreter, node: ast.ListComp, outer: Scope | None) -> list[Any]:

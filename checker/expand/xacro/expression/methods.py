@@ -95,8 +95,8 @@ def _replace(budget: Budget, text: str, *arguments: Any) -> str:
 
 def _join(budget: Budget, text: str, *arguments: Any) -> str:
     found = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
-    for each in found:
-        parts = consumed(each, budget)
+    for value in found:
+        parts = consumed(value, budget)
         if hasattr(type(parts), "__len__"):
             length = sum(map(_length, parts)) + len(text) * len(parts)
             budget.spend_on_text(length)
@@ -177,8 +177,8 @@ def _combining(name: str) -> Method:
         weigh(value, budget)
         others = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
         sizes = len(value) + sum(len(other) for other in others if hasattr(type(other), "__len__"))
-        for each in (value, *others):
-            found = hashable(budget, each)
+        for item in (value, *others):
+            found = hashable(budget, item)
             if type(found) in PLAIN and hasattr(type(found), "__len__"):
                 spend_on_keys(found, sizes, budget)
         return getattr(value, name)(*others)

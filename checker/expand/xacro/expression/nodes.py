@@ -37,9 +37,9 @@ def _binary(run: Interpreter, node: ast.BinOp, scope: Scope | None) -> Any:
     while type(chain[-1].left) is ast.BinOp:
         chain.append(chain[-1].left)
     left = run.value(chain[-1].left, scope)
-    for each in reversed(chain):
-        right = run.value(each.right, scope)
-        left = apply_binary(type(each.op), left, right, run.budget)
+    for operation in reversed(chain):
+        right = run.value(operation.right, scope)
+        left = apply_binary(type(operation.op), left, right, run.budget)
     return left
 
 
@@ -153,8 +153,8 @@ def _subscript(run: Interpreter, node: ast.Subscript, scope: Scope | None) -> An
     if type(node.slice) is ast.Slice:
         part = node.slice
         ends = (
-            None if each is None else run.data(each, scope)
-            for each in (part.lower, part.upper, part.step)
+            None if bound is None else run.data(bound, scope)
+            for bound in (part.lower, part.upper, part.step)
         )
         if type(value) in PLAIN and hasattr(type(value), "__len__"):
             run.budget.spend_on_copy(len(value))

@@ -70,7 +70,7 @@ def footing(motion: Motion, touches: Touches) -> Footing:
     holds = (grip > 0.0) & ~np.isnan(columns).any(axis=1)
     columns, link = columns[holds], touches.link[holds]
     is_wheel = np.array([name in surfaces.wheels for name in touches.names])
-    wheels = [_joined(columns[link == each]) for each in np.unique(link[is_wheel[link]])]
+    wheels = [_joined(columns[link == wheel]) for wheel in np.unique(link[is_wheel[link]])]
     columns = np.vstack([columns[~is_wheel[link]], *wheels])
     return Footing(columns[:, 1:3], columns[:, 0], columns[:, 3:])
 

@@ -112,7 +112,7 @@ def replay_of(run: Run) -> Replay | None:
     rig, samples = run.rig, run.samples
     if not rig.tracked or not samples.tracked:
         return None
-    places, turns = (np.array(each) for each in zip(*samples.tracked, strict=True))
+    places, turns = (np.array(column) for column in zip(*samples.tracked, strict=True))
     with np.errstate(over="ignore"):
         poses = np.concatenate((places, turns), axis=2).astype(np.float32)
     broken = np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))

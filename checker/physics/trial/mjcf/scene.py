@@ -141,7 +141,7 @@ class Scene(Record):
                 "belts": {link: tuple(geoms) for link, geoms in said["belts"].items()},
                 "tied": tuple((first, second) for first, second in said["tied"]),
                 "swept": tuple(said["swept"]),
-                "repairs": tuple(Repair(**each) for each in said["repairs"]),
+                "repairs": tuple(Repair(**repair) for repair in said["repairs"]),
                 "notes": tuple(said["notes"]),
                 "root_in_robot": tuple(said["root_in_robot"]),
             }

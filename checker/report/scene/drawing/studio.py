@@ -65,7 +65,7 @@ def model_of(asked: Mapping[str, Any]) -> Any:
     spec = mujoco.MjSpec.from_string(_STUDIO)
     spec.visual.global_.offwidth, spec.visual.global_.offheight = drawn_size(asked)
     _add_palette(spec)
-    meshes = [surface_from_json(each) for each in asked["meshes"]]
+    meshes = [surface_from_json(surface) for surface in asked["meshes"]]
     solid = [_add_mesh(spec, f"m{number}", mesh) for number, mesh in enumerate(meshes)]
     bodies = [spec.worldbody.add_body(mocap=True) for _ in asked["links"]]
     by_link = dict(zip(asked["links"], bodies, strict=True))

@@ -53,8 +53,14 @@ def rehearsal() -> Mapping[str, Any]:
         "links": [0],
         "geoms": geoms,
         "shots": [
-            {"group": each, "camera": camera, "tile": 1.0, "see_through": each == 1, "poses": poses}
-            for each in _GROUPS
+            {
+                "group": number,
+                "camera": camera,
+                "tile": 1.0,
+                "see_through": number == 1,
+                "poses": poses,
+            }
+            for number in _GROUPS
         ],
     }
 

@@ -74,7 +74,7 @@ def _read(path: Path) -> Glance | None:
         return None
     found = [(package.name, finding) for package in report.packages for finding in package.findings]
     found.sort(key=lambda pair: pair[1].severity.rank)
-    shown = tuple(_first(name, each) for name, each in found[:SHOWN])
+    shown = tuple(_first(name, finding) for name, finding in found[:SHOWN])
     return Glance(shown, len(found) - len(shown))
 
 

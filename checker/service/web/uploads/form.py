@@ -38,7 +38,7 @@ def safe_name(given: str) -> str:
         UnknownKind: Its ending is of no archive and no model file.
     """
     base = re.split(r"[/\\]", given)[-1].strip()
-    suffix = next((each for each in SUFFIXES if base.lower().endswith(each)), None)
+    suffix = next((ending for ending in SUFFIXES if base.lower().endswith(ending)), None)
     if suffix is None:
         raise UnknownKind
     stem = _UNSAFE.sub("_", base[: -len(suffix)]).strip("._-")
