@@ -139,11 +139,11 @@ class Background(Generic[T]):
         """Return as many answers as were asked for, or why there are none."""
         if self._work.here is not None:
             return [self._work.here(self._work.items[key]) for key in unknown]
-        said = self._asked.answer() if self._asked is not None else _NONSENSE
-        if isinstance(said, WorkerFailed):
-            return [said] * len(unknown)
+        answer = self._asked.answer() if self._asked is not None else _NONSENSE
+        if isinstance(answer, WorkerFailed):
+            return [answer] * len(unknown)
         try:
-            answers = from_json(said)
+            answers = from_json(answer)
         except ValueError:
             answers = None
         fits = isinstance(answers, list) and len(answers) == len(unknown)

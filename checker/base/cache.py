@@ -56,7 +56,7 @@ def code_hash(*folders: str) -> str:
         folders: Relative to the package `checker`; results of one are stale when it changes.
     """
     root = Path(__file__).parents[1]
-    return key_of(*sorted(said for name in folders for said in _sources(str(root / name))))
+    return key_of(*sorted(digest for name in folders for digest in _sources(str(root / name))))
 
 
 def _sources(place: str) -> Iterator[str]:

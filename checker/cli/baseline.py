@@ -52,9 +52,9 @@ def write_baseline(before: Baseline, report: Report, rules: Collection[str]) -> 
     for package in report.packages:
         packages[package.name] = _entries(package, before.packages.get(package.name, ()), rules)
     write(before.path, _text(before.path, packages))
-    said = count(sum(len(packages[package.name]) for package in report.packages), "finding")
+    findings = count(sum(len(packages[package.name]) for package in report.packages), "finding")
     where = count(len(report.packages), "package")
-    return f"{plain(str(before.path))} contains {said} of {where}\n"
+    return f"{plain(str(before.path))} contains {findings} of {where}\n"
 
 
 def _refuse_equal_names(report: Report) -> None:

@@ -233,13 +233,13 @@ def _summary(package: FixedPackage) -> Iterator[str]:
             edit for reported in fixed.elsewhere if reported.fix for edit in reported.fix.edits
         ]
         files = sorted({plain(edit.place.file) for edit in edits})
-        said = count(len(fixed.elsewhere), "finding")
-        yield f"{said} to fix in {listed(files)}: check the package that contains it"
+        findings = count(len(fixed.elsewhere), "finding")
+        yield f"{findings} to fix in {listed(files)}: check the package that contains it"
     if fixed.withheld:
-        said = count(len(fixed.withheld), "finding")
+        findings = count(len(fixed.withheld), "finding")
         yield (
-            f"{said} not fixed, because the fix changes behaviour ({_rules(fixed.withheld)}): see "
-            "--diff --unsafe"
+            f"{findings} not fixed, because the fix changes behaviour ({_rules(fixed.withheld)}): "
+            "see --diff --unsafe"
         )
 
 

@@ -135,6 +135,6 @@ def run(options: argparse.Namespace) -> int:
     }
     say = say_progress if sys.stderr.isatty() else say_nothing
     source, destination = Path(options.source), Path(options.destination)
-    said, report = migrated_and_checked(source, destination, wishes, settings, say)
-    show(said)
+    text, report = migrated_and_checked(source, destination, wishes, settings, say)
+    show(text)
     return exit_code(report)

@@ -94,8 +94,8 @@ def _lumped(tie: Tie, link: Link, kept: frozenset[str], notes: Notes) -> bool:
     if tie.joint.name.value not in kept:
         return True
     if link.mass == 0.0:
-        said = "has no mass: its fixed joint is lumped, although a <gazebo> tag asks to keep it"
-        notes.say(link, f"link {link.name.value!r} {said}")
+        reason = "has no mass: its fixed joint is lumped, although a <gazebo> tag asks to keep it"
+        notes.say(link, f"link {link.name.value!r} {reason}")
         return True
     return False
 
@@ -111,8 +111,8 @@ def _drop_massless(found: Bodies, notes: Notes) -> None:
                 del found.holders[part.link.scoped_name]
             continue
         if body.mass == 0.0:
-            said = "Gazebo drops it with all links below it, so it needs an <inertial>"
-            notes.say(body.link, f"link {name!r} has no mass: {said}")
+            reason = "Gazebo drops it with all links below it, so it needs an <inertial>"
+            notes.say(body.link, f"link {name!r} has no mass: {reason}")
         if body.tie is not None and body.tie.parent in found.holders:
             carrying.add(found.holders[body.tie.parent].link.scoped_name)
 

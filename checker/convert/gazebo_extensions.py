@@ -79,8 +79,8 @@ class Copier:
             chosen = unique(name, self.taken.setdefault((link, element.tag), {}))
             if chosen != name:
                 twin.set("name", chosen)
-                said = f"{element.tag} {name!r} is renamed to {chosen!r}"
-                self.notes.say(element, f"{said}: link {link!r} already has one with that name")
+                message = f"{element.tag} {name!r} is renamed to {chosen!r}"
+                self.notes.say(element, f"{message}: link {link!r} already has one with that name")
             name = chosen
         return name if element.tag == "sensor" else ""
 
@@ -97,8 +97,8 @@ class Copier:
         scope = Scope("", MODEL_FRAME, (1, 6), ValueReader(), FrameGraph())
         own = scope.pose(element)
         if own.relative_to:
-            said = f"<pose> of a {element.tag} is relative to {own.relative_to!r}: not changed"
-            self.notes.say(own, said)
+            message = f"<pose> of a {element.tag} is relative to {own.relative_to!r}: not changed"
+            self.notes.say(own, message)
             return
         node = twin.find("pose")
         if node is None:

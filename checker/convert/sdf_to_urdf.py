@@ -115,14 +115,14 @@ def add_joint(robot: etree._Element, named: Named, step: Step, base: Transform) 
 
 
 def _add_limits(joint: etree._Element, kind: str, axis: Axis) -> None:
-    said = {}
+    limits = {}
     if kind != "continuous":
-        said = {"lower": _finite(axis.lower.value), "upper": _finite(axis.upper.value)}
+        limits = {"lower": _finite(axis.lower.value), "upper": _finite(axis.upper.value)}
     most = (axis.effort.value, axis.velocity.value)
-    if said or any(map(math.isfinite, most)):
+    if limits or any(map(math.isfinite, most)):
         # URDF wants both of every joint that states limits.
-        said |= {"effort": _finite(most[0]), "velocity": _finite(most[1])}
-        add(joint, "limit", **said)
+        limits |= {"effort": _finite(most[0]), "velocity": _finite(most[1])}
+        add(joint, "limit", **limits)
     resistance = {"damping": axis.damping.value, "friction": axis.friction.value}
     if any(resistance.values()):
         add(joint, "dynamics", **{name: exact(value) for name, value in resistance.items()})
@@ -199,8 +199,8 @@ class _Writer:
         tie, child = self.hanging.by.get(name), self._pose(name)
         if tie is None:
             link = self.robot.tree.links[name]
-            said = f"link {name!r} has no parent link: a floating joint connects it to {top!r}"
-            self.notes.say(link, said)
+            message = f"link {name!r} has no parent link: a floating joint connects it to {top!r}"
+            self.notes.say(link, message)
         at = top if tie is None else tie.parent
         steps = [Step("floating", child)] if tie is None else self._steps(tie, child)
         base, parent = self._pose(at), self._name(at)
@@ -218,8 +218,10 @@ class _Writer:
         steps = list(steps_of(self.robot, tie, child))
         joint = tie.joint
         if steps[0].kind == "fixed" and joint.type.value != "fixed":
-            said = f"joint {joint.scoped_name!r} ({joint.type.value}) is written as a fixed joint"
-            self.notes.say(joint, f"{said}: its limits, its axis or URDF allow no motion")
+            message = (
+                f"joint {joint.scoped_name!r} ({joint.type.value}) is written as a fixed joint"
+            )
+            self.notes.say(joint, f"{message}: its limits, its axis or URDF allow no motion")
         return steps
 
     def _pose(self, name: str) -> Transform:
@@ -233,14 +235,14 @@ class _Writer:
 
     def _say_what_is_cut(self) -> None:
         for tie in self.hanging.left_out:
-            said = (
+            message = (
                 f"joint {tie.joint.scoped_name!r} closes a loop, which URDF cannot describe: left "
                 "out"
             )
-            self.notes.say(tie.joint, said)
+            self.notes.say(tie.joint, message)
         for broken in self.robot.tree.broken:
-            said = f"joint {broken.joint.scoped_name!r} connects {broken.missing.value!r}"
-            self.notes.say(broken.joint, f"{said}, which is not a link: left out")
+            message = f"joint {broken.joint.scoped_name!r} connects {broken.missing.value!r}"
+            self.notes.say(broken.joint, f"{message}, which is not a link: left out")
 
 
 # The URDF for RViz as a xacro file, whose argument `name` goes in front of every link.

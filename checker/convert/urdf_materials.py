@@ -69,14 +69,14 @@ class Materials:
             if paint is not None:
                 self._named.setdefault(element.get("name") or "", paint)
 
-    def of(self, visual: Visual, said: Sequence[Element]) -> Paint | None:
+    def of(self, visual: Visual, materials: Sequence[Element]) -> Paint | None:
         """Return how a visual looks; None for a look of its own, such as a mesh's.
 
         Args:
             visual: Of the source.
-            said: The `<material>`s of `<gazebo>` tags about its link; they come first.
+            materials: The `<material>`s of `<gazebo>` tags about its link; they come first.
         """
-        for element in reversed(said):
+        for element in reversed(materials):
             paint = self._of_gazebo(element)
             if paint is not None:
                 return paint

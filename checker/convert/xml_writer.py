@@ -99,8 +99,8 @@ def _entries(pose: Transform) -> Sequence[float]:
 
 def add(parent: etree._Element, tag: str, text: str = "", **attributes: str) -> etree._Element:
     """Add an element at the end of another one; an attribute `type_` is written `type`."""
-    said = {name.removesuffix("_"): value for name, value in attributes.items()}
-    child = etree.SubElement(parent, tag, said)
+    named = {name.removesuffix("_"): value for name, value in attributes.items()}
+    child = etree.SubElement(parent, tag, named)
     if text:
         child.text = text
     return child

@@ -34,15 +34,15 @@ _SERIES_DIGITS = 6
 def measured(driven: RobotTrial, outcome: Outcome) -> dict[str, Any]:
     """Return what JSON can express of a trial and of what the rules said about its figures."""
     trial = driven.trial
-    said = replace(trial, replay=None).as_json()
+    data = replace(trial, replay=None).as_json()
     return {
         "drive": trial.drive,
         "versions": dict(trial.versions),
-        "course": said["legs"],
+        "course": data["legs"],
         "refused": trial.refused,
         "refused_part": trial.refused_part,
         "measurements": list(_measurements(driven, outcome)),
-        "repairs": said["repairs"],
+        "repairs": data["repairs"],
         "notes": list(trial.notes),
         "trouble": list(trial.trouble),
         "series": _series(trial),
@@ -93,12 +93,12 @@ def _verdict(
     measurement: Measurement, driven: RobotTrial, verdicts: _Verdicts, looked: bool
 ) -> str:
     """Return the gravest that was said about a figure; `ok` when its rule looked and was silent."""
-    said = verdicts.get(measurement.name, [])
+    verdict = verdicts.get(measurement.name, [])
     if measurement.part:
         start = _start(driven.part(measurement.part).span.place())
-        said = [(severity, places) for severity, places in said if start in places]
-    if said:
-        return str(min((severity for severity, _ in said), key=lambda severity: severity.rank))
+        verdict = [(severity, places) for severity, places in verdict if start in places]
+    if verdict:
+        return str(min((severity for severity, _ in verdict), key=lambda severity: severity.rank))
     return "ok" if looked and MEASURES[measurement.name].silence_is_ok else NOT_JUDGED
 
 

@@ -72,11 +72,11 @@ def program_parts() -> list[str]:
 
 def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
     """Return the report that was remembered under a key; None when there is none."""
-    said = cache.get(KIND, key) if key else None
-    if said is None:
+    data = cache.get(KIND, key) if key else None
+    if data is None:
         return None
     try:
-        return from_stored(said, shown)
+        return from_stored(data, shown)
     except (KeyError, TypeError, ValueError):
         return None
 

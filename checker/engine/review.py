@@ -60,11 +60,11 @@ def run_and_set_aside(
     silencer = Silencer(subject.package, settings.suppress, all_rules(), held)
     outcome = run_rules(first, subject, profile, settings, silencer)
     used = silencer.suppressions(_looked(outcome), settings.source)
-    said = run_rules(of_suppressions, _With(subject, used), profile, settings, silencer)
-    outcome = joined(outcome, said)
+    added = run_rules(of_suppressions, _With(subject, used), profile, settings, silencer)
+    outcome = joined(outcome, added)
     stale = _stale(silencer, outcome, settings)
-    said = run_rules(of_baseline, _With(subject, stale), profile, settings, silencer)
-    return joined(outcome, said)
+    added = run_rules(of_baseline, _With(subject, stale), profile, settings, silencer)
+    return joined(outcome, added)
 
 
 def _looked(outcome: Outcome) -> set[str]:

@@ -66,12 +66,12 @@ def run_rules(
         if not wanted(rule, profile, settings):
             not_checked += _switched_off(rule, profile, settings)
             continue
-        said = _run_isolated(rule, parts, profile.context, settings)
-        if isinstance(said, NotChecked):
-            not_checked.append(said)
+        result = _run_isolated(rule, parts, profile.context, settings)
+        if isinstance(result, NotChecked):
+            not_checked.append(result)
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
-        found = [item for item in said if isinstance(item, Finding)]
+        found = [item for item in result if isinstance(item, Finding)]
         spot_of = partial(_spot, rule, profile, settings)
         for silence, group in parted(rule.id, found, silencer, spot_of).items():
             reported = _report(rule, group, profile, settings)
@@ -82,7 +82,7 @@ def run_rules(
                     Suppressed(finding, silence.by, silence.reason, silence.place)
                     for finding in reported
                 ]
-        unchecked = (item.reason for item in said if isinstance(item, Unchecked))
+        unchecked = (item.reason for item in result if isinstance(item, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
     return _outcome(_sorted(findings), suppressed, not_checked, looked)

@@ -187,8 +187,8 @@ class Subject(Record, eq=False, dict=True):
             return files if isinstance(files, NotAvailable) else files.descriptions
         wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
         reasons = [*wrong, *files.unread]
-        said = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
-        return NotAvailable(said, applicable=bool(reasons))
+        reason = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
+        return NotAvailable(reason, applicable=bool(reasons))
 
     def document(self, path: str) -> XmlDocument | NotAvailable:
         """Return a file as XML, or say why it cannot be had."""

@@ -62,11 +62,11 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     request = json.dumps({"shapes": shapes}).encode()
     files = dict.fromkeys((str(shape["file"]) for shape in shapes if shape["file"]), SIZE_LIMIT)
     limits = Limits(_SECONDS, _MEMORY, draws=True)
-    said = ask("checker.migrate.thumbnail_worker", request, limits, from_disk(files.items()))
-    if isinstance(said, WorkerFailed):
-        return Thumbnails(trouble=_trouble(f"the process that draws {said.reason}"))
+    data = ask("checker.migrate.thumbnail_worker", request, limits, from_disk(files.items()))
+    if isinstance(data, WorkerFailed):
+        return Thumbnails(trouble=_trouble(f"the process that draws {data.reason}"))
     try:
-        answer = from_json(said)
+        answer = from_json(data)
         if "pictures" not in answer:
             return Thumbnails(trouble=_trouble(str(answer.get("unable", "there is no picture"))))
         pictures = (base64.b64decode(picture) for picture in answer["pictures"])
@@ -113,8 +113,8 @@ def _file(visual: Visual, folder: Path) -> str:
 
 
 def _colour(visual: Visual) -> list[float]:
-    said = visual.material.colours.get("diffuse", ()) if visual.material is not None else ()
-    values = [min(max(number.value, 0.0), 1.0) for number in said[:4]]
+    colour = visual.material.colours.get("diffuse", ()) if visual.material is not None else ()
+    values = [min(max(number.value, 0.0), 1.0) for number in colour[:4]]
     return [*values, *_GREY[len(values) :]]
 
 

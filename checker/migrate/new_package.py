@@ -73,11 +73,15 @@ class Known(Record, eq=False):
     def words(self) -> dict[str, Any]:
         """Everything by the names that templates use."""
         drive, facts = self.drive, self.facts
-        said = f"{self.names.robot.replace('_', ' ').capitalize()}, moved from Gazebo 9 to Ignition"
+        description = (
+            f"{self.names.robot.replace('_', ' ').capitalize()}, moved from Gazebo 9 to Ignition"
+        )
         return {
             **_by_name(facts),
             **_by_name(self),
-            "description": f"{said}: {facts.description}" if facts.description else said,
+            "description": f"{description}: {facts.description}"
+            if facts.description
+            else description,
             "turning_radius": f"{drive.turning_radius:.2f}" if drive else "",
             "lateral_compliance": exact(LATERAL_COMPLIANCE),
             "sensor_lines": list(sensor_lines(facts)),

@@ -83,8 +83,8 @@ def _held(controllers: Iterable[Controller]) -> Iterator[tuple[str, dict[str, fl
     for controller in controllers:
         if controller.kind != _KIND:
             continue
-        for joint, said in controller.gains.items():
-            values = {name: said[name].value if name in said else 0.0 for name in "pid"}
+        for joint, gains in controller.gains.items():
+            values = {name: gains[name].value if name in gains else 0.0 for name in "pid"}
             known = {
                 name: 0.0 if x is None or not math.isfinite(x) else x for name, x in values.items()
             }
@@ -125,7 +125,7 @@ def judge_plugins(conversion: Conversion, base: str) -> Judged:
         if library_stem(filename) in plugin_libraries(SUBT_RELEASE):
             continue
         known = classic_plugin(filename)
-        judged.notes.append(f"{where} {_said(known)}")
+        judged.notes.append(f"{where} {_what_becomes_of(known)}")
         if carried.sensor:
             continue
         if known is None:
@@ -144,7 +144,7 @@ def judge_plugins(conversion: Conversion, base: str) -> Judged:
     return judged
 
 
-def _said(known: dict[str, Any] | None) -> str:
+def _what_becomes_of(known: dict[str, Any] | None) -> str:
     if known is None:
         return "is removed: it is built for Gazebo 9, and only its author knows a replacement"
     instead = known.get("replacement") or {}
@@ -278,8 +278,8 @@ _PARTS = re.compile(r"(?:^|[/_])(?:colou?r|rgb|depth|i?red_?[12]|infra(?:red)?_?
 
 
 def _prefix(carried: CarriedPlugin) -> str:
-    said = (carried.node.findtext(tag) or "" for tag in ("prefix", "cameraName"))
-    return next((word.strip() for word in said if word.strip()), "")
+    names = (carried.node.findtext(tag) or "" for tag in ("prefix", "cameraName"))
+    return next((word.strip() for word in names if word.strip()), "")
 
 
 def _lights(tree: etree._Element) -> Iterator[str]:

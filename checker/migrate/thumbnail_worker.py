@@ -41,9 +41,9 @@ def answer(request: bytes, files: Files) -> bytes:
     from checker.base.parts import WorkerFailed
 
     for renderer in _RENDERERS:
-        said = in_fork(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
-        if not isinstance(said, WorkerFailed):
-            return said
+        pictures = in_fork(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
+        if not isinstance(pictures, WorkerFailed):
+            return pictures
     return _unable("OpenGL is not available (EGL or OSMesa)")
 
 

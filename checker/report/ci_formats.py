@@ -170,8 +170,8 @@ def _words(reported: ReportedFinding) -> Iterator[str]:
 
 
 def _command(name: str, properties: Mapping[str, str | int], message: str) -> str:
-    said = ",".join(f"{key}={_property(plain(str(value)))}" for key, value in properties.items())
-    return f"::{name} {said}::{_data(message)}"
+    options = ",".join(f"{key}={_property(plain(str(value)))}" for key, value in properties.items())
+    return f"::{name} {options}::{_data(message)}"
 
 
 def _data(text: str) -> str:

@@ -51,10 +51,10 @@ def _verdicts(report: Report) -> Iterator[str]:
         table, left = summary_markdown(report.packages, _PACKAGES_ROOM)
         yield table + _left(left, "package")
     for package in report.packages if len(report.packages) == 1 else ():
-        said, name = sentence(package), _short(package.name)
-        aside = f" ({escaped(said.aside)})" if said.aside else ""
-        yield f"## {name}: {said.lead}"
-        yield f"{escaped(said.rest)}{aside}"
+        verdict, name = sentence(package), _short(package.name)
+        aside = f" ({escaped(verdict.aside)})" if verdict.aside else ""
+        yield f"## {name}: {verdict.lead}"
+        yield f"{escaped(verdict.rest)}{aside}"
     unopened = [item for item in report.not_opened if item.failed]
     rows, left = fitting(unopened, _unopened, _DETAILS_ROOM)
     yield "\n".join(rows) + _left(left, "path")
@@ -105,8 +105,8 @@ def _begin(name: str) -> str:
 
 def _aside(pair: tuple[str, Suppressed]) -> str:
     name, suppressed = pair
-    said = f"{suppressed.finding.rule} {_short(suppressed.finding.message)}"
-    return f"{_begin(name)}{said} ({suppressed.by}: {_short(suppressed.reason)})"
+    text = f"{suppressed.finding.rule} {_short(suppressed.finding.message)}"
+    return f"{_begin(name)}{text} ({suppressed.by}: {_short(suppressed.reason)})"
 
 
 def _unseen(package: PackageReport) -> Iterable[tuple[str, list[str]]]:

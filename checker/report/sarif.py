@@ -29,7 +29,7 @@ RELATED_LIMIT = 100
 LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
-class Said(Record):
+class PackageFinding(Record):
     """A finding, of which package, and what set it aside."""
 
     package: PackageReport
@@ -54,16 +54,16 @@ class Marks(Record):
     suppressions: bool
 
 
-def result(said: Said, index: int, marks: Marks, folder: str) -> Json:
+def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
     """Return a result.
 
     Args:
-        said: What was found.
+        item: What was found.
         index: Of its rule among the run's.
         marks: What it carries besides.
         folder: Where the command was run.
     """
-    package, finding = said.package, said.finding
+    package, finding = item.package, item.finding
     first, *others = finding.places
     made: Json = {
         "ruleId": finding.rule,
@@ -77,14 +77,14 @@ def result(said: Said, index: int, marks: Marks, folder: str) -> Json:
     if others:
         related = (_related(other, package, folder) for other in others[:RELATED_LIMIT])
         # The standard wants them distinct, and words made plain may have become alike.
-        made["relatedLocations"] = list({str(item): item for item in related}.values())
+        made["relatedLocations"] = list({str(place): place for place in related}.values())
         made["occurrenceCount"] = 1 + sum(not other.note for other in others)
     if fix := fixes(finding.fix, finding.how, package, folder):
         made["fixes"] = fix
     if marks.baseline:
-        made["baselineState"] = "unchanged" if said.in_baseline else "new"
+        made["baselineState"] = "unchanged" if item.in_baseline else "new"
     if marks.suppressions:
-        made["suppressions"] = _suppressions(said, folder) if said.set_aside else []
+        made["suppressions"] = _suppressions(item, folder) if item.set_aside else []
     return made
 
 
@@ -94,18 +94,18 @@ def words(message: str) -> str:
 
 
 def _related(place: Place, package: PackageReport, folder: str) -> Json:
-    said = words(place.note) if place.note else "also here"
-    return {**location(place, package, folder), "message": {"text": said}}
+    text = words(place.note) if place.note else "also here"
+    return {**location(place, package, folder), "message": {"text": text}}
 
 
-def _suppressions(said: Said, folder: str) -> list[Json]:
-    aside = said.suppressed
+def _suppressions(item: PackageFinding, folder: str) -> list[Json]:
+    aside = item.suppressed
     if aside is None:
         return []
     kind = "inSource" if aside.by is SuppressedBy.COMMENT else "external"
     found: Json = {"kind": kind, "status": "accepted", "justification": plain(aside.reason)}
     if aside.place is not None:
-        found["location"] = location(aside.place, said.package, folder)
+        found["location"] = location(aside.place, item.package, folder)
     return [found]
 
 
@@ -129,46 +129,46 @@ def to_sarif(report: Report, folder: str) -> str:
 
 
 def _run(report: Report, folder: str) -> Json:
-    said = sorted(
-        _all_said(report),
+    found = sorted(
+        _all_findings(report),
         key=lambda item: (item.suppressed is not None, item.finding.severity.rank),
     )
-    shown = said[:RESULTS_LIMIT]
+    shown = found[:RESULTS_LIMIT]
     rules = _first_by_rule(shown)
     driver: Json = {"name": "subt-check", "rules": [_rule(rule) for rule in rules.values()]}
     # An installation may not know its own version.
     if (version := report.versions.get("subt-check", ""))[:1].isdigit():
         driver["version"] = plain(version)
     indices = {rule: index for index, rule in enumerate(rules)}
-    marks = Marks(any(item.in_baseline for item in said), any(item.set_aside for item in said))
+    marks = Marks(any(item.in_baseline for item in found), any(item.set_aside for item in found))
     return {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
         "originalUriBaseIds": {
             BASE: {"description": {"text": "The folder where subt-check was run."}}
         },
-        "invocations": [_invocation(report, len(said) - len(shown))],
+        "invocations": [_invocation(report, len(found) - len(shown))],
         "results": [result(item, indices[item.finding.rule], marks, folder) for item in shown],
         "properties": {"packages": [_package(package) for package in report.packages]},
     }
 
 
-def _all_said(report: Report) -> Iterator[Said]:
+def _all_findings(report: Report) -> Iterator[PackageFinding]:
     for package, finding in each_once(report):
-        yield Said(package, finding)
+        yield PackageFinding(package, finding)
     for package in report.packages:
         for suppressed in package.suppressed:
-            yield Said(package, suppressed.finding, suppressed)
+            yield PackageFinding(package, suppressed.finding, suppressed)
 
 
 def _package(package: PackageReport) -> Json:
     return {"name": plain(package.name), "verdict": str(package.verdict)}
 
 
-def _first_by_rule(said: Sequence[Said]) -> Mapping[str, ReportedFinding]:
+def _first_by_rule(found: Sequence[PackageFinding]) -> Mapping[str, ReportedFinding]:
     """Return the first finding of each rule, which is the gravest that counts."""
     rules: dict[str, ReportedFinding] = {}
-    for item in said:
+    for item in found:
         rules.setdefault(item.finding.rule, item.finding)
     return rules
 
@@ -176,9 +176,9 @@ def _first_by_rule(said: Sequence[Said]) -> Mapping[str, ReportedFinding]:
 def _rule(finding: ReportedFinding) -> Json:
     """Describe a rule by what its findings quote of its page."""
     parts = [("", finding.why), ("Fix: ", finding.how), ("Source: ", finding.source)]
-    said = [(label, plain(text)) for label, text in parts if text]
-    text = [f"{label}{words}" for label, words in said]
-    marked = [f"**{label.strip()}** {words}" if label else words for label, words in said]
+    labelled = [(label, plain(text)) for label, text in parts if text]
+    text = [f"{label}{words}" for label, words in labelled]
+    marked = [f"**{label.strip()}** {words}" if label else words for label, words in labelled]
     rule: Json = {
         "id": finding.rule,
         "name": "".join(word[:1].upper() + word[1:] for word in plain(finding.name).split("-")),
@@ -199,18 +199,22 @@ def _invocation(report: Report, left_out: int) -> Json:
     """Say what went wrong or could not be looked at."""
     crashed = any(package.crashed for package in report.packages)
     failed = any(item.failed for item in report.not_opened)
-    said = [_notification(n, package) for package in report.packages for n in package.blind_spots]
+    notifications = [
+        _notification(n, package) for package in report.packages for n in package.blind_spots
+    ]
     for item in report.not_opened:
         level = "error" if item.failed else "note"
         text = f"{plain(item.path)} {plain(item.reason)}"
-        said.append({"level": level, "message": {"text": words(text)}})
-    said = sorted(said, key=lambda notification: str(notification["level"]))[:NOTIFICATIONS_LIMIT]
+        notifications.append({"level": level, "message": {"text": words(text)}})
+    notifications = sorted(notifications, key=lambda notification: str(notification["level"]))[
+        :NOTIFICATIONS_LIMIT
+    ]
     if left_out:
         text = f"{count(left_out, 'result')} left out, {RESULTS_LIMIT} shown, the most severe first"
-        said.append({"level": "warning", "message": {"text": text}})
+        notifications.append({"level": "warning", "message": {"text": text}})
     return {
         "executionSuccessful": not (crashed or failed),
-        "toolExecutionNotifications": said,
+        "toolExecutionNotifications": notifications,
     }
 
 

@@ -120,8 +120,8 @@ def fixes(fix: Fix | None, how: str, package: PackageReport, folder: str) -> lis
         for path, replacements in by_file.items()
     ]
     safety = {"safety": str(fix.safety)}
-    said = {"description": {"text": plain(how)}} if how else {}
-    return [{**said, "artifactChanges": changes, "properties": safety}]
+    description = {"description": {"text": plain(how)}} if how else {}
+    return [{**description, "artifactChanges": changes, "properties": safety}]
 
 
 def _is_text(edit: Edit) -> bool:

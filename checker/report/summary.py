@@ -33,8 +33,8 @@ class Sentence(Record):
 
     def __str__(self) -> str:
         """Give the whole sentence."""
-        said = f"{self.lead}: {self.rest}"
-        return f"{said} ({self.aside})" if self.aside else said
+        text = f"{self.lead}: {self.rest}"
+        return f"{text} ({self.aside})" if self.aside else text
 
 
 def sentence(package: PackageReport) -> Sentence:
@@ -43,11 +43,11 @@ def sentence(package: PackageReport) -> Sentence:
     looks = f"{count(warnings, 'warning')} to look at" if warnings else ""
     match package.verdict:
         case VerdictKind.NOT_READY:
-            said = [f"{count(errors, 'error')} to fix", looks]
-            return Sentence("Not ready", ", ".join(filter(None, said)), _aside(package))
+            phrases = [f"{count(errors, 'error')} to fix", looks]
+            return Sentence("Not ready", ", ".join(filter(None, phrases)), _aside(package))
         case VerdictKind.INCOMPLETE:
-            said = [f"no error, but {_unseen(package)}", looks]
-            return Sentence("Incomplete", ", ".join(filter(None, said)), _aside(package))
+            phrases = [f"no error, but {_unseen(package)}", looks]
+            return Sentence("Incomplete", ", ".join(filter(None, phrases)), _aside(package))
         case _:
             return Sentence("Ready", looks or "nothing to fix", _aside(package))
 
@@ -62,10 +62,10 @@ def _unseen(package: PackageReport) -> str:
 def _aside(package: PackageReport) -> str:
     off = [skipped.reason for skipped in package.not_checked if skipped.cause is Cause.SWITCHED_OFF]
     others = sum(reason != NO_TRIAL for reason in off)
-    said = ["trial not run"] if NO_TRIAL in off else []
-    said += [f"{count(others, 'rule')} switched off"] if others else []
-    said += [_suppressed(package)] if package.suppressed else []
-    return ", ".join(said)
+    phrases = ["trial not run"] if NO_TRIAL in off else []
+    phrases += [f"{count(others, 'rule')} switched off"] if others else []
+    phrases += [_suppressed(package)] if package.suppressed else []
+    return ", ".join(phrases)
 
 
 def _suppressed(package: PackageReport) -> str:

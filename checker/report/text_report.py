@@ -117,9 +117,9 @@ SHOWN_LIMIT = 200
 
 def to_text(report: Report, palette: Palette) -> str:
     """Return the whole report."""
-    said_by = owners(report)
+    owner_of = owners(report)
     explained: set[str] = set()
-    blocks = [_package(package, said_by, explained, palette) for package in report.packages]
+    blocks = [_package(package, owner_of, explained, palette) for package in report.packages]
     if len(report.packages) > 1:
         blocks.append(summary_text(report.packages, palette))
     if skipped := [_skipped(item) for item in report.not_opened if not item.failed]:
@@ -129,11 +129,11 @@ def to_text(report: Report, palette: Palette) -> str:
 
 def _package(
     package: PackageReport,
-    said_by: Mapping[Identity, str],
+    owner_of: Mapping[Identity, str],
     explained: set[str],
     palette: Palette,
 ) -> str:
-    share = share_of(package, said_by)
+    share = share_of(package, owner_of)
     kind = package.kind.replace("_", " ") + _profile(package)
     lines = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
     for finding in share.own[:SHOWN_LIMIT]:
@@ -184,11 +184,11 @@ def _not_checked(not_checked: Sequence[NotChecked]) -> Iterator[str]:
         applies = skipped.cause is not Cause.NOT_APPLICABLE
         by_reason.setdefault((skipped.reason, applies), []).append(skipped.rule)
     for (reason, applies), rules in by_reason.items():
-        said = plain(shortened(reason, MESSAGE_LIMIT))
+        text = plain(shortened(reason, MESSAGE_LIMIT))
         if applies:
-            yield f"not checked: {', '.join(rules)}: {said}"
+            yield f"not checked: {', '.join(rules)}: {text}"
         else:
-            yield f"not applicable: {count(len(rules), 'rule')}: {said}"
+            yield f"not applicable: {count(len(rules), 'rule')}: {text}"
 
 
 def _facts(facts: Mapping[str, object]) -> Iterator[str]:

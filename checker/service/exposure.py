@@ -115,7 +115,7 @@ _RISK = (
 
 def _missing(layers: Sequence[Layer]) -> str:
     """Return why none of the layers that could hide files does."""
-    said = [f"{layer.name}: {layer.words}" for layer in layers if layer.name != SECCOMP]
+    reasons = [f"{layer.name}: {layer.words}" for layer in layers if layer.name != SECCOMP]
     return plain(
-        shortened("; ".join(said) or "the process that provides them ends immediately", 300)
+        shortened("; ".join(reasons) or "the process that provides them ends immediately", 300)
     )

@@ -103,8 +103,8 @@ def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
     tree = etree.fromstring(located.text.encode("utf-8"), parser)
     count = sum(1 for _ in tree.iter(etree.Element)) if tree is not None else 0
     if count != len(located.tags):
-        said = parser.error_log[0].message if len(parser.error_log) else "the tree is incomplete"
-        return XmlFault(source.whole(), said)
+        reason = parser.error_log[0].message if len(parser.error_log) else "the tree is incomplete"
+        return XmlFault(source.whole(), reason)
     document = XmlDocument(source, tree, located.tags, located.tolerated)
     if not len(parser.error_log):
         return document

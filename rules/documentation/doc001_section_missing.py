@@ -36,15 +36,15 @@ def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Fi
         for having in found.values()
         if having and all(specification.says_nothing(section) for section in having)
     ]
-    said = []
+    phrases = []
     if missing:
-        said.append(f"{_are(missing)} missing: {', '.join(missing)}")
+        phrases.append(f"{_are(missing)} missing: {', '.join(missing)}")
     if empty:
-        said.append(f"{_are(empty)} empty: {', '.join(section.title for section in empty)}")
+        phrases.append(f"{_are(empty)} empty: {', '.join(section.title for section in empty)}")
     for section in empty:
-        yield finding(section, "; ".join(said), key=KEY)
+        yield finding(section, "; ".join(phrases), key=KEY)
     if missing and not empty:
-        yield finding(specification.source.whole(), said[0], key=KEY)
+        yield finding(specification.source.whole(), phrases[0], key=KEY)
 
 
 def _are(things: Sequence[object]) -> str:

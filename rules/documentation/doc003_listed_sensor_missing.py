@@ -41,9 +41,9 @@ def check(package: Package, robot: Robot, specification: Specification) -> Findi
         accepted = types.union(*(SUBSTITUTES.get(item.kind, frozenset()) for item in items))
         if not accepted.intersection(present):
             for item in items:
-                said = f"the specification sheet lists {_words(item)!r}, but the model has no"
+                message = f"the specification sheet lists {_words(item)!r}, but the model has no"
                 how = "list it in both or in neither"
-                yield finding(item, f"{said} {_name(item.kind)} sensor: {how}")
+                yield finding(item, f"{message} {_name(item.kind)} sensor: {how}")
         elif amount and (total := _total(items)) is not None and total != amount:
             if total < amount and specification.other_sensors:
                 yield unchecked(

@@ -83,10 +83,10 @@ def _steered(
         if not low <= stated.value <= high
     ]
     places += [(span, "that the robot turns on the spot") for span in _turns_on_the_spot(sheet)]
-    for place, said in places:
+    for place, words in places:
         yield finding(
             place,
-            f"the specification sheet says {said}, but the wheel base and steering limit give "
+            f"the specification sheet says {words}, but the wheel base and steering limit give "
             f"{radius:.3g} m",
             related=[(drive.steering_limit, "the steering limit")],
         )

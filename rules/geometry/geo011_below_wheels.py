@@ -51,8 +51,8 @@ def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.
 def _finding(piece: Placed, clearance: float, expected: float, tolerance: float) -> Finding:
     what = f"collision {piece.shape.name.value!r} of {piece.link.name.value!r}"
     if clearance < -tolerance:
-        said = f"{what} reaches {-clearance * 1e3:.3g} mm below the wheels"
-        return finding(piece.shape.pose, said)
+        message = f"{what} reaches {-clearance * 1e3:.3g} mm below the wheels"
+        return finding(piece.shape.pose, message)
     return finding(
         piece.shape.pose,
         f"{what} leaves {max(clearance, 0.0) * 1e3:.3g} mm to the ground under the wheels, "

@@ -68,8 +68,8 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     yield from _findings(missing, place, assuming)
     for topic in standard:
         shown = topic.replace("*", "<name>")
-        said = f"no bridge for {shown}, which every robot of the challenge has"
-        yield finding(place, said + assuming)
+        message = f"no bridge for {shown}, which every robot of the challenge has"
+        yield finding(place, message + assuming)
 
 
 def _missing(robot: Robot, bridged: Collection[str]) -> Iterator[Channel]:

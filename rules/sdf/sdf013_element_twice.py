@@ -29,8 +29,8 @@ def check(sdf: SdfDocument) -> Findings:
             earlier = first.setdefault(child.tag, child)
             if earlier is child or not _once(element, kind, child.tag):
                 continue
-            said = contents.get(child.tag) or contents.setdefault(child.tag, _content(earlier))
-            same = _content(child) == said
+            content = contents.get(child.tag) or contents.setdefault(child.tag, _content(earlier))
+            same = _content(child) == content
             yield finding(
                 child,
                 f"<{element.tag}> contains a second <{child.tag}>, "

@@ -100,21 +100,21 @@ def _finding(
     too_many: bool,
 ) -> Finding:
     samples, rate = lidar.horizontal.samples, sensor.update_rate.value
-    said = f"lidar {sensor.name.value!r} has {samples.value:g} samples per row"
-    said += f" at {rate:g} Hz" if rate > 0 else ""
+    message = f"lidar {sensor.name.value!r} has {samples.value:g} samples per row"
+    message += f" at {rate:g} Hz" if rate > 0 else ""
     if known is None or not expected:
         return finding(
             samples,
-            f"{said}, a number copied from an old template: expected the number of the device",
+            f"{message}, a number copied from an old template: expected the number of the device",
             key="copied",
         )
     from_memory = known.device.is_from_memory("samples_by_rate") and not too_many
     return finding(
         samples,
-        f"{said}, expected {either(expected)} ({known.device.name})",
+        f"{message}, expected {either(expected)} ({known.device.name})",
         severity=Severity.INFO if from_memory else None,
         key=f"{known.device.id} {samples.value:g} {rate:g}",
-        related=[(known.said, "names the device")],
+        related=[(known.words, "names the device")],
     )
 
 

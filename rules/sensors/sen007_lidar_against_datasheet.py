@@ -37,7 +37,7 @@ class _Difference(Record, eq=False):
 
     where: HasSpan
     figure: str
-    said: str
+    stated: str
     expected: str
 
 
@@ -84,8 +84,8 @@ def _rows(lidar: Lidar, device: Device) -> Iterator[_Difference]:
         return
     variants = rows if isinstance(rows, list) else [rows]
     if lidar.rows not in variants:
-        said = f"has {lidar.rows:g} rows"
-        yield _Difference(lidar.vertical.samples, "rows", said, either(variants))
+        stated = f"has {lidar.rows:g} rows"
+        yield _Difference(lidar.vertical.samples, "rows", stated, either(variants))
 
 
 def _vertical(lidar: Lidar, device: Device, tolerance: float) -> Iterator[_Difference]:
@@ -117,8 +117,8 @@ def _ranges(
     nearest = _known_values(named, "range_min")
     value = lidar.range_min
     if value.stated and nearest and min(abs(value.value - figure) for figure in nearest) > near:
-        said = f"has a minimum range of {value.value:g} m"
-        yield _Difference(value, "range_min", said, f"{either(nearest)} m")
+        stated = f"has a minimum range of {value.value:g} m"
+        yield _Difference(value, "range_min", stated, f"{either(nearest)} m")
 
 
 def _known_values(named: SensorDevice, figure: str) -> list[float]:
@@ -126,7 +126,7 @@ def _known_values(named: SensorDevice, figure: str) -> list[float]:
     values = named.device.values
     if figure not in values:
         return []
-    words = "".join(letter for letter in named.said.value.upper() if letter.isalnum())
+    words = "".join(letter for letter in named.words.value.upper() if letter.isalnum())
     by_model = values.get(f"{figure}_by_model", {})
     of_model = [value for model, value in by_model.items() if model.upper() in words]
     defaults = values.get("seed_defaults", {})
@@ -150,11 +150,11 @@ def _finding(sensor: Sensor, named: SensorDevice, difference: _Difference) -> Fi
     device = named.device
     return finding(
         difference.where,
-        f"lidar {sensor.name.value!r} {difference.said}, "
+        f"lidar {sensor.name.value!r} {difference.stated}, "
         f"expected {difference.expected} ({device.name})",
         severity=Severity.INFO if device.is_from_memory(difference.figure) else None,
-        key=f"{device.id} {difference.said}",
-        related=[(named.said, "names the device")],
+        key=f"{device.id} {difference.stated}",
+        related=[(named.words, "names the device")],
     )
 
 

@@ -55,16 +55,16 @@ def check(robot: Robot, *, tolerance: float = 0.01, centre_tolerance: float = 1.
         wrong = [*lengths, *others]
         if not wrong:
             continue
-        said = ", ".join(f"{entry.tag} = {entry.value.value:.6g}" for entry in wrong)
+        stated = ", ".join(f"{entry.tag} = {entry.value.value:.6g}" for entry in wrong)
         expected = ", ".join(f"{entry.tag} = {entry.expected:.6g}" for entry in wrong)
         calibrated = given.are_measured and not lengths
         yield finding(
             given,
-            f"camera {sensor.name.value!r} has the intrinsics {said}, but an image of "
+            f"camera {sensor.name.value!r} has the intrinsics {stated}, but an image of "
             f"{camera.width.value:g} × {camera.height.value:g} px with a field of view of "
             f"{camera.horizontal_fov.value:g} rad has {expected} px",
             severity=Severity.INFO if calibrated else None,
-            key="calibrated" if calibrated else f"{said}; {expected}",
+            key="calibrated" if calibrated else f"{stated}; {expected}",
             fix=_fix(given, wrong),
         )
 

@@ -57,11 +57,11 @@ def check(robot: Robot, context: Context, *, tolerance: float = 0.01) -> Finding
 def _format(sensor: Sensor) -> Iterator[Finding]:
     camera = sensor.camera
     if camera is not None and camera.format.value not in _EIGHT_BITS:
-        said = f"format {camera.format.value!r}" if camera.format.stated else "no <format>"
+        stated = f"format {camera.format.value!r}" if camera.format.stated else "no <format>"
         yield finding(
             camera.format,
-            f"thermal camera {sensor.name.value!r} has {said}, expected 'L8'",
-            key=said,
+            f"thermal camera {sensor.name.value!r} has {stated}, expected 'L8'",
+            key=stated,
         )
 
 
@@ -72,15 +72,15 @@ def _figures(
         expected = standard[tag]
         given = plugin.number(tag)
         if given is None:
-            said = f"no {tag}"
+            stated = f"no {tag}"
         elif math.isclose(given.value, expected, rel_tol=tolerance):
             continue
         else:
-            said = f"{tag} {given.value:g}{unit}"
+            stated = f"{tag} {given.value:g}{unit}"
         yield finding(
             given or plugin,
-            f"thermal camera {sensor.name.value!r} has {said}, expected {expected:g}{unit}",
-            key=said,
+            f"thermal camera {sensor.name.value!r} has {stated}, expected {expected:g}{unit}",
+            key=stated,
         )
 
 

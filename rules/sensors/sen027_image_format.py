@@ -39,8 +39,8 @@ def check(robot: Robot, context: Context) -> Findings:
             fault = f"; cameras of {release} support {_listed(rendered, names)}"
         else:
             continue
-        said = f"camera {sensor.name.value!r} has format {given[:_SHOWN]!r}{fault}"
-        yield finding(camera.format, said, key=given)
+        message = f"camera {sensor.name.value!r} has format {given[:_SHOWN]!r}{fault}"
+        yield finding(camera.format, message, key=given)
 
 
 def _listed(formats: Sequence[str], names: Mapping[str, str]) -> str:

@@ -19,10 +19,10 @@ def check(baseline: BaselineUse) -> Findings:
     """Report entries without a finding, one finding per rule."""
     for entry in baseline.stale:
         if entry.known:
-            said = f"findings of {entry.rules[0]} that no longer occur: {_some(entry.messages)}"
+            phrase = f"findings of {entry.rules[0]} that no longer occur: {_some(entry.messages)}"
         else:
-            said = f"findings of rules that do not exist: {_some(entry.rules)}"
-        yield finding(Place(""), f"{entry.file} contains {said}")
+            phrase = f"findings of rules that do not exist: {_some(entry.rules)}"
+        yield finding(Place(""), f"{entry.file} contains {phrase}")
 
 
 def _some(texts: Sequence[str]) -> str:

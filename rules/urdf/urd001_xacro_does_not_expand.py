@@ -46,8 +46,8 @@ def _refused(fault: XacroFault) -> Finding:
         return finding(fault, f"{fault.file} is empty, expected a robot")
     hint = f": {fault.hint}" if fault.hint else ""
     severity = Severity.WARNING if fault.kind is XacroFaultKind.ENVIRONMENT else None
-    said = f"{fault.file} does not expand: {fault.message}{hint}"
-    return finding(fault, said, severity=severity)
+    message = f"{fault.file} does not expand: {fault.message}{hint}"
+    return finding(fault, message, severity=severity)
 
 
 def _left_behind(description: UrdfDescription) -> Iterator[Finding]:

@@ -98,9 +98,9 @@ def write(file: BinaryIO, message: bytes, contents: Iterable[tuple[str, Content]
             table[name] = [at, len(content)]
             at += len(content)
             file.write(content)
-    said = json.dumps(table).encode()
-    file.write(message + said)
-    file.write(len(message).to_bytes(_LENGTH, "big") + len(said).to_bytes(_LENGTH, "big"))
+    data = json.dumps(table).encode()
+    file.write(message + data)
+    file.write(len(message).to_bytes(_LENGTH, "big") + len(data).to_bytes(_LENGTH, "big"))
     file.flush()
 
 
@@ -136,15 +136,15 @@ def read(
         raise Damaged("is cut off")
     if message > limit or table > TABLE_LIMIT or at > FILES_LIMIT:
         raise Damaged(f"has {size / 1e6:.1f} MB, which is more than the limit")
-    said = os.pread(descriptor, message, start + at)
+    data = os.pread(descriptor, message, start + at)
     entries = _checked(os.pread(descriptor, table, start + at + message), at)
-    return said, Files(entries, descriptor, start)
+    return data, Files(entries, descriptor, start)
 
 
-def _checked(said: bytes, end: int) -> dict[str, Any]:
+def _checked(data: bytes, end: int) -> dict[str, Any]:
     """Return a table whose files lie where they can."""
     try:
-        table = json.loads(said)
+        table = json.loads(data)
     except (ValueError, RecursionError):
         raise Damaged("has no table of its files") from None
     if not isinstance(table, dict) or not all(_is_entry(entry, end) for entry in table.values()):

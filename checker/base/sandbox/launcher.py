@@ -161,19 +161,19 @@ class OwnLauncher(Launcher):
     @cached_property
     def layers(self) -> tuple[Layer, ...]:
         """Which layers hold; the first call waits for them. None where its process has died."""
-        said = b""
+        data = b""
         self._control.settimeout(_HELLO_SECONDS)
         try:
-            while not said.endswith(b"\n"):
+            while not data.endswith(b"\n"):
                 piece = self._control.recv(_HELLO_LIMIT)
                 if not piece:
                     return ()
-                said += piece
+                data += piece
         except TimeoutError:
             return ()
         finally:
             self._control.settimeout(None)
-        return tuple(Layer(*load) for load in json.loads(said))
+        return tuple(Layer(*load) for load in json.loads(data))
 
     def close(self) -> None:
         """End all that was started, and wait until it has ended."""

@@ -116,8 +116,8 @@ class LauncherProcess:
         self._orphans = Orphans()
         layers = enter(sandbox)
         _limit_processes(layers, sandbox)
-        said = json.dumps([[layer.name, layer.held, layer.words, layer.hides] for layer in layers])
-        control.sendall(said.encode() + b"\n")
+        data = json.dumps([[layer.name, layer.held, layer.words, layer.hides] for layer in layers])
+        control.sendall(data.encode() + b"\n")
         for descriptor in (*self._controls, self._woken):
             self._poll.register(descriptor, select.POLLIN)
 

@@ -67,9 +67,9 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
         elif order.get("lasts"):
             _answer_all(module, request, answer, done)
         elif os.read(INPUT, 1):
-            said, files = read(request, _REQUEST_LIMIT)
+            message, files = read(request, _REQUEST_LIMIT)
             with os.fdopen(os.dup(answer), "wb") as file:
-                _write(file, module.answer(said, files))
+                _write(file, module.answer(message, files))
     except MemoryError:
         return OUT_OF_MEMORY
     except BaseException:  # noqa: BLE001 - who waits for the answer is told that there is none
@@ -82,9 +82,9 @@ def _answer_all(module: ModuleType, request: int, answer: int, done: int) -> Non
     """Answer one request after the other (see `checker.base.child_server`)."""
     with os.fdopen(os.dup(answer), "wb") as file:
         while len(place := os.read(INPUT, PLACE.size)) == PLACE.size:
-            said, files = read(request, _REQUEST_LIMIT, *PLACE.unpack(place))
+            message, files = read(request, _REQUEST_LIMIT, *PLACE.unpack(place))
             start = file.tell()
-            _write(file, module.answer(said, files))
+            _write(file, module.answer(message, files))
             os.write(done, PLACE.pack(start, file.tell()))
 
 

@@ -135,11 +135,13 @@ def _size(path: Path) -> int:
 
 
 def _drawing() -> Result:
-    said = ask("checker.cli.doctor.opengl_frame", b"", _LIMITS)
-    if not isinstance(said, WorkerFailed) and said != b"none":
-        return Result(State.OK, f"pictures: MuJoCo draws with {said.decode()}")
+    answer = ask("checker.cli.doctor.opengl_frame", b"", _LIMITS)
+    if not isinstance(answer, WorkerFailed) and answer != b"none":
+        return Result(State.OK, f"pictures: MuJoCo draws with {answer.decode()}")
     reason = (
-        f"the process that draws {said.reason}" if isinstance(said, WorkerFailed) else "no OpenGL"
+        f"the process that draws {answer.reason}"
+        if isinstance(answer, WorkerFailed)
+        else "no OpenGL"
     )
     packages = "libegl1, libopengl0 and libgl1-mesa-dri, or libosmesa6"
     advice = f"install EGL or OSMesa (Debian: {packages}) for reports with pictures"
@@ -193,8 +195,8 @@ def _libraries() -> Iterator[Result]:
             fitting[name] = version
     troubles = import_troubles(fitting)
     for name, trouble in troubles.items():
-        said = plain(shortened(trouble, 300))
-        yield Result(State.PROBLEM, f"{name} cannot be imported ({said})", INSTALL_AGAIN)
+        reason = plain(shortened(trouble, 300))
+        yield Result(State.PROBLEM, f"{name} cannot be imported ({reason})", INSTALL_AGAIN)
     well = [f"{name} {version}" for name, version in fitting.items() if name not in troubles]
     yield Result(State.OK, f"libraries: {', '.join(well)}")
 

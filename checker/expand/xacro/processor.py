@@ -103,16 +103,16 @@ def _message(error: BaseException) -> str:
     expression = next(filter(None, suffixes), "")
     inner = causes[-1]
     if isinstance(inner, MemoryError):
-        said = "needs more memory than allowed"
+        message = "needs more memory than allowed"
     elif isinstance(inner, RecursionError):
-        said = _TOO_DEEP
+        message = _TOO_DEEP
     elif isinstance(inner, substitution_args.ArgException):
-        said = f"arg {inner} is neither given nor has a default"
+        message = f"arg {inner} is neither given nor has a default"
     else:
         outer = causes[-2] if isinstance(inner, FileNotFoundError) and causes[1:] else inner
-        said = str(outer.args[0] if outer.args and outer is not inner else outer)
-        said = said or type(inner).__name__
-    return " ".join(f"{said} {expression}".split())[:_MESSAGE_LIMIT]
+        message = str(outer.args[0] if outer.args and outer is not inner else outer)
+        message = message or type(inner).__name__
+    return " ".join(f"{message} {expression}".split())[:_MESSAGE_LIMIT]
 
 
 class _Expansion:

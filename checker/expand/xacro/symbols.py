@@ -229,14 +229,14 @@ def _arg(budget: Budget, name: Any) -> Any:
     return xacro.substitution_args_context["arg"][name]
 
 
-def _silent(budget: Budget, *said: Any, **how: Any) -> str:
-    for value in (*said, *how.values()):
+def _silent(budget: Budget, *values: Any, **how: Any) -> str:
+    for value in (*values, *how.values()):
         weigh(value, budget)
     return ""
 
 
-def _fatal(budget: Budget, *said: Any) -> Any:
-    raise xacro.XacroException(" ".join(text_of(value, budget) for value in said))
+def _fatal(budget: Budget, *values: Any) -> Any:
+    raise xacro.XacroException(" ".join(text_of(value, budget) for value in values))
 
 
 def _tokens(budget: Budget, s: Any, sep: Any = ",; ", skip_empty: Any = True) -> list[str]:

@@ -102,8 +102,8 @@ class Parameters:
         elif self.package.exists(path):
             self.unread.append(f"{path} {source.reason}")
         else:
-            said = f"{path} is loaded as parameters, but does not exist"
-            self.faults.append(ParameterFault(param.span, said))
+            message = f"{path} is loaded as parameters, but does not exist"
+            self.faults.append(ParameterFault(param.span, message))
 
     def _document(self, source: SourceText) -> YamlDocument:
         """Return a text as YAML; a file is parsed once, however often it is loaded."""

@@ -93,7 +93,7 @@ class _Named(Record, eq=False):
 
     sensor: Sensor
     device: Device | None
-    said: Located[str]
+    words: Located[str]
     lidar_class: LidarClass | None
     places: frozenset[str]
 
@@ -138,14 +138,14 @@ def _read_sensor(sensor: Sensor, known: KnownDevices) -> _Named:
     comment = sensor.element.comment_in_front
     texts = [sensor.name, Located(sensor.link, sensor.span), sensor.topic]
     texts += [comment] if comment is not None else []
-    device, said = None, sensor.name
+    device, words = None, sensor.name
     for text in texts:
         device = known.named(text.value, (sensor.type.value,))
         if device is not None:
-            said = text
+            words = text
             break
     places = _places([sensor.name.value]) or _places([sensor.link, sensor.topic.value])
-    return _Named(sensor, device, said, class_of_sensor(sensor), places)
+    return _Named(sensor, device, words, class_of_sensor(sensor), places)
 
 
 def _places(texts: Iterable[str]) -> frozenset[str]:
@@ -162,10 +162,10 @@ def _decided(sensors: Sequence[_Named], items: Sequence[_Item]) -> Iterator[Sens
         if item is None:
             listed = any(_may_be(item, named) for item in items)
             if named.device is not None and not listed:
-                yield SensorDevice(named.sensor, named.device, named.said, from_sheet=False)
+                yield SensorDevice(named.sensor, named.device, named.words, from_sheet=False)
         elif item.device is not None and (item in agreed or item.device is named.device):
-            said = Located(item.listed.text, item.listed.span)
-            yield SensorDevice(named.sensor, item.device, said, from_sheet=True)
+            words = Located(item.listed.text, item.listed.span)
+            yield SensorDevice(named.sensor, item.device, words, from_sheet=True)
 
 
 def _chosen(sensors: Sequence[_Named], items: Sequence[_Item]) -> dict[_Named, _Item]:

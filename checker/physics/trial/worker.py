@@ -71,8 +71,8 @@ def _refused(trial: Trial, reason: str, scene: Scene) -> Trial:
     names |= {mj: joint for joint, mj in scene.joints.items()}
     names |= scene.geoms
     part = next((names[word] for word in _QUOTED.findall(reason) if word in names), "")
-    said = _QUOTED.sub(lambda found: f"'{names.get(found[1], found[1])}'", reason)
-    return replace(trial, refused=" ".join(said.split()), refused_part=part)
+    text = _QUOTED.sub(lambda found: f"'{names.get(found[1], found[1])}'", reason)
+    return replace(trial, refused=" ".join(text.split()), refused_part=part)
 
 
 _QUOTED = re.compile(r"'([^']*)'")

@@ -111,8 +111,8 @@ class _Scene(Record, eq=False):
                 group["sizes"].append(sizes)
                 group["poses"].append(_numbers(pose))
         else:
-            said = f"a visual of kind {geometry.shape} is not checked"
-            self.unseen.append(said)
+            message = f"a visual of kind {geometry.shape} is not checked"
+            self.unseen.append(message)
 
     def _add_mesh(
         self,
@@ -144,8 +144,8 @@ def _part(visual: Visual) -> tuple[str, bool]:
         return "", True
     name, center = submesh.child("name"), submesh.child("center")
     centred = center is not None and center.text.value.strip() in ("true", "1")
-    said = name.text.value.strip() if name is not None else ""
-    return said, bool(said) and not centred
+    text = name.text.value.strip() if name is not None else ""
+    return text, bool(text) and not centred
 
 
 def _numbers(pose: Transform) -> list[float]:

@@ -61,9 +61,11 @@ class RobotViews:
     def views(self) -> tuple[SensorViews, ...]:
         """The robots with the views of their sensors."""
         if self._views is None:
-            said = (f"only the views of the first {_ROBOTS} robots are checked",)
+            unseen = (f"only the views of the first {_ROBOTS} robots are checked",)
             self._views = tuple(
-                self._collected(number, robot) if number < _ROBOTS else SensorViews(robot, (), said)
+                self._collected(number, robot)
+                if number < _ROBOTS
+                else SensorViews(robot, (), unseen)
                 for number, robot in enumerate(self.robots)
             )
         return self._views
@@ -103,8 +105,8 @@ class RobotViews:
         ):
             told = begun.result()
         if isinstance(told, WorkerFailed):
-            said = f"the views of the sensors were not computed: the process {told.reason}"
-            return SensorViews(robot, (), (said,))
+            reason = f"the views of the sensors were not computed: the process {told.reason}"
+            return SensorViews(robot, (), (reason,))
         return _views_of(robot, asked, told)
 
 

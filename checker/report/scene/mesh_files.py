@@ -41,20 +41,20 @@ _NAME = 80
 class Notes:
     """Sentences in the order in which they were first said."""
 
-    _said: dict[str, None] = field(default_factory=dict)
+    _sentences: dict[str, None] = field(default_factory=dict)
 
     def say(self, sentence: str) -> None:
         """Add a sentence, unless it was said."""
-        self._said[sentence] = None
+        self._sentences[sentence] = None
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """The first ones, and how many more there are."""
-        said = tuple(self._said)
-        if len(said) <= SENTENCES:
-            return said
-        rest = len(said) - SENTENCES + 1
-        return (*said[: SENTENCES - 1], f"{rest} more parts are not shown")
+        sentences = tuple(self._sentences)
+        if len(sentences) <= SENTENCES:
+            return sentences
+        rest = len(sentences) - SENTENCES + 1
+        return (*sentences[: SENTENCES - 1], f"{rest} more parts are not shown")
 
 
 def short(name: str) -> str:

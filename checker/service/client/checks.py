@@ -64,9 +64,9 @@ class Standing(Struct, frozen=True):
 
     def __str__(self) -> str:
         """Say it in a few words."""
-        said = plain(shortened(self.words or self.stage, _SHOWN))
+        text = plain(shortened(self.words or self.stage, _SHOWN))
         before = f" ({count(self.ahead, 'check')} before it)" if self.ahead > 0 else ""
-        return said + before
+        return text + before
 
 
 class Check(Record):
@@ -97,14 +97,14 @@ class Check(Record):
         Raises:
             CheckerError: The service does not say.
         """
-        said, pause = "", _FIRST_PAUSE
+        shown, pause = "", _FIRST_PAUSE
         while True:
             standing = self._standing()
             if standing.end is not None:
                 return standing
-            if str(standing) != said:
-                said, pause = str(standing), _FIRST_PAUSE
-                say(said)
+            if str(standing) != shown:
+                shown, pause = str(standing), _FIRST_PAUSE
+                say(shown)
             sleep(pause)
             pause = min(1.5 * pause, _LONGEST_PAUSE)
 
@@ -162,5 +162,5 @@ def _refusal(connection: Connection, answer: Answer) -> CheckerError:
             f"{connection.server} answers {answer.status}, but not like a subt-check service; "
             "check the address"
         )
-    said = " ".join(filter(None, (problem.error, problem.advice)))
-    return CheckerError(f"{connection.server}: {plain(shortened(said, _SHOWN))}")
+    text = " ".join(filter(None, (problem.error, problem.advice)))
+    return CheckerError(f"{connection.server}: {plain(shortened(text, _SHOWN))}")

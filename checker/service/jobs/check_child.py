@@ -44,8 +44,8 @@ def without_folder(report: Report, place: Path) -> Report:
     folders = "|".join(re.escape(str(folder)) for folder in {place, place.resolve()})
     unpacked = rf"{TEMPORARY}/[^/\s]+|{re.escape(GIVEN)}"
     pattern = re.compile(rf"(?:{folders})(?:/(?:{unpacked}))?/?")
-    said: Report = _changed(report, lambda text: pattern.sub("", text))
-    return said
+    changed: Report = _changed(report, lambda text: pattern.sub("", text))
+    return changed
 
 
 def _changed(value: Any, change: Callable[[str], str]) -> Any:
@@ -111,8 +111,8 @@ def answer(request: bytes, files: Files) -> Answer:
     place = Path.cwd()
     settle(place, asked["name"], files)
     limit(StageLimits(**asked["limits"]))
-    said, made = _checked(asked, place)
-    return json.dumps(said).encode(), chain(made, new_parts(place, files.names))
+    summary, made = _checked(asked, place)
+    return json.dumps(summary).encode(), chain(made, new_parts(place, files.names))
 
 
 def _meshes() -> Server:

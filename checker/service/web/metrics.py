@@ -77,8 +77,8 @@ class _Engine(Record):
         if alive is not None:
             yield _gauge("running", "Checks that run.", alive.running)
             yield _gauges("waiting", "Checks that wait, by queue.", "queue", alive.waiting)
-            said = "Since each worker's last sign of life."
-            yield _gauges("worker_silent_seconds", said, "worker", alive.workers)
+            about = "Since each worker's last sign of life."
+            yield _gauges("worker_silent_seconds", about, "worker", alive.workers)
 
 
 def _gauge(name: str, about: str, value: float) -> GaugeMetricFamily:

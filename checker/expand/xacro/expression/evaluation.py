@@ -132,7 +132,7 @@ _NODES: frozenset[type[ast.AST]] = frozenset(
         *(ast.Lambda, ast.arguments, ast.arg),
     }
 )
-_SAID: dict[type[ast.AST], str] = {
+_FORMS: dict[type[ast.AST], str] = {
     ast.NamedExpr: "an assignment (:=)",
     ast.Await: "await",
     ast.Yield: "yield",
@@ -179,8 +179,8 @@ _kept = lru_cache(_KEPT)(_parsed)
 
 def _check(node: ast.AST) -> None:
     if type(node) not in _NODES:
-        said = _SAID.get(type(node), type(node).__name__)
-        raise RefusedExpression(said)
+        form = _FORMS.get(type(node), type(node).__name__)
+        raise RefusedExpression(form)
     for name in (getattr(node, field, None) for field in ("id", "attr", "arg")):
         if type(name) is str and name.startswith("__"):
             raise RefusedExpression(f"the name {name[:40]!r}")

@@ -164,14 +164,14 @@ def _window() -> Any:
     return window
 
 
-def _camera(said: dict[str, Any]) -> Any:
+def _camera(data: dict[str, Any]) -> Any:
     import mujoco
 
     camera = mujoco.MjvCamera()
     camera.type = mujoco.mjtCamera.mjCAMERA_FREE
-    camera.lookat = said["lookat"]
-    camera.distance, camera.azimuth = said["distance"], said["azimuth"]
-    camera.elevation = said["elevation"]
+    camera.lookat = data["lookat"]
+    camera.distance, camera.azimuth = data["distance"], data["azimuth"]
+    camera.elevation = data["elevation"]
     return camera
 
 

@@ -232,7 +232,7 @@ class Checks(Record, dict=True):
             "its_check": id,
             "its_key": step.key,
             "its_stage": step.stage.value,
-            "its_words": _said(step.words),
+            "its_words": _storable(step.words),
             "its_data": dict(step.data),
         }
         connection.execute(self._telling, event)
@@ -279,7 +279,7 @@ def forget(connection: sa.Connection, ids: Collection[str]) -> None:
 
 
 def _values(step: Step) -> dict[str, Any]:
-    values: dict[str, Any] = {"stage": step.stage.value, "words": _said(step.words)}
+    values: dict[str, Any] = {"stage": step.stage.value, "words": _storable(step.words)}
     if step.result:
         values |= {"result": step.result, "packages": [dict(package) for package in step.packages]}
     return values
@@ -297,6 +297,6 @@ def _loss(found: sa.Row[Any]) -> list[dict[str, Any]]:
     return [{"worker": found.worker, "stage": found.stage, "found": round(time.time(), 1)}]
 
 
-def _said(words: str) -> str:
+def _storable(words: str) -> str:
     """Return words as any database takes them: PostgreSQL refuses a zero character."""
     return shortened(plain(words), _WORDS_LIMIT)

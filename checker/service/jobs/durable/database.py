@@ -214,8 +214,8 @@ def now(engine: sa.Engine) -> sa.ColumnElement[float]:
 
 def _cause(error: sa.exc.SQLAlchemyError) -> str:
     """Return what the database said, without the statement that it was asked."""
-    said = getattr(error, "orig", None) or type(error).__name__
-    return plain(shortened(str(said).partition("\n")[0], _SHOWN))
+    cause = getattr(error, "orig", None) or type(error).__name__
+    return plain(shortened(str(cause).partition("\n")[0], _SHOWN))
 
 
 def _make(file: Path) -> None:

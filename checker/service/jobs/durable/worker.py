@@ -111,8 +111,8 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
 
 
 def _tell_of(layers: Sequence[Layer]) -> None:
-    said = ", ".join(f"{layer.name} ({layer.words})" for layer in layers if layer.held)
-    _LOG.info("layers of the sandbox: %s", said or "none")
+    held = ", ".join(f"{layer.name} ({layer.words})" for layer in layers if layer.held)
+    _LOG.info("layers of the sandbox: %s", held or "none")
     if not hides_files(layers):
         _LOG.warning(
             "no sandbox layer hides files: an upload that takes control of a check can read all "
