@@ -14,7 +14,7 @@ from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.fixed_joints import Lumping
-from checker.physics.mass.mechanism import hang
+from checker.physics.mass.mechanism import spanning_tree_of
 
 
 class PartOfBody(Record, eq=False):
@@ -68,11 +68,11 @@ class Bodies(Record, eq=False):
 
 def bodies_of(robot: Robot, description: UrdfDescription, notes: Notes) -> Bodies:
     """Lump a robot; links without mass that Gazebo's parser drops are dropped, with a note."""
-    hanging = hang(robot)
+    spanning_tree = spanning_tree_of(robot)
     kept = Lumping(description).kept_joints
-    found = Bodies(left_out=hanging.left_out)
-    for name in hanging.depth_first:
-        link, tie = robot.tree.links[name], hanging.by.get(name)
+    found = Bodies(left_out=spanning_tree.left_out)
+    for name in spanning_tree.depth_first:
+        link, tie = robot.tree.links[name], spanning_tree.by.get(name)
         if name == WORLD:
             continue
         holder = found.holders.get(tie.parent) if tie is not None else None

@@ -15,7 +15,7 @@ from checker.model.components import UNLIMITED, Axis, Joint
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
-from checker.physics.mass.mechanism import Freedom, Motion, hang, motions_of
+from checker.physics.mass.mechanism import Freedom, Motion, motions_of, spanning_tree_of
 
 # Joints in URDF, where a joint turns about its child's origin and has one axis at most.
 
@@ -162,7 +162,7 @@ class _Writer:
         self.robot = robot
         self.prefix = prefix
         self.notes = Notes()
-        self.hanging = hang(robot)
+        self.spanning_tree = spanning_tree_of(robot)
         self.links = LinkWriter(robot, mesh_uri, self.notes)
         self.root = etree.Element("robot", name=robot.name.value)
         self.link_names = dict.fromkeys(robot.tree.links, 0)
@@ -173,7 +173,7 @@ class _Writer:
         top = self._top()
         if top == WORLD:
             add(self.root, "link", name=WORLD)
-        for name in self.hanging.depth_first:
+        for name in self.spanning_tree.depth_first:
             if name == WORLD:
                 continue
             self.links.write(
@@ -190,13 +190,15 @@ class _Writer:
 
     def _top(self) -> str:
         """Return the link that all others hang on: `world` where one is tied to it."""
-        if any(tie.parent == WORLD for tie in self.hanging.by.values()):
+        if any(tie.parent == WORLD for tie in self.spanning_tree.by.values()):
             return WORLD
-        return next((name for name in self.hanging.order if name not in self.hanging.by), "")
+        return next(
+            (name for name in self.spanning_tree.order if name not in self.spanning_tree.by), ""
+        )
 
     def _hang(self, name: str, top: str) -> None:
         """Add the joints by which a link hangs."""
-        tie, child = self.hanging.by.get(name), self._pose(name)
+        tie, child = self.spanning_tree.by.get(name), self._pose(name)
         if tie is None:
             link = self.robot.tree.links[name]
             message = f"link {name!r} has no parent link: a floating joint connects it to {top!r}"
@@ -234,7 +236,7 @@ class _Writer:
         return link if link == WORLD else self.prefix + link
 
     def _say_what_is_cut(self) -> None:
-        for tie in self.hanging.left_out:
+        for tie in self.spanning_tree.left_out:
             message = (
                 f"joint {tie.joint.scoped_name!r} closes a loop, which URDF cannot describe: left "
                 "out"

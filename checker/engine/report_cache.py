@@ -82,7 +82,7 @@ def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
 
 
 def remember(cache: Cache, key: str, report: PackageReport) -> None:
-    """Keep a report, unless something was not at hand or not drawn: it may be the next time."""
+    """Keep a report, unless something was not available or not drawn: it may be the next time."""
     undrawn = report.display is not None and not report.display.pictures
     if key and not report.blind_spots and not undrawn:
         cache.put(KIND, key, msgspec.to_builtins(report))

@@ -29,7 +29,7 @@ from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
 from checker.rulebook.profiles import Profile
 from checker.rulebook.suppression.finding_places import Spot, spot
-from checker.rulebook.suppression.silencer import Silencer, parted
+from checker.rulebook.suppression.matcher import SuppressionMatcher, parted
 from checker.settings import Settings
 
 TEXT_LIMIT = 1000
@@ -55,7 +55,7 @@ def run_rules(
     parts: Parts,
     profile: Profile,
     settings: Settings,
-    silencer: Silencer | None = None,
+    matcher: SuppressionMatcher | None = None,
 ) -> Outcome:
     """Run the rules that profile and settings want; one that crashes stops no other."""
     findings: list[ReportedFinding] = []
@@ -73,13 +73,13 @@ def run_rules(
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
         found = [item for item in result if isinstance(item, Finding)]
         spot_of = partial(_spot, rule, profile, settings)
-        for silence, group in parted(rule.id, found, silencer, spot_of).items():
+        for suppression, group in parted(rule.id, found, matcher, spot_of).items():
             reported = _report(rule, group, profile, settings)
-            if silence is None:
+            if suppression is None:
                 findings += reported
             else:
                 suppressed += [
-                    Suppressed(finding, silence.by, silence.reason, silence.place)
+                    Suppressed(finding, suppression.by, suppression.reason, suppression.place)
                     for finding in reported
                 ]
         unchecked = (item.reason for item in result if isinstance(item, Unchecked))

@@ -39,7 +39,7 @@ from checker.model.sensing.view import SensorViews
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.files import UrdfFiles
-from checker.model.urdf.package_descriptions import Describing
+from checker.model.urdf.package_descriptions import PackageDescriptions
 from checker.package.configuration import configuration_number, first_configuration
 from checker.package.inheritance import SPAWNER, Missing
 from checker.package.kind import PackageKind
@@ -101,7 +101,7 @@ class Subject(Record, eq=False, dict=True):
         return self._provided[kind]
 
     def provided(self, kind: type[T]) -> Sequence[T]:
-        """Return a part that some rule had; nothing when none asked for it or it is not at hand."""
+        """Return a part that some rule had; nothing when none asked for it or it is missing."""
         return [item for item in self._provided.get(kind, ()) if isinstance(item, kind)]
 
     def start(self, kinds: Collection[type]) -> None:
@@ -115,7 +115,7 @@ class Subject(Record, eq=False, dict=True):
         if SensorViews in kinds and not isinstance(self.robot_views, NotAvailable):
             self.robot_views.begin()
         if UrdfFiles in kinds or UrdfDescription in kinds:
-            _ = self.describing
+            _ = self.package_descriptions
 
     def start_meshes(self) -> None:
         """Begin to read the robot's meshes; what goes wrong is met again by who asks for it."""
@@ -135,7 +135,7 @@ class Subject(Record, eq=False, dict=True):
         for robot in robots if isinstance(robots, tuple) else ():
             if isinstance(robot.meshes, PackageMeshes):
                 robot.meshes.stop()
-        names = ("trials", "describing", "display", "robot_views")
+        names = ("trials", "package_descriptions", "display", "robot_views")
         for value in map(self.__dict__.get, names):
             if value is not None and not isinstance(value, NotAvailable):
                 value.stop()
@@ -168,16 +168,16 @@ class Subject(Record, eq=False, dict=True):
         return found if isinstance(found, NotAvailable) else found[0].document
 
     @cached_property
-    def describing(self) -> Describing:
+    def package_descriptions(self) -> PackageDescriptions:
         """The URDF files that stand for a robot, as they are being expanded."""
-        return Describing(self.package, self.cache)
+        return PackageDescriptions(self.package, self.cache)
 
     @property
     def urdf_files(self) -> UrdfFiles | NotAvailable:
         """What became of the URDF files."""
-        if not self.describing.applicable:
+        if not self.package_descriptions.applicable:
             return NotAvailable("no URDF file is a robot", applicable=False)
-        return self.describing.files
+        return self.package_descriptions.files
 
     @cached_property
     def descriptions(self) -> tuple[UrdfDescription, ...] | NotAvailable:
@@ -262,7 +262,7 @@ class Subject(Record, eq=False, dict=True):
 
     @cached_property
     def first_configuration(self) -> FirstConfiguration | NotAvailable:
-        """The configuration of the same robot that has the lowest number at hand."""
+        """The configuration of the same robot that has the lowest available number."""
         package = first_configuration(self.package)
         if package is None:
             return NotAvailable(
@@ -360,7 +360,7 @@ class Subject(Record, eq=False, dict=True):
     @cached_property
     def control(self) -> ControlSystem | NotAvailable:
         """What controls the joints of a URDF package."""
-        alone = self.package.only and self.describing.applicable
+        alone = self.package.only and self.package_descriptions.applicable
         if self.package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
             return NotAvailable("the package is not a URDF package", applicable=False)
         return control_system(self.package, self.launch_entries, self.robots, self.descriptions)

@@ -144,7 +144,7 @@ class Assets:
     _targets: dict[str, str] = field(default_factory=dict)
     """New path by old path, as the source's package lists it."""
     _missing: dict[str, str] = field(default_factory=dict)
-    """Path where a file that is not at hand belongs, by its URI."""
+    """Path where a file that is not available belongs, by its URI."""
     _folders: dict[str, str] = field(default_factory=dict)
     """Folder of the source by the folder of the new package that holds its files."""
 

@@ -48,7 +48,7 @@ class Facts(Record):
 
 
 def facts_of(robot: Robot) -> Facts:
-    """Measure a robot whose meshes are at hand."""
+    """Measure a robot whose meshes are available."""
     box = _box(robot, visuals_too=True)
     size: tuple[str, ...] = ()
     if box is not None:

@@ -16,7 +16,7 @@ from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.migrate.options import NotMigrated
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.files import UrdfFiles
-from checker.model.urdf.package_descriptions import Describing
+from checker.model.urdf.package_descriptions import PackageDescriptions
 from checker.package.inputs import Opened, open_input
 from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
@@ -59,11 +59,11 @@ def opened_source(path: Path, urdf: str, args: Mapping[str, str]) -> Iterator[So
     with open_input(path) as opened:
         package = _package_of(opened, path, urdf)
         chosen = _file_in(package, urdf) if urdf else ""
-        describing = Describing(package, NO_CACHE, only=chosen, args=args)
+        descriptions = PackageDescriptions(package, NO_CACHE, only=chosen, args=args)
         try:
-            yield Source(package, _only_one(describing.files, package, path))
+            yield Source(package, _only_one(descriptions.files, package, path))
         finally:
-            describing.stop()
+            descriptions.stop()
 
 
 def _package_of(opened: Opened, path: Path, urdf: str) -> Package:

@@ -46,7 +46,7 @@ def library_stem(filename: str) -> str:
 
 @cache
 def plugin_libraries(release: str) -> Mapping[str, PluginLibrary]:
-    """Return the libraries at hand in a release by their stem; none for an unknown release."""
+    """Return the libraries available in a release by their stem; none for an unknown release."""
     libraries: dict[str, PluginLibrary] = {}
     systems = table("gazebo_plugins")["releases"].get(release, {"plugins": ()})["plugins"]
     for system in systems:

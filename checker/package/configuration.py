@@ -10,7 +10,7 @@ _NUMBERED = re.compile(r"(.+_sensor_config_)([1-9][0-9]{0,5})")
 
 
 def configurations(package: Package) -> tuple[int, dict[int, Package]] | None:
-    """Return a package's number, and the configurations of its robot at hand by their numbers.
+    """Return a package's number, and the available configurations of its robot by number.
 
     None for a package that is no numbered configuration.
     """
@@ -32,7 +32,7 @@ def configuration_number(package: Package) -> int:
 
 
 def first_configuration(package: Package) -> Package | None:
-    """Return the configuration of lowest number at hand; None for that package itself."""
+    """Return the configuration of lowest number that is available; None for that package itself."""
     known = configurations(package)
     if known is None:
         return None

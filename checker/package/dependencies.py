@@ -29,7 +29,7 @@ class Lenders(Record):
 
     Attributes:
         at_hand: The package itself first, then what it depends on, directly or not.
-        missing: Names of packages that it depends on and that are not at hand.
+        missing: Names of packages that it depends on and that are not available.
     """
 
     at_hand: tuple[Package, ...]

@@ -151,7 +151,7 @@ def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:
 
 
 def inherited_parts(package: Package) -> Iterator[Inherited]:
-    """Yield what a package takes from siblings, at hand or not."""
+    """Yield what a package takes from siblings, available or not."""
     for part in Part:
         if part is Part.SPAWNER:
             yield from _loaded_ruby(package)

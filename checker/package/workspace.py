@@ -55,7 +55,7 @@ class Workspace(Record, eq=False, dict=True):
 
     @cached_property
     def packages(self) -> dict[str, Package]:
-        """Every package at hand by its folder's name; the first one when a name comes twice."""
+        """Every available package by its folder's name; the first one when a name comes twice."""
         found: dict[str, Package] = {}
         for directory in self.directories:
             for folder in _subfolders(directory):
@@ -65,7 +65,7 @@ class Workspace(Record, eq=False, dict=True):
 
     @cached_property
     def thumbnails_by_size(self) -> dict[int, list[tuple[Package, str]]]:
-        """Every thumbnail of every package at hand, by its size in bytes."""
+        """Every thumbnail of every available package, by its size in bytes."""
         by_size: dict[int, list[tuple[Package, str]]] = {}
         for package in self.packages.values():
             folder = package.root / THUMBNAILS

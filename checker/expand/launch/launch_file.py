@@ -143,7 +143,7 @@ _FOUND = re.compile(r"\$\(find\s+([^\s()]+)\s*\)/*(.*)\Z", re.DOTALL)
 
 
 class MissingLaunchFile(str):
-    """The reason of a resolver that has the package at hand, but no such file in it."""
+    """The reason of a resolver that has the package, but no such file in it."""
 
     __slots__ = ()
 
@@ -152,7 +152,7 @@ class ReadLaunch(Protocol):
     """Finds an included launch file."""
 
     def __call__(self, package: str, path: str, from_file: str) -> XmlDocument | str:
-        """Return the document, or the reason why it is not at hand.
+        """Return the document, or the reason why it is not available.
 
         A reason that is a `MissingLaunchFile` makes a fault of it. The same file should be
         returned as the same document, so that it is parsed once.
@@ -188,7 +188,7 @@ class Inclusion(Record, eq=False):
     span: Span
 
     def unresolved(self, namespace: str, reason: str) -> UnresolvedInclude:
-        """Return the record of a file that is not at hand."""
+        """Return the record of a file that is not available."""
         path = self.path or self.file.value
         arguments = self.arguments
         return UnresolvedInclude(self.package, path, arguments, namespace, str(reason), self.span)

@@ -40,7 +40,7 @@ def package_in(path: str) -> str:
 
 
 def local_path(package: Package, path: str) -> str | None:
-    """Return a path that xacro sees as the package lists it; None if no package at hand has it."""
+    """Return a path that xacro sees as the package lists it; None if no package has it."""
     name = package_in(path)
     rest = posixpath.normpath(path).removeprefix(f"{ROOT}/{name}").lstrip("/")
     if not name:
@@ -72,7 +72,7 @@ class Gathered:
         documents: Those that are XML.
         faults: Those that are no well-formed XML.
         absent: Paths at which there is no file.
-        beyond: Names of packages that are not at hand.
+        beyond: Names of packages that are not available.
     """
 
     package: Package

@@ -62,7 +62,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
     Args:
         request: JSON: `texts` by path, `absent` paths, `faulty` paths with what is wrong there,
-            `beyond` names of packages that are not at hand, and `items`: each a `file` and `args`.
+            `beyond` names of unavailable packages, and `items`: each a `file` and `args`.
 
     Returns:
         JSON: what became of each job (see `checker.expand.xacro.processor`), in the same order.

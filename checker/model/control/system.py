@@ -277,7 +277,7 @@ def _dormant(entries: LaunchEntries) -> Iterable[Spawned]:
 
 
 def _missing(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
-    """Yield the descriptions that a launch file reads and that no package at hand holds."""
+    """Yield the descriptions that a launch file reads and that no available package holds."""
     named = [(param.value, param.span) for param in graph.params if param.kind in _READING]
     named += [
         (word.value, word.span)

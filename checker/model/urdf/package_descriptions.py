@@ -123,7 +123,7 @@ _LOADS = re.compile(r"\.(?:urdf|xacro)\b|robot_description")
 _XACRO = re.compile(r"\bxacro:|\bxmlns:xacro\b")
 
 
-class Describing:
+class PackageDescriptions:
     """The reading of a package's descriptions: begun at once, had when asked for."""
 
     def __init__(

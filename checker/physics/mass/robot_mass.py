@@ -25,7 +25,13 @@ from checker.physics.mass.inertia import (
     rows_of,
 )
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.physics.mass.mechanism import Freedom, Hanging, Motion, hang, motions_of
+from checker.physics.mass.mechanism import (
+    Freedom,
+    Motion,
+    SpanningTree,
+    motions_of,
+    spanning_tree_of,
+)
 
 if TYPE_CHECKING:
     import pinocchio as pin
@@ -40,7 +46,7 @@ GRAVITY = 9.81
 
 def gravity_torques(
     robot: Robot,
-    hanging: Hanging,
+    spanning_tree: SpanningTree,
     links: Mapping[str, LinkInertia],
     standing: frozenset[str],
 ) -> dict[Joint, float]:
@@ -51,15 +57,15 @@ def gravity_torques(
 
     Args:
         robot: Who holds.
-        hanging: Which link hangs on which.
+        spanning_tree: Which link hangs on which.
         links: Their masses and centres.
         standing: Names of links on the ground: what hangs above them is carried from below.
     """
     loads = {name: _load(link) for name, link in links.items()}
     stands = set(standing)
     torques: dict[Joint, float] = {}
-    for name in reversed(hanging.order):
-        tie = hanging.by.get(name)
+    for name in reversed(spanning_tree.order):
+        tie = spanning_tree.by.get(name)
         if tie is None:
             continue
         if tie.parent != WORLD:
@@ -235,7 +241,7 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
     stand = stand_of(robot)
     torques = {}
     if not stand.unknown:
-        torques = gravity_torques(robot, hang(robot), links, stand.links)
+        torques = gravity_torques(robot, spanning_tree_of(robot), links, stand.links)
     return MassProperties(
         robot=robot,
         mass=robot.mass,

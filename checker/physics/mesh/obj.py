@@ -91,7 +91,7 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
 
     Args:
         data: Of the file.
-        material_files: What is in those that it names, as far as they are at hand.
+        material_files: What is in those that it names, as far as they are available.
 
     Raises:
         NoSurface: The file holds no corners, or its faces name some that it has not.

@@ -112,7 +112,7 @@ def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -
     Args:
         data: Its content.
         path: Its name; the suffix decides on the format, as in Gazebo.
-        material_files: What is in those that it names, as far as they are at hand.
+        material_files: What is in those that it names, as far as they are available.
 
     Raises:
         NoSurface: It cannot be read.
