@@ -104,20 +104,20 @@ class Task(Record):
         """Return the settings that judge a package; no search leaves an unpacked archive."""
         if self.settings is not None:
             return self.settings
-        given = self.path.resolve()
+        path = self.path.resolve()
         folders = folders_above(package.root)
-        if given.is_file() and not package.only:
+        if path.is_file() and not package.only:
             inside = folders_above(package.root, top=package.workspace.directories[0])
-            folders = chain(inside, folders_above(given.parent))
+            folders = chain(inside, folders_above(path.parent))
         return find_settings(folders).overridden(**self.wishes)
 
     def shown(self, package: Package) -> str:
         """Return the package's path as the user would write it."""
         if package.only:
             return str(self.path.parent)
-        given = self.path.resolve()
-        if package.root.is_relative_to(given):
-            return str(self.path / package.root.relative_to(given))
+        path = self.path.resolve()
+        if package.root.is_relative_to(path):
+            return str(self.path / package.root.relative_to(path))
         return str(self.path / package.name)
 
 

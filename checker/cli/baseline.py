@@ -85,13 +85,15 @@ def _entries(
 
     What rules said that did not look this time stays.
     """
-    spots = [(at, spot) for at, found in enumerate(package.findings) for spot in spots_of(found)]
+    spots = [
+        (at, spot) for at, finding in enumerate(package.findings) for spot in spots_of(finding)
+    ]
     known = matched([spot for _, spot in spots], before)
     reasons: dict[int, str] = {}
     for (at, _), entry in zip(spots, known.entries, strict=True):
         if entry is not None and before[entry].reason:
             reasons.setdefault(at, before[entry].reason)
-    now = [_entry(found, reasons.get(at, "")) for at, found in enumerate(package.findings)]
+    now = [_entry(finding, reasons.get(at, "")) for at, finding in enumerate(package.findings)]
     stale = [before[at] for at in known.stale]
     kept = [entry for entry in stale if entry.rule in rules and entry.rule not in package.looked]
     return (*now, *kept)

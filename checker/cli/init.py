@@ -133,16 +133,16 @@ def guessed_profile(folder: Path) -> Guess:
     """Return the profile that suits all packages of a folder."""
     try:
         with open_input(folder) as opened:
-            found = Counter(filter(None, map(_profile_of, islice(opened.packages, _LOOKED_AT))))
+            profiles = Counter(filter(None, map(_profile_of, islice(opened.packages, _LOOKED_AT))))
     except UnreadableInput:
-        found = Counter()
+        profiles = Counter()
     counted = ", ".join(
         f"{number} {'package' if number == 1 else 'packages'} for {profile}"
-        for profile, number in sorted(found.items())
+        for profile, number in sorted(profiles.items())
     )
-    if len(found) == 1:
-        return Guess(next(iter(found)), counted)
-    if found:
+    if len(profiles) == 1:
+        return Guess(next(iter(profiles)), counted)
+    if profiles:
         return Guess("", f"{counted}; each is checked with the profile subt, or urdf if it is URDF")
     return Guess("", "nothing: there is no robot yet")
 

@@ -84,12 +84,12 @@ class Copier:
             name = chosen
         return name if element.tag == "sensor" else ""
 
-    def _list_plugins(self, element: Element, twin: etree._Element, found: CarriedFrom) -> None:
+    def _list_plugins(self, element: Element, twin: etree._Element, origin: CarriedFrom) -> None:
         nodes = list(twin.iter(etree.Element))
         for source, node in zip((element, *element.descendants()), nodes, strict=True):
             if source.tag == "plugin":
-                plugin = read_plugin(source, owner=found.sensor)
-                carried = CarriedPlugin(plugin, found.link, found.sensor, found.reference, node)
+                plugin = read_plugin(source, owner=origin.sensor)
+                carried = CarriedPlugin(plugin, origin.link, origin.sensor, origin.reference, node)
                 self.plugins.append(carried)
 
     def _move(self, element: Element, twin: etree._Element, pose: Transform) -> None:

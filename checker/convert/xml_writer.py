@@ -110,8 +110,8 @@ def child_of(parent: etree._Element, *path: str) -> etree._Element:
     """Return the element at a path below another one; what is missing is added."""
     at = parent
     for tag in path:
-        found = at.find(tag)
-        at = found if found is not None else etree.SubElement(at, tag)
+        child = at.find(tag)
+        at = child if child is not None else etree.SubElement(at, tag)
     return at
 
 

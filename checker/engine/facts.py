@@ -77,11 +77,11 @@ def _verdicts(outcome: Outcome) -> _Verdicts:
     verdicts: _Verdicts = {}
     # A figure is out of its limits also where that shall not count.
     aside = (item.finding for item in outcome.suppressed)
-    for found in (*outcome.findings, *aside):
-        if found.rule in _JUDGES or found.rule.startswith("TRI"):
-            places = frozenset(map(_start, found.places))
-            for name in found.key.split():
-                verdicts.setdefault(name, []).append((found.severity, places))
+    for finding in (*outcome.findings, *aside):
+        if finding.rule in _JUDGES or finding.rule.startswith("TRI"):
+            places = frozenset(map(_start, finding.places))
+            for name in finding.key.split():
+                verdicts.setdefault(name, []).append((finding.severity, places))
     return verdicts
 
 
@@ -93,12 +93,12 @@ def _verdict(
     measurement: Measurement, driven: RobotTrial, verdicts: _Verdicts, looked: bool
 ) -> str:
     """Return the gravest that was said about a figure; `ok` when its rule looked and was silent."""
-    verdict = verdicts.get(measurement.name, [])
+    judged = verdicts.get(measurement.name, [])
     if measurement.part:
         start = _start(driven.part(measurement.part).span.place())
-        verdict = [(severity, places) for severity, places in verdict if start in places]
-    if verdict:
-        return str(min((severity for severity, _ in verdict), key=lambda severity: severity.rank))
+        judged = [(severity, places) for severity, places in judged if start in places]
+    if judged:
+        return str(min((severity for severity, _ in judged), key=lambda severity: severity.rank))
     return "ok" if looked and MEASURES[measurement.name].silence_is_ok else NOT_JUDGED
 
 

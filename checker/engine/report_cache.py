@@ -58,8 +58,8 @@ def memory_key(package: Package, settings: Settings) -> str:
     """Return the key of a package's report; empty when it is not worth remembering."""
     if package.only:
         return ""
-    asked = json.dumps(msgspec.to_builtins(settings, enc_hook=str))
-    parts: list[bytes | str] = [*program_parts(), asked, str(package.root)]
+    options = json.dumps(msgspec.to_builtins(settings, enc_hook=str))
+    parts: list[bytes | str] = [*program_parts(), options, str(package.root)]
     parts += _content(package)
     beside = list(islice(_beside(package), ENTRIES_LIMIT))
     return key_of(*parts, *beside) if len(beside) < ENTRIES_LIMIT else ""
@@ -124,7 +124,7 @@ def _below(folder: Path) -> Iterator[str]:
     while waiting:
         with suppress(OSError), os.scandir(waiting.pop()) as items:
             for item in sorted(items, key=lambda item: item.name):
-                found = item.stat(follow_symlinks=item.is_symlink() and item.is_file())
-                yield f"{item.path} {found.st_mode} {found.st_size} {found.st_mtime_ns}"
-                if stat.S_ISDIR(found.st_mode) and item.name not in SKIPPED_FOLDERS:
+                status = item.stat(follow_symlinks=item.is_symlink() and item.is_file())
+                yield f"{item.path} {status.st_mode} {status.st_size} {status.st_mtime_ns}"
+                if stat.S_ISDIR(status.st_mode) and item.name not in SKIPPED_FOLDERS:
                     waiting.append(Path(item.path))

@@ -71,9 +71,9 @@ def run_rules(
             not_checked.append(result)
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
-        found = [item for item in result if isinstance(item, Finding)]
+        own = [item for item in result if isinstance(item, Finding)]
         spot_of = partial(_spot, rule, profile, settings)
-        for suppression, group in parted(rule.id, found, matcher, spot_of).items():
+        for suppression, group in parted(rule.id, own, matcher, spot_of).items():
             reported = _report(rule, group, profile, settings)
             if suppression is None:
                 findings += reported
@@ -103,7 +103,7 @@ def _outcome(
     ]
     counting, others = distinct[: len(findings)], distinct[len(findings) :]
     set_aside = (
-        replace(item, finding=found) for item, found in zip(suppressed, others, strict=True)
+        replace(item, finding=finding) for item, finding in zip(suppressed, others, strict=True)
     )
     return Outcome(tuple(counting), tuple(not_checked), looked, tuple(set_aside))
 
@@ -114,7 +114,7 @@ def joined(*outcomes: Outcome) -> Outcome:
     for outcome in outcomes:
         looked.update(outcome.looked)
     return Outcome(
-        tuple(_sorted([found for outcome in outcomes for found in outcome.findings])),
+        tuple(_sorted([finding for outcome in outcomes for finding in outcome.findings])),
         tuple(unseen for outcome in outcomes for unseen in outcome.not_checked),
         looked,
         tuple(aside for outcome in outcomes for aside in outcome.suppressed),
@@ -161,7 +161,7 @@ def _run_isolated(
             cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
         options = options_of(rule, settings)
-        return [found for argument in arguments for found in rule.check(**argument, **options)]
+        return [outcome for argument in arguments for outcome in rule.check(**argument, **options)]
     except Exception as error:  # noqa: BLE001 - the other rules go on, the exit code says so
         return crashed(rule.id, error)
 
@@ -185,12 +185,12 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
 
 
 def _report(
-    rule: Rule, found: list[Finding], profile: Profile, settings: Settings
+    rule: Rule, findings: list[Finding], profile: Profile, settings: Settings
 ) -> Iterator[ReportedFinding]:
     """Join findings that are one fault in many places, and add what the rule's page says."""
     page = parse_page(rule.page)
     groups: dict[tuple[Severity, str], list[Finding]] = {}
-    for finding in found:
+    for finding in findings:
         severity = _severity(rule, finding, profile, settings)
         groups.setdefault((severity, finding.key or finding.message), []).append(finding)
     for (severity, _), group in groups.items():
@@ -226,30 +226,30 @@ def _joined_fix(fixes: list[Fix]) -> Fix | None:
     return Fix(max((fix.safety for fix in fixes), key=list(Safety).index), tuple(edits))
 
 
-def _spot(rule: Rule, profile: Profile, settings: Settings, found: Finding) -> Spot:
+def _spot(rule: Rule, profile: Profile, settings: Settings, finding: Finding) -> Spot:
     """Return how the baseline knows a finding, in the words of the report."""
-    severity = _severity(rule, found, profile, settings)
-    message = shortened(found.message, TEXT_LIMIT)
-    return spot(rule.id, severity, found.places[0], found.key, message)
+    severity = _severity(rule, finding, profile, settings)
+    message = shortened(finding.message, TEXT_LIMIT)
+    return spot(rule.id, severity, finding.places[0], finding.key, message)
 
 
-def _severity(rule: Rule, found: Finding, profile: Profile, settings: Settings) -> Severity:
+def _severity(rule: Rule, finding: Finding, profile: Profile, settings: Settings) -> Severity:
     """The user's word counts most, then the finding's, then the rule's; a profile can lower it."""
     if rule.id in settings.severity:
         return settings.severity[rule.id]
-    severity = found.severity or rule.severity
+    severity = finding.severity or rule.severity
     limit = profile.severity.get(rule.id)
     return max(severity, limit, key=lambda s: s.rank) if limit else severity
 
 
-def _identity(found: Finding) -> str:
+def _identity(finding: Finding) -> str:
     """Return what tells a fault from others of its rule in the same element or file.
 
     An element's path stays when its value changes, the message does not; elsewhere the message
     has to do, without the numbers of lines in it.
     """
-    message = "" if found.places[0].element else found.message
-    return without_line_numbers(found.key or message)
+    message = "" if finding.places[0].element else finding.message
+    return without_line_numbers(finding.key or message)
 
 
 def _sorted(findings: list[ReportedFinding]) -> list[ReportedFinding]:

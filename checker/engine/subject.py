@@ -164,8 +164,8 @@ class Subject(Record, eq=False, dict=True):
     @property
     def _urdf(self) -> XmlDocument | NotAvailable:
         """The first description of a URDF package, or of a file."""
-        found = self.descriptions
-        return found if isinstance(found, NotAvailable) else found[0].document
+        descriptions = self.descriptions
+        return descriptions if isinstance(descriptions, NotAvailable) else descriptions[0].document
 
     @cached_property
     def package_descriptions(self) -> PackageDescriptions:
@@ -230,11 +230,11 @@ class Subject(Record, eq=False, dict=True):
         if isinstance(self.model, NotAvailable):
             return self.model
         if self.model.root.tag == "robot":
-            found = self.descriptions
+            descriptions = self.descriptions
             return (
-                found
-                if isinstance(found, NotAvailable)
-                else tuple(description.robot for description in found)
+                descriptions
+                if isinstance(descriptions, NotAvailable)
+                else tuple(description.robot for description in descriptions)
             )
         robots = read_sdf(self.model, ModelIncludes(self.package))
         if self.package.kind is not PackageKind.SINGLE_FILE:

@@ -157,17 +157,17 @@ class Assets:
         if written.startswith(_FROM_THE_NET):
             return written
         folder = posixpath.dirname(self.source.description.file)
-        found = file_behind(self.source.package, folder, written)
+        file = file_behind(self.source.package, folder, written)
         name = posixpath.basename(written.rstrip("/")) or "mesh"
-        if not isinstance(found, MeshFile):
+        if not isinstance(file, MeshFile):
             wanted = self._free(f"{_folder_for(name)}/{_fit(name)}")
             place = self._missing.setdefault(written, wanted)
             new = posixpath.basename(place)
             renamed = "" if new == name else f" as {new}"
             folder = posixpath.dirname(place)
-            self._note(f"{written} {found.reason}: put the file into {folder}/{renamed}")
+            self._note(f"{written} {file.reason}: put the file into {folder}/{renamed}")
             return place
-        return self._target(found.path)
+        return self._target(file.path)
 
     def package_uri(self, package: str) -> dict[str, str]:
         """Return the `package://` URI in the new package of each file's old path."""

@@ -125,7 +125,7 @@ def _becomes_xml(template: str | None) -> bool:
 def _environment() -> Environment:
     from jinja2 import Environment, FunctionLoader, StrictUndefined
 
-    made = Environment(
+    environment = Environment(
         loader=FunctionLoader(lambda name: templates("migrate").joinpath(name).read_text("utf-8")),
         # What becomes XML is escaped; names in Ruby were looked at before (`check_names`).
         autoescape=_becomes_xml,  # noqa: S701
@@ -134,8 +134,8 @@ def _environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    made.filters["number"] = exact
-    return made
+    environment.filters["number"] = exact
+    return environment
 
 
 _PREFIX = ".subt-check-migrate-"
@@ -175,7 +175,7 @@ def staged(destination: Path, package: str) -> Iterator[Staging]:
     Raises:
         NotMigrated: The destination is not empty, or cannot be written to.
     """
-    made = _made(destination)
+    folders = _made(destination)
     hidden: Path | None = None
     try:
         hidden = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=destination))
@@ -188,7 +188,7 @@ def staged(destination: Path, package: str) -> Iterator[Staging]:
     finally:
         if hidden is not None:
             shutil.rmtree(hidden, ignore_errors=True)
-        for folder in made:
+        for folder in folders:
             # Only what is empty goes: after a failure, what was made for nothing.
             with suppress(OSError):
                 folder.rmdir()

@@ -66,16 +66,16 @@ def servos_of(source: Source, robot: Robot) -> list[Servo]:
         subject.close()
     if not isinstance(control, ControlSystem):
         return []
-    found: dict[str, Servo] = {}
+    servos: dict[str, Servo] = {}
     for joint, gains in _held(control.controllers):
         own = robot.joints_by_name.get(joint)
-        if own is None or not own.axes or joint in found:
+        if own is None or not own.axes or joint in servos:
             continue
         effort = own.axes[0].effort.value
         limit = effort if math.isfinite(effort) and effort > 0.0 else 0.0
         topic = _UNFIT.sub("_", joint) + "_cmd"
-        found[joint] = Servo(joint, topic, gains["p"], gains["i"], gains["d"], limit)
-    return list(found.values())
+        servos[joint] = Servo(joint, topic, gains["p"], gains["i"], gains["d"], limit)
+    return list(servos.values())
 
 
 def _held(controllers: Iterable[Controller]) -> Iterator[tuple[str, dict[str, float]]]:

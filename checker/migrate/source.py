@@ -99,9 +99,9 @@ def _file_in(package: Package, urdf: str) -> str:
     real = Path(os.path.realpath(urdf))
     if real.is_relative_to(package.root) and real.is_file():
         return real.relative_to(package.root).as_posix()
-    found = [file.path for file in package.index.with_suffix(".urdf", ".xacro")]
+    paths = [file.path for file in package.index.with_suffix(".urdf", ".xacro")]
     raise NotMigrated(
-        f"{urdf} is not a file of {package.name}; found: {_listed(found) or 'no URDF file'}"
+        f"{urdf} is not a file of {package.name}; found: {_listed(paths) or 'no URDF file'}"
     )
 
 
@@ -151,9 +151,9 @@ def original_text(source: Source, new_uris: Mapping[str, str]) -> bytes:
     root = copy.deepcopy(source.description.document.root.node)
     folder = posixpath.dirname(source.description.file)
     for element in root.iter("mesh", "texture"):
-        found = file_behind(source.package, folder, element.get("filename") or "")
-        if isinstance(found, MeshFile) and found.path in new_uris:
-            element.set("filename", new_uris[found.path])
+        file = file_behind(source.package, folder, element.get("filename") or "")
+        if isinstance(file, MeshFile) and file.path in new_uris:
+            element.set("filename", new_uris[file.path])
     root.insert(0, etree.Comment(_COMMENT))
     return document_text(root).encode()
 

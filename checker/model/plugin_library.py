@@ -82,8 +82,8 @@ def release_label(release: str) -> str:
 def release_major(release: str) -> int | None:
     """Return the major version of a release's simulator: 4 for Dome."""
     entry = table("gazebo_plugins")["releases"].get(release)
-    found = re.search(r"\d+\Z", entry["branch"]) if entry else None
-    return int(found.group()) if found else None
+    match = re.search(r"\d+\Z", entry["branch"]) if entry else None
+    return int(match.group()) if match else None
 
 
 def classic_plugin(filename: str) -> dict[str, Any] | None:

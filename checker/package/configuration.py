@@ -17,12 +17,12 @@ def configurations(package: Package) -> tuple[int, dict[int, Package]] | None:
     own = _NUMBERED.fullmatch(package.name)
     if own is None or package.only:
         return None
-    found = {int(own.group(2)): package}
+    packages = {int(own.group(2)): package}
     for name, other in package.workspace.packages.items():
         match = _NUMBERED.fullmatch(name)
         if match and match.group(1) == own.group(1):
-            found.setdefault(int(match.group(2)), other)
-    return int(own.group(2)), found
+            packages.setdefault(int(match.group(2)), other)
+    return int(own.group(2)), packages
 
 
 def configuration_number(package: Package) -> int:
@@ -36,6 +36,6 @@ def first_configuration(package: Package) -> Package | None:
     known = configurations(package)
     if known is None:
         return None
-    number, found = known
-    first = min(found)
-    return found[first] if first < number else None
+    number, packages = known
+    first = min(packages)
+    return packages[first] if first < number else None

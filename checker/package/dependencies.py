@@ -47,12 +47,12 @@ def lenders_of(package: Package) -> Lenders:
     waiting = [package]
     while waiting:
         for other in _needs(waiting.pop()):
-            found = package.workspace.package(other.package_name)
-            if found is None:
+            dependency = package.workspace.package(other.package_name)
+            if dependency is None:
                 missing[other.package_name] = None
-            elif found.name not in at_hand:
-                at_hand[found.name] = found
-                waiting.append(found)
+            elif dependency.name not in at_hand:
+                at_hand[dependency.name] = dependency
+                waiting.append(dependency)
     return Lenders(tuple(at_hand.values()), tuple(missing))
 
 

@@ -40,14 +40,14 @@ def _xml(text: str) -> str:
 
 
 def _suite(package: PackageReport) -> ET.Element:
-    found: dict[str, list[ReportedFinding]] = {}
+    by_rule: dict[str, list[ReportedFinding]] = {}
     for finding in package.findings:
-        found.setdefault(finding.rule, []).append(finding)
+        by_rule.setdefault(finding.rule, []).append(finding)
     unseen: dict[str, list[NotChecked]] = {}
     for missing in package.not_checked:
         unseen.setdefault(missing.rule, []).append(missing)
-    rules = sorted({*package.looked, *found, *unseen})
-    cases = [_case(rule, package, found.get(rule, ()), unseen.get(rule, ())) for rule in rules]
+    rules = sorted({*package.looked, *by_rule, *unseen})
+    cases = [_case(rule, package, by_rule.get(rule, ()), unseen.get(rule, ())) for rule in rules]
     return _counted(package.name, cases, sum(package.timings.values()))
 
 
@@ -72,13 +72,13 @@ def _counted(name: str, cases: Sequence[ET.Element], seconds: float) -> ET.Eleme
 def _case(
     rule: str,
     package: PackageReport,
-    found: Sequence[ReportedFinding],
+    findings: Sequence[ReportedFinding],
     unseen: Sequence[NotChecked],
 ) -> ET.Element:
     """Return a case; its name is the rule's id alone, so that its history is one over time."""
     case = ET.Element("testcase", classname=_xml(package.name), name=_xml(rule))
-    failing = [reported for reported in found if reported.severity.rank <= package.fail_on.rank]
-    lesser = [reported for reported in found if reported.severity.rank > package.fail_on.rank]
+    failing = [reported for reported in findings if reported.severity.rank <= package.fail_on.rank]
+    lesser = [reported for reported in findings if reported.severity.rank > package.fail_on.rank]
     reasons = "; ".join(dict.fromkeys(skipped.reason for skipped in unseen))
     if any(skipped.cause is Cause.CRASHED for skipped in unseen):
         ET.SubElement(case, "error", message=_xml(reasons), type="crashed")
@@ -125,7 +125,7 @@ _COMMAND = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO:
 
 def to_github(report: Report) -> str:
     """Return one workflow command a line, the gravest first; then counts and verdicts."""
-    found = list(each_once(report))
+    findings = list(each_once(report))
     lines = [
         _command("error", {"title": "not opened"}, plain(f"{item.path} {item.reason}"))
         for item in report.not_opened
@@ -133,11 +133,11 @@ def to_github(report: Report) -> str:
     ]
     for severity in Severity:
         of_one = [
-            (package, reported) for package, reported in found if reported.severity is severity
+            (package, reported) for package, reported in findings if reported.severity is severity
         ]
         lines += [_annotation(reported, package) for package, reported in of_one[:LINES_LIMIT]]
     numbers = [
-        count(sum(reported.severity is severity for _, reported in found), _COMMAND[severity])
+        count(sum(reported.severity is severity for _, reported in findings), _COMMAND[severity])
         for severity in Severity
     ]
     lines.append(f"{listed(numbers)} in all; GitHub shows the first ten of each")

@@ -83,16 +83,16 @@ def _package_json(package: PackageReport) -> PackageJson:
     )
 
 
-def _finding_json(found: ReportedFinding) -> FindingJson:
+def _finding_json(reported: ReportedFinding) -> FindingJson:
     return FindingJson(
-        rule=found.rule,
-        name=found.name,
-        severity=found.severity,
-        message=found.message,
-        fingerprint=found.fingerprint,
-        places=tuple(map(_place_json, found.places)),
-        help=found.help,
-        fix=msgspec.UNSET if found.fix is None else _fix_json(found.fix),
+        rule=reported.rule,
+        name=reported.name,
+        severity=reported.severity,
+        message=reported.message,
+        fingerprint=reported.fingerprint,
+        places=tuple(map(_place_json, reported.places)),
+        help=reported.help,
+        fix=msgspec.UNSET if reported.fix is None else _fix_json(reported.fix),
     )
 
 

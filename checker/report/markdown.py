@@ -30,13 +30,15 @@ _TEXT_LIMIT = 300
 
 def to_markdown(report: Report) -> str:
     """Return verdicts, a table of findings, and the rest folded; below `SIZE_LIMIT`."""
-    found = sorted(each_once(report), key=lambda pair: pair[1].severity.rank)
+    findings = sorted(each_once(report), key=lambda pair: pair[1].severity.rank)
     pages = {
-        reported.rule: reported for _, reported in found if reported.severity is not Severity.INFO
+        reported.rule: reported
+        for _, reported in findings
+        if reported.severity is not Severity.INFO
     }
     blocks = [
         *_verdicts(report),
-        _findings(found),
+        _findings(findings),
         _folded("Why, and how to fix it", list(pages.values()), _page),
         _folded("Suppressed", _pairs(report, lambda package: package.suppressed), _aside),
         _folded("Not checked", _pairs(report, _unseen), _unseen_line),
@@ -64,16 +66,16 @@ def _unopened(item: NotOpened) -> str:
     return f"- {code(shortened(item.path, _TEXT_LIMIT))}: {_short(item.reason)}"
 
 
-def _findings(found: Sequence[tuple[PackageReport, ReportedFinding]]) -> str:
-    rows, left = fitting(found, _row, _FINDINGS_ROOM)
+def _findings(findings: Sequence[tuple[PackageReport, ReportedFinding]]) -> str:
+    rows, left = fitting(findings, _row, _FINDINGS_ROOM)
     if not rows:
         return ""
     head = ["| severity | rule | place | what |", "|---|---|---|---|"]
     return "\n".join([*head, *rows]) + _left(left, "finding", "; `--format json` lists all")
 
 
-def _row(found: tuple[PackageReport, ReportedFinding]) -> str:
-    package, reported = found
+def _row(pair: tuple[PackageReport, ReportedFinding]) -> str:
+    package, reported = pair
     place = reported.places[0]
     path = path_of(place, package)
     where = code(f"…{path[-200:]}" if len(path) > 200 else path)

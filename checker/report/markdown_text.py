@@ -31,7 +31,7 @@ def escaped(text: str) -> str:
 
 
 def _numbered(text: str) -> str:
-    return _MARKS.sub(lambda found: f"&#{ord(found[0])};", text)
+    return _MARKS.sub(lambda match: f"&#{ord(match[0])};", text)
 
 
 def with_code(text: str) -> str:

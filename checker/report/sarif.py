@@ -65,7 +65,7 @@ def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
     """
     package, finding = item.package, item.finding
     first, *others = finding.places
-    made: Json = {
+    members: Json = {
         "ruleId": finding.rule,
         "ruleIndex": index,
         "level": LEVELS[finding.severity],
@@ -77,15 +77,15 @@ def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
     if others:
         related = (_related(other, package, folder) for other in others[:RELATED_LIMIT])
         # The standard wants them distinct, and words made plain may have become alike.
-        made["relatedLocations"] = list({str(place): place for place in related}.values())
-        made["occurrenceCount"] = 1 + sum(not other.note for other in others)
+        members["relatedLocations"] = list({str(place): place for place in related}.values())
+        members["occurrenceCount"] = 1 + sum(not other.note for other in others)
     if fix := fixes(finding.fix, finding.how, package, folder):
-        made["fixes"] = fix
+        members["fixes"] = fix
     if marks.baseline:
-        made["baselineState"] = "unchanged" if item.in_baseline else "new"
+        members["baselineState"] = "unchanged" if item.in_baseline else "new"
     if marks.suppressions:
-        made["suppressions"] = _suppressions(item, folder) if item.set_aside else []
-    return made
+        members["suppressions"] = _suppressions(item, folder) if item.set_aside else []
+    return members
 
 
 def words(message: str) -> str:
@@ -103,10 +103,10 @@ def _suppressions(item: PackageFinding, folder: str) -> list[Json]:
     if aside is None:
         return []
     kind = "inSource" if aside.by is SuppressedBy.COMMENT else "external"
-    found: Json = {"kind": kind, "status": "accepted", "justification": plain(aside.reason)}
+    suppression: Json = {"kind": kind, "status": "accepted", "justification": plain(aside.reason)}
     if aside.place is not None:
-        found["location"] = location(aside.place, item.package, folder)
-    return [found]
+        suppression["location"] = location(aside.place, item.package, folder)
+    return [suppression]
 
 
 SCHEMA = (
@@ -129,25 +129,27 @@ def to_sarif(report: Report, folder: str) -> str:
 
 
 def _run(report: Report, folder: str) -> Json:
-    found = sorted(
+    findings = sorted(
         _all_findings(report),
         key=lambda item: (item.suppressed is not None, item.finding.severity.rank),
     )
-    shown = found[:RESULTS_LIMIT]
+    shown = findings[:RESULTS_LIMIT]
     rules = _first_by_rule(shown)
     driver: Json = {"name": "subt-check", "rules": [_rule(rule) for rule in rules.values()]}
     # An installation may not know its own version.
     if (version := report.versions.get("subt-check", ""))[:1].isdigit():
         driver["version"] = plain(version)
     indices = {rule: index for index, rule in enumerate(rules)}
-    marks = Marks(any(item.in_baseline for item in found), any(item.set_aside for item in found))
+    marks = Marks(
+        any(item.in_baseline for item in findings), any(item.set_aside for item in findings)
+    )
     return {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
         "originalUriBaseIds": {
             BASE: {"description": {"text": "The folder where subt-check was run."}}
         },
-        "invocations": [_invocation(report, len(found) - len(shown))],
+        "invocations": [_invocation(report, len(findings) - len(shown))],
         "results": [result(item, indices[item.finding.rule], marks, folder) for item in shown],
         "properties": {"packages": [_package(package) for package in report.packages]},
     }
@@ -165,10 +167,10 @@ def _package(package: PackageReport) -> Json:
     return {"name": plain(package.name), "verdict": str(package.verdict)}
 
 
-def _first_by_rule(found: Sequence[PackageFinding]) -> Mapping[str, ReportedFinding]:
+def _first_by_rule(findings: Sequence[PackageFinding]) -> Mapping[str, ReportedFinding]:
     """Return the first finding of each rule, which is the gravest that counts."""
     rules: dict[str, ReportedFinding] = {}
-    for item in found:
+    for item in findings:
         rules.setdefault(item.finding.rule, item.finding)
     return rules
 
@@ -206,9 +208,7 @@ def _invocation(report: Report, left_out: int) -> Json:
         level = "error" if item.failed else "note"
         text = f"{plain(item.path)} {plain(item.reason)}"
         notifications.append({"level": level, "message": {"text": words(text)}})
-    notifications = sorted(notifications, key=lambda notification: str(notification["level"]))[
-        :NOTIFICATIONS_LIMIT
-    ]
+    notifications = sorted(notifications, key=lambda n: str(n["level"]))[:NOTIFICATIONS_LIMIT]
     if left_out:
         text = f"{count(left_out, 'result')} left out, {RESULTS_LIMIT} shown, the most severe first"
         notifications.append({"level": "warning", "message": {"text": text}})

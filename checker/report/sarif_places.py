@@ -55,11 +55,11 @@ def location(place: Place, package: PackageReport, folder: str) -> Json:
     physical: Json = {"artifactLocation": where, "region": region(place)}
     if context := _context(place):
         physical["contextRegion"] = context
-    found: Json = {"physicalLocation": physical}
+    result: Json = {"physicalLocation": physical}
     if place.element:
         name = plain(place.element)
-        found["logicalLocations"] = [{"fullyQualifiedName": name, "kind": "element"}]
-    return found
+        result["logicalLocations"] = [{"fullyQualifiedName": name, "kind": "element"}]
+    return result
 
 
 def region(place: Place) -> Json:

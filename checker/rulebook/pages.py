@@ -89,8 +89,8 @@ def pages(rules: Iterable[Rule]) -> dict[str, str]:
         (group, list(members))
         for group, members in groupby(sorted(rules, key=lambda r: r.id), lambda r: r.group)
     ]
-    made = {f"{group}.md": _group_page(group, members) for group, members in groups}
-    return {"README.md": _index(groups), **made}
+    texts = {f"{group}.md": _group_page(group, members) for group, members in groups}
+    return {"README.md": _index(groups), **texts}
 
 
 def anchor(rule: Rule) -> str:

@@ -95,13 +95,13 @@ def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]
     config = config_from(environment)
     if config.only_here:
         return ""
-    found = layers()
-    if hides_files(found):
+    held = layers()
+    if hides_files(held):
         return ""
     if config.without_sandbox:
         return f"no sandbox layer hides files: {_RISK} (--without-sandbox)"
     raise CheckerError(
-        f"no sandbox layer hides files from uploads ({_missing(found)}); install bubblewrap or use "
+        f"no sandbox layer hides files from uploads ({_missing(held)}); install bubblewrap or use "
         "a kernel with Landlock (`subt-check doctor` tells more), or accept the risk with "
         f"--without-sandbox: {_RISK}"
     )

@@ -40,10 +40,12 @@ def _unconfigured(control: ControlSystem) -> Findings:
         if controller.loaded_by is None
     }
     for spawned in missing:
-        found, near = lying.get(spawned.name), meant.get(spawned.name)
+        unloaded, near = lying.get(spawned.name), meant.get(spawned.name)
         hint = f"; did you mean {near.name!r}?" if near is not None else ""
-        if found is not None:
-            hint = f"; {found.span.source.file} configures it, but no launch file loads that file"
+        if unloaded is not None:
+            hint = (
+                f"; {unloaded.span.source.file} configures it, but no launch file loads that file"
+            )
         yield finding(
             spawned,
             f"controller {spawned.name!r} is spawned, but no loaded file configures it{hint}",

@@ -26,14 +26,14 @@ def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Fi
             the ten sections of the SubT template.
     """
     wanted: Sequence[str] = sections or table("subt_standards")["specifications_md"]["required"]
-    found = {words: _sections(specification, words) for words in wanted}
-    missing = [words for words, having in found.items() if not having]
+    of_words = {words: _sections(specification, words) for words in wanted}
+    missing = [words for words, having in of_words.items() if not having]
     if missing and specification.unread:
         yield unchecked(specification.unread)
         missing = []
     empty = [
         having[0]
-        for having in found.values()
+        for having in of_words.values()
         if having and all(specification.says_nothing(section) for section in having)
     ]
     phrases = []

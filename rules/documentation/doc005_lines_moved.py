@@ -127,14 +127,14 @@ def _tags(reference: LineReference) -> Sequence[str]:
 
 def _expected(reference: LineReference) -> str:
     claim = _claim(reference)
-    found = (re.search(words, claim) for words, _ in TAGS)
-    words = dict.fromkeys(_whole_word(claim, text) for text in found if text)
+    matches = (re.search(words, claim) for words, _ in TAGS)
+    words = dict.fromkeys(_whole_word(claim, text) for text in matches if text)
     return " or ".join(words) or "a limit"
 
 
-def _whole_word(text: str, found: re.Match[str]) -> str:
-    rest = re.match(r"\w*", text[found.end() :])
-    return found.group() + (rest.group() if rest else "")
+def _whole_word(text: str, match: re.Match[str]) -> str:
+    rest = re.match(r"\w*", text[match.end() :])
+    return match.group() + (rest.group() if rest else "")
 
 
 def _claimed(sheet: Specification, reference: LineReference) -> Limit | None:

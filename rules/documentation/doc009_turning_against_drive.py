@@ -96,9 +96,9 @@ def _turns_on_the_spot(sheet: Specification) -> Iterator[Span]:
     """Yield the places where the section on motion says so."""
     section = sheet.section("motion")
     for passage in section.passages if section is not None else ():
-        for found in _ON_THE_SPOT.finditer(passage.text):
-            if not _NOT.search(passage.text[max(0, found.start() - 80) : found.start()]):
-                yield passage.part(*found.span())
+        for match in _ON_THE_SPOT.finditer(passage.text):
+            if not _NOT.search(passage.text[max(0, match.start() - 80) : match.start()]):
+                yield passage.part(*match.span())
 
 
 _WHEELS = """

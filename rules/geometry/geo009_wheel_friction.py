@@ -32,9 +32,11 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
     """
     reader = FrictionReader(robot)
     across = _across(robot)
-    found = [(link, shape, reader.of(link, shape)) for link, shape in _ground(robot, foot_height)]
-    some_state = any(friction.first is not None for _, _, friction in found)
-    for link, shape, friction in found:
+    touching = [
+        (link, shape, reader.of(link, shape)) for link, shape in _ground(robot, foot_height)
+    ]
+    some_state = any(friction.first is not None for _, _, friction in touching)
+    for link, shape, friction in touching:
         yield from _absurd(link, friction, most, across.get(link.scoped_name, _Across.AS_ALONG))
         if friction.first is None:
             yield _missing(link, shape, some_state)

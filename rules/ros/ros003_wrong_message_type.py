@@ -72,8 +72,8 @@ def _faults(bridge: Bridge, ends: Sequence[Channel]) -> Iterator[str]:
         yield f"publishes {whose} as {bridge.ros_type}, expected {ros_types[0]}"
     ways = {end.direction for end in ends}
     if bridge.direction not in (*ways, Direction.BOTH):
-        found, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
-        yield f"bridges {whose} from {found}, expected {expected}"
+        stated, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
+        yield f"bridges {whose} from {stated}, expected {expected}"
 
 
 def _stated_types(channel: Channel) -> tuple[str, ...]:

@@ -36,15 +36,15 @@ def check(
     includes = [include for include in started if posixpath.basename(include.file) == relays]
     named = launch.arguments.get("name")
     for include in includes:
-        given = include.arguments.get("name")
-        if given is None:
+        name = include.arguments.get("name")
+        if name is None:
             yield finding(
                 include, f"{relays} is included without the arg 'name', expected $(arg name)"
             )
-        elif named is not None and is_known(given) and given != named.value:
+        elif named is not None and is_known(name) and name != named.value:
             yield finding(
                 include,
-                f"{relays} gets the name {given!r}, expected the robot's name: $(arg name)",
+                f"{relays} gets the name {name!r}, expected the robot's name: $(arg name)",
             )
     if includes:
         return

@@ -105,8 +105,8 @@ def _size(camera: Camera) -> str:
 def _size_gap(camera: Camera, device: Device) -> Iterator[_Gap]:
     """Yield the size if the device does not have it; a camera may be mounted on its side."""
     sizes = [tuple(size) for size in device.values.get("image_sizes", ())]
-    given = (camera.width.value, camera.height.value)
-    if sizes and given not in sizes and given[::-1] not in sizes:
+    stated = (camera.width.value, camera.height.value)
+    if sizes and stated not in sizes and stated[::-1] not in sizes:
         expected = " or ".join(f"{width:g} × {height:g}" for width, height in sizes)
         yield _Gap(camera.width, "image_sizes", _SIZE, _size(camera), f"{expected} px")
 

@@ -90,8 +90,8 @@ def _difference(noise: Noise | None, standard: _Figures, tolerance: float) -> st
         return "no noise, expected the SubT standard"
     if noise.type.value not in _GAUSSIAN:
         return f"noise of type {noise.type.value!r}, expected 'gaussian'"
-    given, wrong = noise.figures, _wrong(noise, standard, tolerance)
-    return ", ".join(f"{tag} {given[tag].value:g} (expected {wrong[tag]:g})" for tag in wrong)
+    figures, wrong = noise.figures, _wrong(noise, standard, tolerance)
+    return ", ".join(f"{tag} {figures[tag].value:g} (expected {wrong[tag]:g})" for tag in wrong)
 
 
 def _wrong(noise: Noise, standard: _Figures, tolerance: float) -> _Figures:

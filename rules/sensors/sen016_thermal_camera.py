@@ -70,15 +70,15 @@ def _figures(
 ) -> Iterator[Finding]:
     for tag, unit in _UNITS.items():
         expected = standard[tag]
-        given = plugin.number(tag)
-        if given is None:
+        value = plugin.number(tag)
+        if value is None:
             stated = f"no {tag}"
-        elif math.isclose(given.value, expected, rel_tol=tolerance):
+        elif math.isclose(value.value, expected, rel_tol=tolerance):
             continue
         else:
-            stated = f"{tag} {given.value:g}{unit}"
+            stated = f"{tag} {value.value:g}{unit}"
         yield finding(
-            given or plugin,
+            value or plugin,
             f"thermal camera {sensor.name.value!r} has {stated}, expected {expected:g}{unit}",
             key=stated,
         )

@@ -22,9 +22,9 @@ def check(driven: RobotTrial) -> Findings:
     symptoms = {}
     if driven.drives_backwards:
         ratio, leg = driven.trial.value("speed_ratio") or 0.0, driven.leg("drive")
-        told = f" at {leg.linear:.3g} m/s" if leg else ""
+        speed = f" at {leg.linear:.3g} m/s" if leg else ""
         symptoms["speed_ratio"] = (
-            f"commanded to drive forward{told}, the robot drives backward ({ratio:.0%})"
+            f"commanded to drive forward{speed}, the robot drives backward ({ratio:.0%})"
         )
     if driven.turns_backwards:
         ratio = driven.trial.value("yaw_ratio") or 0.0

@@ -52,8 +52,8 @@ class Files:
 
     def size(self, name: str) -> int:
         """Return the bytes of a file; 0 where it could not be read."""
-        found = self._table.get(name)
-        return found[1] if isinstance(found, list) else 0
+        entry = self._table.get(name)
+        return entry[1] if isinstance(entry, list) else 0
 
     def read(self, name: str) -> Content:
         """Return what is in a file, or why it is not known."""

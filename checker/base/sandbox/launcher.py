@@ -189,12 +189,12 @@ class OwnLauncher(Launcher):
 def launcher() -> Launcher:
     """Return what starts processes for this one; without any, it is started now."""
     with _LOCK:
-        found = _launchers(os.getpid())
-        if found and isinstance(found[0], OwnLauncher) and not found[0].alive:
-            found.clear()
-        if not found:
-            found.append(OwnLauncher())
-        return found[0]
+        launchers = _launchers(os.getpid())
+        if launchers and isinstance(launchers[0], OwnLauncher) and not launchers[0].alive:
+            launchers.clear()
+        if not launchers:
+            launchers.append(OwnLauncher())
+        return launchers[0]
 
 
 def inherit(descriptor: int) -> None:
@@ -216,11 +216,11 @@ def _launchers(_: int) -> list[Launcher]:
 
 
 def _command(
-    sandbox: Sandbox, given: tuple[str, str], control: int, work: Path | None
+    sandbox: Sandbox, paths: tuple[str, str], control: int, work: Path | None
 ) -> list[str]:
     # `-P` keeps the folder that it runs in out of the search for modules.
     module = "checker.base.sandbox.launcher_process"
-    arguments = (str(control), json.dumps(to_builtins(sandbox)), *given)
+    arguments = (str(control), json.dumps(to_builtins(sandbox)), *paths)
     own = [sys.executable, "-P", "-m", module, *arguments]
     folder = "" if work is None else str(work)
     return namespaces.wrapped(own, sandbox.read, folder) if sandbox.wrapped else own

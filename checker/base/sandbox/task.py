@@ -155,15 +155,15 @@ def tighten(kind: int, soft: int, hard: int) -> None:
     resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
 
 
-def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
+def tightened(limits: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
     """Return the soft and the hard limit to set where others are set already: the tighter of each.
 
     Args:
-        given: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
+        limits: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
         soft: The soft limit that is wanted.
         hard: The hard limit that is wanted, not below `soft`.
     """
-    return tighter(given[0], soft), tighter(given[1], hard)
+    return tighter(limits[0], soft), tighter(limits[1], hard)
 
 
 def tighter(limit: int, wanted: int) -> int:

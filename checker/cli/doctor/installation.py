@@ -203,7 +203,7 @@ def _libraries() -> Iterator[Result]:
 
 def numbers(version: str) -> tuple[int, ...]:
     """Return the leading numbers of a version, without zeros at the end, to be compared."""
-    found = [int(number) for number in re.findall(r"\d+", (re.match(r"[\d.]*", version) or "")[0])]
-    while found and found[-1] == 0:
-        found.pop()
-    return tuple(found)
+    parts = [int(number) for number in re.findall(r"\d+", (re.match(r"[\d.]*", version) or "")[0])]
+    while parts and parts[-1] == 0:
+        parts.pop()
+    return tuple(parts)

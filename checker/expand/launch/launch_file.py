@@ -88,7 +88,7 @@ def _words(command: str) -> list[str]:
 
 
 def _placed(text: str) -> str:
-    return _FIND.sub(lambda found: f"{ROOT}/{found[1]}", text)
+    return _FIND.sub(lambda match: f"{ROOT}/{match[1]}", text)
 
 
 # The command line that starts a launch file, as a spawner writes it.
@@ -203,10 +203,10 @@ def read_inclusion(reader: Reader, element: Element, scope: Scope) -> Inclusion:
     for child in element.all("arg"):
         if not reader.enabled(child, scope):
             continue
-        given = reader.text(child, "value", scope) or reader.text(child, "default", scope)
-        if given is not None:
+        value = reader.text(child, "value", scope) or reader.text(child, "default", scope)
+        if value is not None:
             name = child.get("name") or ""
-            arguments[name], places[name] = given.value, child.span
+            arguments[name], places[name] = value.value, child.span
     package, path = target_of(file.value)
     given_arguments = MappingProxyType(arguments)
     return Inclusion(package, path, file, given_arguments, places, passes_all, element.span)
@@ -214,9 +214,9 @@ def read_inclusion(reader: Reader, element: Element, scope: Scope) -> Inclusion:
 
 def target_of(file: str) -> tuple[str, str]:
     """Return package and path of an included file; an empty path when they are not known."""
-    found = _FOUND.match(file)
-    if found:
-        package, path = found.groups()
+    match = _FOUND.match(file)
+    if match:
+        package, path = match.groups()
     elif file.startswith(HERE):
         package, path = "", file
     else:

@@ -47,8 +47,8 @@ class WorkspaceFiles(Record):
 
     def package_folder(self, name: str) -> str | None:
         """Return the folder of a package, None when it is not available."""
-        found = self.package.workspace.package(name)
-        return found.root.name if found is not None else None
+        package = self.package.workspace.package(name)
+        return package.root.name if package is not None else None
 
 
 class EmittedXml(Record, eq=False):

@@ -47,10 +47,10 @@ def local_path(package: Package, path: str) -> str | None:
         return None
     if name == package.root.name:
         return rest
-    found = package.workspace.package(name)
-    if found is None:
+    other = package.workspace.package(name)
+    if other is None:
         return None
-    return rest if found is package else f"../{found.name}/{rest}"
+    return rest if other is package else f"../{other.name}/{rest}"
 
 
 FILES_LIMIT = 400
@@ -140,7 +140,7 @@ class Gathered:
             if element.tag == "xacro:include"
         )
         for name in (*yaml, *included):
-            spelled = _FIND.sub(lambda found: f"{ROOT}/{found[1]}", name)
+            spelled = _FIND.sub(lambda match: f"{ROOT}/{match[1]}", name)
             if _COMPUTED.search(spelled) or not spelled or "." not in spelled:
                 yield from self._all_candidates()
             else:

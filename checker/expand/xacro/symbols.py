@@ -70,24 +70,24 @@ def _bits(name: str, *numbers: int) -> int:
 
 
 def _sum(budget: Budget, items: Any, /) -> float:
-    found = listed(budget, items)
-    weigh(found, budget)
-    return math.fsum(found)
+    values = listed(budget, items)
+    weigh(values, budget)
+    return math.fsum(values)
 
 
 def _distance(budget: Budget, *points: Any) -> float:
-    found = [listed(budget, point) for point in points]
-    for value in found:
+    values = [listed(budget, point) for point in points]
+    for value in values:
         weigh(value, budget)
-    return math.dist(*found)
+    return math.dist(*values)
 
 
 def _product(budget: Budget, items: Any, /, *, start: Any = 1) -> Any:
-    found = listed(budget, items)
-    if not all(type(value) in NUMBERS for value in (*found, start)):
-        weigh(found, budget)
+    values = listed(budget, items)
+    if not all(type(value) in NUMBERS for value in (*values, start)):
+        weigh(values, budget)
     result = start
-    for value in found:
+    for value in values:
         result = multiply(result, value, budget)
     return result
 
@@ -219,9 +219,9 @@ def python_symbols() -> dict[str, Any]:
 
 
 def _namespace(names: Mapping[str, Any]) -> Any:
-    made = xacro.NameSpace()
-    made.update(names)
-    return made
+    namespace = xacro.NameSpace()
+    namespace.update(names)
+    return namespace
 
 
 def _arg(budget: Budget, name: Any) -> Any:
@@ -244,8 +244,8 @@ def _tokens(budget: Budget, s: Any, sep: Any = ",; ", skip_empty: Any = True) ->
         raise RefusedExpression("xacro.tokenize() with a pattern as separator")
     weigh(s, budget)
     budget.spend(len(s) // 2 + len(sep))
-    found = re.split(f"[{sep}]", s)
-    return [item for item in found if item] if skip_empty else found
+    parts = re.split(f"[{sep}]", s)
+    return [item for item in parts if item] if skip_empty else parts
 
 
 class EvalNames:

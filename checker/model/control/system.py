@@ -129,11 +129,11 @@ class Parameters:
             )
         if document.root is None or not self._affordable(document.root.size, source.file):
             return
-        for found in read_controllers(document.root, namespace, loaded_by):
-            if isinstance(found, Controller):
-                self.controllers.append(found)
+        for item in read_controllers(document.root, namespace, loaded_by):
+            if isinstance(item, Controller):
+                self.controllers.append(item)
             else:
-                self.gains.append(found)
+                self.gains.append(item)
 
     def _affordable(self, values: int, file: str) -> bool:
         """Count values, and say whether there are not too many by now."""
@@ -264,11 +264,11 @@ def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlL
 
 def _spawned(nodes: Iterable[Node], unread: list[str]) -> Iterable[Spawned]:
     for node in nodes:
-        for found in read_spawned(node):
-            if isinstance(found, Spawned):
-                yield found
+        for item in read_spawned(node):
+            if isinstance(item, Spawned):
+                yield item
             else:
-                unread.append(found)
+                unread.append(item)
 
 
 def _dormant(entries: LaunchEntries) -> Iterable[Spawned]:
@@ -286,7 +286,7 @@ def _missing(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
     ]
     files = LaunchFiles(package)
     for text, span in named:
-        for found in _DESCRIPTION.finditer(text[:_LONGEST]):
-            path = files.path_of(found.group())
+        for match in _DESCRIPTION.finditer(text[:_LONGEST]):
+            path = files.path_of(match.group())
             if path is not None and not package.exists(path):
                 yield ParameterFault(span, f"{path} is read as a description, but does not exist")

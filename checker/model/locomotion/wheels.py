@@ -145,15 +145,15 @@ class WheelReader:
     def _body(self, link: Link) -> tuple[Link, ...]:
         """Return a link and those that fixed joints tie below it, unless another wheel has them."""
         top = link.scoped_name
-        found, waiting = [link], list(self.fixed.get(top, ()))
+        links, waiting = [link], list(self.fixed.get(top, ()))
         self.body_of.setdefault(top, top)
         while waiting:
             name = waiting.pop()
             if name not in self.body_of:
                 self.body_of[name] = top
-                found.append(self.robot.links_by_name[name])
+                links.append(self.robot.links_by_name[name])
                 waiting += self.fixed.get(name, ())
-        return tuple(found)
+        return tuple(links)
 
     def _size(
         self, body: Iterable[Link], centre: Vector, axis: Vector

@@ -72,8 +72,8 @@ def candidates(package: Package, loads: Iterable[Load]) -> list[Candidate]:
         # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
         if path is not None and not path.startswith("../") and package.exists(path):
             chosen.setdefault(path, Candidate(path, load.args, True, load.by_xacro))
-    found = [*chosen.values()] or [Candidate(path) for path in _outermost(package)]
-    return found[:CANDIDATES_LIMIT]
+    files = [*chosen.values()] or [Candidate(path) for path in _outermost(package)]
+    return files[:CANDIDATES_LIMIT]
 
 
 def _files(package: Package) -> list[str]:

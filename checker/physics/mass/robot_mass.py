@@ -166,8 +166,8 @@ class Weights(Record):
 
 def weights_of(bodies: Sequence[Body], cache: Cache) -> Weights:
     """Weigh bodies, each for itself and all as one rigid body."""
-    asked = json.dumps([body.as_json() for body in bodies])
-    key = key_of(asked, code_hash("physics/mass"), *map(version_of, _LIBRARIES))
+    request = json.dumps([body.as_json() for body in bodies])
+    key = key_of(request, code_hash("physics/mass"), *map(version_of, _LIBRARIES))
     known = _from_json(cache.get(_KIND, key), len(bodies))
     if known is not None:
         return known

@@ -119,31 +119,31 @@ def appearances(
     ]
 
 
-def _as_json(asked: Mapping[str, Any], files: Files, shared: Pictures) -> bytes:
-    return json.dumps(appearance_to_json(appearance_of(asked, files, shared))).encode()
+def _as_json(item: Mapping[str, Any], files: Files, shared: Pictures) -> bytes:
+    return json.dumps(appearance_to_json(appearance_of(item, files, shared))).encode()
 
 
 def appearance_of(
-    asked: Mapping[str, Any], files: Files, shared: Pictures = MappingProxyType({})
+    item: Mapping[str, Any], files: Files, shared: Pictures = MappingProxyType({})
 ) -> Appearance:
     """Return what one file looks like.
 
     Args:
-        asked: See `appearances`.
+        item: See `appearances`.
         files: See `appearances`.
         shared: Pictures that are read already, by their path.
     """
-    data = files.read(asked["file"])
+    data = files.read(item["file"])
     if isinstance(data, NotReadable):
         return data.reason
-    materials = map(files.read, asked["materials"])
+    materials = map(files.read, item["materials"])
     try:
         at_hand = (material for material in materials if isinstance(material, bytes))
-        pieces = by_material(read_content(data, asked["name"], at_hand).pieces)
+        pieces = by_material(read_content(data, item["name"], at_hand).pieces)
     except NoSurface as none:
         return none.reason
-    painted = [_painted(piece, asked["pictures"], files, shared) for piece in pieces]
-    most = shares([len(look.faces) for look in painted], asked["triangles"], _SMALL)
+    painted = [_painted(piece, item["pictures"], files, shared) for piece in pieces]
+    most = shares([len(look.faces) for look in painted], item["triangles"], _SMALL)
     return tuple(
         thinned(look, count) for look, count in zip(painted, most, strict=True) if count > 0
     )

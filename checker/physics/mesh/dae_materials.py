@@ -63,8 +63,8 @@ def _bound(root: etree._Element) -> dict[tuple[str, str], str]:
 def _material(effect: etree._Element, images: dict[str, str]) -> Material:
     shading = effect.find("{*}profile_COMMON/{*}technique/*")
     for kind in ("phong", "lambert", "blinn", "constant"):
-        found = effect.find(f"{{*}}profile_COMMON/{{*}}technique/{{*}}{kind}")
-        shading = found if found is not None else shading
+        node = effect.find(f"{{*}}profile_COMMON/{{*}}technique/{{*}}{kind}")
+        shading = node if node is not None else shading
     if shading is None:
         return Material()
     shows = "emission" if local_name(shading) == "constant" else "diffuse"
@@ -115,8 +115,8 @@ def _number(text: str) -> float:
 
 
 def _text(element: etree._Element, path: str) -> str:
-    found = element.find(f"{{*}}{path}")
-    return (found.text or "").strip() if found is not None else ""
+    node = element.find(f"{{*}}{path}")
+    return (node.text or "").strip() if node is not None else ""
 
 
 def _id(element: etree._Element) -> str:

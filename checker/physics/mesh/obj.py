@@ -31,7 +31,7 @@ MATERIAL_LIMIT = 1_000_000
 def textures_in(material_file: bytes) -> tuple[str, ...]:
     """Return the pictures of a material file as named there, each once."""
     text = material_file.decode("utf-8", "replace")
-    return tuple(dict.fromkeys(found[1].strip() for found in _MAP.finditer(text)))
+    return tuple(dict.fromkeys(match[1].strip() for match in _MAP.finditer(text)))
 
 
 _PART = re.compile(rb"^[ \t]*[og][ \t]+(\S[^\r\n]{0,200})", re.M)

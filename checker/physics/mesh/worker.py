@@ -41,12 +41,12 @@ def answer(request: bytes, files: Files) -> bytes:
     Returns:
         JSON: what is wanted of each item.
     """
-    asked = json.loads(request)
-    late = f"was not read: the others took {asked['seconds_for_all']} s"
-    until = monotonic() + asked["seconds_for_all"]
-    run_in_forks = partial(in_forks, seconds=asked["seconds"], until=until, late=late)
+    data = json.loads(request)
+    late = f"was not read: the others took {data['seconds_for_all']} s"
+    until = monotonic() + data["seconds_for_all"]
+    run_in_forks = partial(in_forks, seconds=data["seconds"], until=until, late=late)
     load_libraries(files.names)
-    return b"[" + b",".join(_WANTED[asked["wanted"]](asked["items"], files, run_in_forks)) + b"]"
+    return b"[" + b",".join(_WANTED[data["wanted"]](data["items"], files, run_in_forks)) + b"]"
 
 
 def _facts(
@@ -86,9 +86,10 @@ def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> di
     def seen(mesh: Mapping[str, Any]) -> bytes:
         return json.dumps(seen_of_mesh(sensors, mesh, files.read(mesh["file"]))).encode()
 
-    told = run_in_forks([partial(seen, mesh) for mesh in item["meshes"]])
+    results = run_in_forks([partial(seen, mesh) for mesh in item["meshes"]])
     read = [
-        result.reason if isinstance(result, WorkerFailed) else json.loads(result) for result in told
+        result.reason if isinstance(result, WorkerFailed) else json.loads(result)
+        for result in results
     ]
     return views_of(item, sensors, read)
 

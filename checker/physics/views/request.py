@@ -24,18 +24,18 @@ Content = Callable[[Located[str]], tuple[MeshFile, str] | MeshFault]
 """Finds the file behind a URI, and a hash of what is in it."""
 
 
-class Asked(Record, eq=False):
+class ViewRequest(Record, eq=False):
     """A request, and what its numbers stand for.
 
     Attributes:
-        request: For the worker.
+        item: For the worker.
         contents: A hash of each mesh file, in the order of the request.
         sensors: In the order of the request.
         visuals: By their numbers.
         unseen: What is left out, and why, as ends of sentences.
     """
 
-    request: dict[str, Any]
+    item: dict[str, Any]
     contents: tuple[str, ...]
     sensors: tuple[Mounted, ...]
     visuals: tuple[tuple[Link, Visual], ...]
@@ -44,7 +44,7 @@ class Asked(Record, eq=False):
     @property
     def visible(self) -> bool:
         """Whether there is anything to be seen."""
-        return bool(self.request["meshes"] or self.request["solids"])
+        return bool(self.item["meshes"] or self.item["solids"])
 
     @property
     def work(self) -> int:
@@ -52,7 +52,7 @@ class Asked(Record, eq=False):
         return len(self.sensors) * len(self.visuals)
 
 
-def asked_of(robot: Robot, content: Content) -> Asked:
+def view_request(robot: Robot, content: Content) -> ViewRequest:
     """Return what is to be asked about a robot."""
     looking = [
         (sensor, grid) for sensor in mounted_sensors(robot) if (grid := grid_of(sensor.sensor))
@@ -66,7 +66,7 @@ def asked_of(robot: Robot, content: Content) -> Asked:
     if looking:
         for number, (link, visual) in enumerate(visuals):
             scene.add(number, visual, robot.pose_of_part(link, visual.pose), content)
-    request = {
+    item = {
         "sensors": [
             {"pose": _numbers(mount.pose), "grid": grid.as_json()} for mount, grid in looking
         ],
@@ -75,7 +75,7 @@ def asked_of(robot: Robot, content: Content) -> Asked:
     }
     contents = tuple(key for key, _ in scene.meshes)
     seen = tuple(mount for mount, _ in looking)
-    return Asked(request, contents, seen, tuple(visuals), tuple(dict.fromkeys(scene.unseen)))
+    return ViewRequest(item, contents, seen, tuple(visuals), tuple(dict.fromkeys(scene.unseen)))
 
 
 class _Scene(Record, eq=False):

@@ -63,11 +63,11 @@ class SetAside(Record):
 
 def reasons_of(not_checked: Sequence[NotChecked]) -> list[Reason]:
     """Join what has one reason; what keeps the package from being ready comes first."""
-    found: dict[tuple[Cause, str], list[str]] = {}
+    by_reason: dict[tuple[Cause, str], list[str]] = {}
     for skipped in not_checked:
-        found.setdefault((skipped.cause, skipped.reason), []).append(skipped.rule)
+        by_reason.setdefault((skipped.cause, skipped.reason), []).append(skipped.rule)
     order = list(_CAUSES)
-    ordered = sorted(found.items(), key=lambda item: order.index(item[0][0]))
+    ordered = sorted(by_reason.items(), key=lambda item: order.index(item[0][0]))
     return [
         Reason(_CAUSES[cause], plain(shortened(reason, _TEXT_LIMIT)), tuple(dict.fromkeys(rules)))
         for (cause, reason), rules in ordered
@@ -154,19 +154,19 @@ def environment() -> Environment:
     """Return what renders the templates; every text is escaped."""
     from jinja2 import Environment, FunctionLoader, StrictUndefined
 
-    made = Environment(
+    jinja = Environment(
         loader=FunctionLoader(text_of),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters["plain"] = plain
-    made.filters["count"] = count
-    made.filters["data_url"] = data_url
-    made.filters["quoted"] = shlex.quote
-    made.filters["with_code"] = with_code
-    return made
+    jinja.filters["plain"] = plain
+    jinja.filters["count"] = count
+    jinja.filters["data_url"] = data_url
+    jinja.filters["quoted"] = shlex.quote
+    jinja.filters["with_code"] = with_code
+    return jinja
 
 
 def with_code(text: str) -> Markup:
@@ -217,14 +217,14 @@ def _hash(script: str) -> str:
 
 def _downloads(report: Report, folder: str) -> list[dict[str, Any]]:
     """Return the files that a page carries along, as many as there is room for."""
-    made = [
+    files = [
         ("fixes.patch", "text/plain", report.packages[0].patch),
         ("report.json", "application/json", to_json(report)),
         ("report.sarif", "application/json", to_sarif(report, folder)),
     ]
     room = DOWNLOADS_LIMIT
     carried = []
-    for name, kind, text in made:
+    for name, kind, text in files:
         content = text.encode("utf-8", "surrogatepass")
         if 0 < len(content) <= room:
             room -= len(content)

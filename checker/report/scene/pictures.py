@@ -115,12 +115,12 @@ def _boxes(scene: DisplayScene, layer: Layer) -> dict[int, Array]:
     """Return corners of boxes around what a layer shows, in the frames of the links (n × 3)."""
     import numpy as np
 
-    found: dict[int, list[Array]] = {}
+    by_number: dict[int, list[Array]] = {}
     for number, item in drawn_items(scene):
         if item.layer is layer:
             corners = _box(item.surfaces) * np.array(item.scale)
-            found.setdefault(number, []).append(_moved(corners, item.pose))
-    return {number: np.concatenate(corners) for number, corners in found.items()}
+            by_number.setdefault(number, []).append(_moved(corners, item.pose))
+    return {number: np.concatenate(corners) for number, corners in by_number.items()}
 
 
 def _points(scene: DisplayScene, boxes: Mapping[int, Array], sample: int) -> Array:
@@ -194,9 +194,9 @@ class Drawing:
         """Say what to draw; it is drawn while the caller does something else."""
         self._shots = tuple(shots_of(scene, WIDTH / HEIGHT))
         if self._shots:
-            asked = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
-            key = work_key([json.dumps(asked)], ["report/scene/drawing"], ["mujoco"])
-            self._drawn = tuple(self._background(key, asked, platform) for platform in PLATFORMS)
+            item = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
+            key = work_key([json.dumps(item)], ["report/scene/drawing"], ["mujoco"])
+            self._drawn = tuple(self._background(key, item, platform) for platform in PLATFORMS)
             self._drawn[0].begin()
 
     @property
@@ -212,7 +212,7 @@ class Drawing:
         return ()
 
     def _background(
-        self, key: str, asked: Mapping[str, Any], platform: str
+        self, key: str, item: Mapping[str, Any], platform: str
     ) -> Background[list[bytes]]:
         def decoded(answer: Any) -> list[bytes]:
             files = [base64.b64decode(file) for file in answer]
@@ -221,6 +221,6 @@ class Drawing:
             return files
 
         module = drawing_module(platform)
-        work = Work("pictures", module, DRAWING_LIMITS, {key: asked}, decoded)
+        work = Work("pictures", module, DRAWING_LIMITS, {key: item}, decoded)
         waiting = self.child if platform == PLATFORMS[0] else None
         return Background(work, self.cache, waiting)

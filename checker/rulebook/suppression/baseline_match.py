@@ -59,9 +59,9 @@ def _free(entries: Sequence[BaselineEntry], left: Sequence[dict[str, int]], tell
     free: _Free = {}
     for at, entry in enumerate(entries):
         for place, number in left[at].items():
-            told = tell(entry.rule, place, entry.key, entry.message)
-            if number and told is not None:
-                free.setdefault((entry.severity, told), deque()).append(at)
+            key = tell(entry.rule, place, entry.key, entry.message)
+            if number and key is not None:
+                free.setdefault((entry.severity, key), deque()).append(at)
     return free
 
 
@@ -84,8 +84,8 @@ def _told(tell: _Tell, spot: Spot) -> Hashable:
 
 def _tales(entry: BaselineEntry) -> Iterator[Hashable]:
     for place in entry.places:
-        told = (tell(entry.rule, place, entry.key, entry.message) for tell in _TELLS)
-        yield from (entry for entry in told if entry is not None)
+        keys = (tell(entry.rule, place, entry.key, entry.message) for tell in _TELLS)
+        yield from (entry for entry in keys if entry is not None)
 
 
 class Held:
@@ -104,9 +104,9 @@ class Held:
     def entries_of(self, rule: str, spots: Sequence[Spot]) -> list[BaselineEntry | None]:
         """Return the entry of each spot that a rule finds; None for what is new."""
         entries = self._entries.get(rule, [])
-        found = matched(spots, entries)
-        self._stale[rule] = [entries[at] for at in found.stale]
-        return [None if at is None else entries[at] for at in found.entries]
+        match = matched(spots, entries)
+        self._stale[rule] = [entries[at] for at in match.stale]
+        return [None if at is None else entries[at] for at in match.entries]
 
     def stale(
         self, known: Collection[str], looked: Collection[str], file: str

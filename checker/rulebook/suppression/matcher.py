@@ -80,22 +80,22 @@ class SuppressionMatcher:
         self._own = tuple(self._own_comments())
 
     def matches(
-        self, rule: str, found: Sequence[Finding], spot_of: Callable[[Finding], Spot]
+        self, rule: str, findings: Sequence[Finding], spot_of: Callable[[Finding], Spot]
     ) -> list[Suppression | None]:
         """Return why each finding of a rule does not count; None for those that do.
 
         Args:
             rule: Its id.
-            found: All that it found.
+            findings: All that it found.
             spot_of: Returns how the baseline knows a finding.
         """
-        matches = [self._by_wish(rule, finding.places[0]) for finding in found]
+        matches = [self._by_wish(rule, finding.places[0]) for finding in findings]
         if not self.held.knows(rule):
             return matches
         # A place that is reported twice in the same words is one place of the finding.
         spots = {
             at: (finding.places[0], spot_of(finding))
-            for at, finding in enumerate(found)
+            for at, finding in enumerate(findings)
             if matches[at] is None
         }
         distinct = list(dict.fromkeys(spots.values()))
@@ -209,14 +209,14 @@ class SuppressionMatcher:
 
 def parted(
     rule: str,
-    found: Sequence[Finding],
+    findings: Sequence[Finding],
     matcher: SuppressionMatcher | None,
     spot_of: Callable[[Finding], Spot],
 ) -> dict[Suppression | None, list[Finding]]:
     """Part what a rule found by why it does not count; what does stands under None."""
-    nothing = [None] * len(found)
-    matches = matcher.matches(rule, found, spot_of) if matcher else nothing
+    nothing = [None] * len(findings)
+    matches = matcher.matches(rule, findings, spot_of) if matcher else nothing
     parts: dict[Suppression | None, list[Finding]] = {}
-    for finding, suppression in zip(found, matches, strict=True):
+    for finding, suppression in zip(findings, matches, strict=True):
         parts.setdefault(suppression, []).append(finding)
     return parts

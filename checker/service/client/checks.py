@@ -148,10 +148,10 @@ def order(connection: Connection, upload: Upload) -> Check:
         CheckerError: The service does not take it; the text says why.
     """
     answer = connection.ask("POST", _CHECKS, upload)
-    given = answer.read_as(Given) if answer.status == 201 else None
-    if given is None:
+    created = answer.read_as(Given) if answer.status == 201 else None
+    if created is None:
         raise _refusal(connection, answer)
-    return Check(connection, given.id)
+    return Check(connection, created.id)
 
 
 def _refusal(connection: Connection, answer: Answer) -> CheckerError:

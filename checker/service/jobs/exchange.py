@@ -139,16 +139,16 @@ def settle(place: Path, name: str, files: Files) -> None:
         name: Of the uploaded file.
         files: The upload, and parts of an earlier check of it.
     """
-    given = place / GIVEN
-    for folder in (given, place / TEMPORARY):
+    upload = place / GIVEN
+    for folder in (upload, place / TEMPORARY):
         folder.mkdir(parents=True)
     # The search for settings ends at the root of a repository: none of this machine's shall judge.
-    (given.parent / ".git").touch()
-    _write(given / name, files, UPLOAD)
+    (upload.parent / ".git").touch()
+    _write(upload / name, files, UPLOAD)
     for part in filter(is_part, files.names):
         (place / part).parent.mkdir(parents=True, exist_ok=True)
         _write(place / part, files, part)
-    os.chdir(given)
+    os.chdir(upload)
     os.environ["TMPDIR"] = str(place / TEMPORARY)
     os.environ["SUBT_CHECK_CACHE"] = str(place / CACHE)
     tempfile.tempdir = None  # a library may have asked for it before

@@ -215,8 +215,8 @@ def _remove_all(place: Path) -> None:
 
 def _emptied(folder: Path) -> Iterator[Path]:
     """Remove the files of a folder, and yield the folders in it."""
-    with os.scandir(folder) as found:
-        for entry in found:
+    with os.scandir(folder) as entries:
+        for entry in entries:
             if entry.is_dir(follow_symlinks=False):
                 yield Path(entry.path)
             else:

@@ -94,13 +94,13 @@ def _replace(budget: Budget, text: str, *arguments: Any) -> str:
 
 
 def _join(budget: Budget, text: str, *arguments: Any) -> str:
-    found = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
-    for value in found:
+    values = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
+    for value in values:
         parts = consumed(value, budget)
         if hasattr(type(parts), "__len__"):
             length = sum(map(_length, parts)) + len(text) * len(parts)
             budget.spend_on_text(length)
-    return text.join(*found)
+    return text.join(*values)
 
 
 def _format(budget: Budget, text: str, *arguments: Any, **named: Any) -> str:
@@ -178,9 +178,9 @@ def _combining(name: str) -> Method:
         others = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
         sizes = len(value) + sum(len(other) for other in others if hasattr(type(other), "__len__"))
         for item in (value, *others):
-            found = hashable(budget, item)
-            if type(found) in PLAIN and hasattr(type(found), "__len__"):
-                spend_on_keys(found, sizes, budget)
+            key = hashable(budget, item)
+            if type(key) in PLAIN and hasattr(type(key), "__len__"):
+                spend_on_keys(key, sizes, budget)
         return getattr(value, name)(*others)
 
     return method
@@ -241,9 +241,9 @@ def method_of(value: Any, name: str) -> Method:
         RefusedExpression: It is not in the language.
     """
     kind = type(value)
-    found = METHODS.get(kind, {}).get(name)
-    if found is not None:
-        return found
+    method = METHODS.get(kind, {}).get(name)
+    if method is not None:
+        return method
     if kind in PLAIN and not hasattr(kind, name):
         raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
     raise RefusedExpression(f"the method .{name} of {called(value)}")

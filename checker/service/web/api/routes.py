@@ -68,9 +68,9 @@ def router(services: Services) -> APIRouter:
     from fastapi import APIRouter
 
     api = Api(services)
-    made = APIRouter(prefix="/api/checks", tags=["checks"])
-    add = partial(made.add_api_route, responses=_refusals(404, 421, 422, 503))
-    made.add_api_route(
+    routes = APIRouter(prefix="/api/checks", tags=["checks"])
+    add = partial(routes.add_api_route, responses=_refusals(404, 421, 422, 503))
+    routes.add_api_route(
         "",
         api.create,
         methods=["POST"],
@@ -87,10 +87,10 @@ def router(services: Services) -> APIRouter:
         response_model=CheckView,
         responses=_refusals(403, 404, 421, 422, 503),
     )
-    made.add_route("/api/checks/{id}", _other_method, methods=_OTHERS, include_in_schema=False)
-    _add_events(made, api)
-    _add_files(made, api)
-    return made
+    routes.add_route("/api/checks/{id}", _other_method, methods=_OTHERS, include_in_schema=False)
+    _add_events(routes, api)
+    _add_files(routes, api)
+    return routes
 
 
 def _add_events(router: APIRouter, api: Api) -> None:
