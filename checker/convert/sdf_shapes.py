@@ -150,11 +150,11 @@ class ShapeWriter:
 
     def _shapes(self, shape: Collision | Visual) -> Sequence[Shape]:
         """Return what a shape consists of in SDF 1.6; nothing, with a note, for what it lacks."""
-        found = shapes_of(shape.geometry, _PRIMITIVES)
-        if not found:
+        elements = shapes_of(shape.geometry, _PRIMITIVES)
+        if not elements:
             kind = shape.geometry.shape or "missing or unknown shape"
             self.notes.say(shape, f"a {shape.element.tag} that is a {kind} is left out")
-        return found
+        return elements
 
     def _place(
         self, element: etree._Element, part: PartOfBody, source: Collision | Visual, shape: Shape

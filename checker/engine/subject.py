@@ -388,9 +388,11 @@ class Subject(Record, eq=False, dict=True):
         numbers = {configuration_number(self.package)}
         if not isinstance(path, Missing):
             numbers.add(configuration_number(path.package))
-        found = [find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots]
-        known = tuple(device for devices in found for device in devices.known)
-        return SensorDevices(known, found[0].diversions)
+        by_robot = [
+            find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots
+        ]
+        known = tuple(device for devices in by_robot for device in devices.known)
+        return SensorDevices(known, by_robot[0].diversions)
 
 
 _PROVIDERS: dict[type, Callable[[Subject], object]] = {

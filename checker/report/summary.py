@@ -142,9 +142,9 @@ def statistics_text(report: Report) -> str:
         return "No findings.\n"
     widths = [max(len(row[column]) for row in rows) for column in range(4)]
     return "".join(
-        f"{rule:<{widths[0]}}  {severity:<{widths[1]}}  {found:>{widths[2]}}  "
+        f"{rule:<{widths[0]}}  {severity:<{widths[1]}}  {number:>{widths[2]}}  "
         f"{packages:>{widths[3]}}  {name}\n"
-        for rule, severity, found, packages, name in rows
+        for rule, severity, number, packages, name in rows
     )
 
 

@@ -133,7 +133,7 @@ class Gathered:
         folder = posixpath.dirname(path)
         if "load_yaml" not in document.source.text and "include" not in document.source.text:
             return
-        yaml = ("".join(filter(None, found)) for found in _YAML.findall(document.source.text))
+        yaml = ("".join(filter(None, groups)) for groups in _YAML.findall(document.source.text))
         included = (
             element.get("filename") or ""
             for element in document.elements

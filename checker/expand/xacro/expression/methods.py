@@ -166,8 +166,8 @@ def _sort(budget: Budget, value: Any, *, key: Any = None, reverse: Any = False) 
 
 
 def _update(budget: Budget, value: Any, *arguments: Any, **named: Any) -> Any:
-    found = pairs(budget, arguments, len(value))
-    return value.update(*found, **{k: plain(v) for k, v in named.items()})
+    entries = pairs(budget, arguments, len(value))
+    return value.update(*entries, **{k: plain(v) for k, v in named.items()})
 
 
 def _combining(name: str) -> Method:
