@@ -209,7 +209,7 @@ def test_every_rule_is_where_its_id_says(rule: Rule) -> None:
 
 def test_the_rule_in_contributing_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (code,) = _code(ROOT / "CONTRIBUTING.md", "python")
-    file = tmp_path / "kin900_negative_damping.py"
+    file = tmp_path / "kin900_stiff_spring.py"
     file.write_text(code, "utf-8")
     spec = importlib.util.spec_from_file_location(file.stem, file)
     assert spec is not None

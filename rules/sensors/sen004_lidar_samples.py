@@ -71,7 +71,7 @@ def _expected(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
     listed = at_rate or [sample for samples in by_rate.values() for sample in samples]
     share = _share_of_turn(lidar, device)
     expected = [float(number) for number in listed]
-    if share < 1 and max(expected, default=1) > 1:
+    if share < 1 and any(samples > 1 for samples in expected):
         expected += [float(round(number * share)) for number in listed]
     defaults = device.values.get("seed_defaults", {})
     if expected and "samples" in defaults and sensor.update_rate.value == defaults.get("rate"):
