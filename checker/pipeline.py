@@ -72,7 +72,7 @@ def check_paths(
             own folder, which the report tells among what was not opened.
     """
     inputs = [Task(path, wishes=wishes, say=say, mesh_server=mesh_server) for path in paths]
-    tasks = [task for each in inputs for task in _parts(each, jobs)]
+    tasks = [task for path in inputs for task in _parts(path, jobs)]
     if jobs > 1 and len(tasks) > 1:
         from concurrent.futures import ProcessPoolExecutor
 
@@ -104,20 +104,20 @@ class Task(Record):
         """Return the settings that judge a package; no search leaves an unpacked archive."""
         if self.settings is not None:
             return self.settings
-        given = self.path.resolve()
+        path = self.path.resolve()
         folders = folders_above(package.root)
-        if given.is_file() and not package.only:
+        if path.is_file() and not package.only:
             inside = folders_above(package.root, top=package.workspace.directories[0])
-            folders = chain(inside, folders_above(given.parent))
+            folders = chain(inside, folders_above(path.parent))
         return find_settings(folders).overridden(**self.wishes)
 
     def shown(self, package: Package) -> str:
         """Return the package's path as the user would write it."""
         if package.only:
             return str(self.path.parent)
-        given = self.path.resolve()
-        if package.root.is_relative_to(given):
-            return str(self.path / package.root.relative_to(given))
+        path = self.path.resolve()
+        if package.root.is_relative_to(path):
+            return str(self.path / package.root.relative_to(path))
         return str(self.path / package.name)
 
 
@@ -159,8 +159,8 @@ def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:
                 if isinstance(report, PackageReport):
                     report = replace(report, timings={"open": opening, **report.timings})
                 yield report
-        for each in opened.skipped:
-            yield NotOpened(str(task.path / each.name), each.reason, failed=False)
+        for skipped in opened.skipped:
+            yield NotOpened(str(task.path / skipped.name), skipped.reason, failed=False)
 
 
 def _checked(package: Package, task: Task) -> PackageReport | NotOpened:
@@ -246,10 +246,10 @@ def _report(done: Sequence[_Checked]) -> Report:
     """Join what was checked; a package that was given twice is reported once."""
     packages: dict[tuple[Path, str], PackageReport] = {}
     not_opened: dict[NotOpened, None] = {}
-    for each in chain.from_iterable(done):
-        if isinstance(each, NotOpened):
-            not_opened[each] = None
+    for result in chain.from_iterable(done):
+        if isinstance(result, NotOpened):
+            not_opened[result] = None
         else:
-            packages.setdefault((Path(each.path).resolve(), each.name), each)
-    ordered = sorted(packages.values(), key=lambda each: (each.name, each.path))
+            packages.setdefault((Path(result.path).resolve(), result.name), result)
+    ordered = sorted(packages.values(), key=lambda package: (package.name, package.path))
     return Report(tuple(ordered), versions(), tuple(not_opened))

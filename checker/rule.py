@@ -70,7 +70,7 @@ Findings = Iterator[Finding | Unchecked]
 
 
 def unchecked(reason: str) -> Unchecked:
-    """Say that a part of what the rule looks at is not at hand, and why."""
+    """Say that a part of what the rule looks at is not available, and why."""
     return Unchecked(reason)
 
 

@@ -1,4 +1,4 @@
-"""What all tests share: the corpus of real packages, where it is at hand."""
+"""What all tests share: the corpus of real packages, where it is available."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ OUT_OF_REACH = {
     "R254": "the camera looks into a mesh, and the packages are kept without meshes",
     "R269": "the sheet says 'HD Camera', which is no device that a datasheet tells of",
 }
-"""Faults that cannot be told from the files at hand, and why."""
+"""Faults that cannot be told from the available files, and why."""
 
 Said = tuple[str, str, str]
 """Rule, message and element of a finding."""

@@ -24,15 +24,15 @@ T = TypeVar("T")
 _NONSENSE = WorkerFailed("answered with nonsense")
 
 
-def work_key(asked: Iterable[bytes | str], code: Iterable[str], libraries: Iterable[str]) -> str:
+def work_key(request: Iterable[bytes | str], code: Iterable[str], libraries: Iterable[str]) -> str:
     """Return the key of a result: a hash of all that it depends on.
 
     Args:
-        asked: What is worked out.
+        request: What is worked out.
         code: Folders and files of this program that work it out, relative to `checker`.
         libraries: Names of the distributions that they use.
     """
-    return key_of(*asked, code_hash(*code), *map(version_of, libraries))
+    return key_of(*request, code_hash(*code), *map(version_of, libraries))
 
 
 def _always(_: object) -> bool:
@@ -97,9 +97,9 @@ class Background(Generic[T]):
             return
         for key in self._work.items:
             kept = self._cache.get(self._work.kind, key)
-            found = self._decoded(kept) if kept is not None else _NONSENSE
-            if not isinstance(found, WorkerFailed):
-                self._results[key] = found
+            result = self._decoded(kept) if kept is not None else _NONSENSE
+            if not isinstance(result, WorkerFailed):
+                self._results[key] = result
         unknown = [key for key in self._work.items if key not in self._results]
         if unknown and self._work.here is None:
             self._give([self._work.items[key] for key in unknown])
@@ -110,9 +110,9 @@ class Background(Generic[T]):
         self.begin()
         if self._unknown:
             for key, answer in zip(self._unknown, self._answers(self._unknown), strict=True):
-                found = answer if isinstance(answer, WorkerFailed) else self._decoded(answer)
-                self._results[key] = found
-                if not isinstance(found, WorkerFailed) and self._work.lasts(found):
+                result = answer if isinstance(answer, WorkerFailed) else self._decoded(answer)
+                self._results[key] = result
+                if not isinstance(result, WorkerFailed) and self._work.lasts(result):
                     self._cache.put(self._work.kind, key, answer)
             self._unknown = ()
         return self._results
@@ -139,11 +139,11 @@ class Background(Generic[T]):
         """Return as many answers as were asked for, or why there are none."""
         if self._work.here is not None:
             return [self._work.here(self._work.items[key]) for key in unknown]
-        said = self._asked.answer() if self._asked is not None else _NONSENSE
-        if isinstance(said, WorkerFailed):
-            return [said] * len(unknown)
+        answer = self._asked.answer() if self._asked is not None else _NONSENSE
+        if isinstance(answer, WorkerFailed):
+            return [answer] * len(unknown)
         try:
-            answers = from_json(said)
+            answers = from_json(answer)
         except ValueError:
             answers = None
         fits = isinstance(answers, list) and len(answers) == len(unknown)

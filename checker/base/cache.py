@@ -56,7 +56,7 @@ def code_hash(*folders: str) -> str:
         folders: Relative to the package `checker`; results of one are stale when it changes.
     """
     root = Path(__file__).parents[1]
-    return key_of(*sorted(said for name in folders for said in _sources(str(root / name))))
+    return key_of(*sorted(digest for name in folders for digest in _sources(str(root / name))))
 
 
 def _sources(place: str) -> Iterator[str]:
@@ -69,8 +69,8 @@ def _sources(place: str) -> Iterator[str]:
 
 
 def _state(path: str) -> str:
-    found = os.stat(path)  # noqa: PTH116 - a Path for each of a thousand files takes its time
-    return f"{path} {found.st_size} {found.st_mtime_ns}"
+    status = os.stat(path)  # noqa: PTH116 - a Path for each of a thousand files takes its time
+    return f"{path} {status.st_size} {status.st_mtime_ns}"
 
 
 class Cache(Record):
@@ -88,12 +88,12 @@ class Cache(Record):
             return None
         path = self._path(kind, key)
         try:
-            found = json.loads(path.read_bytes())
+            value = json.loads(path.read_bytes())
         except (OSError, ValueError, RecursionError):
             return None
         with suppress(OSError):
             os.utime(path)
-        return found
+        return value
 
     def put(self, kind: str, key: str, result: Any) -> None:
         """Keep a result that JSON can express."""
@@ -123,8 +123,8 @@ class Cache(Record):
             with suppress(OSError):
                 if not _ENTRY.fullmatch(path.name):
                     continue
-                found = path.stat()
-                entries.append((found.st_mtime, found.st_size, path))
+                status = path.stat()
+                entries.append((status.st_mtime, status.st_size, path))
         room = limit
         for _, size, path in sorted(entries, reverse=True):
             room -= size

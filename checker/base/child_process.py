@@ -142,9 +142,9 @@ class Child:
         poll.register(self._started.code, select.POLLIN)
         if not poll.poll(max(0.0, seconds) * 1000.0):
             return False
-        said = os.read(self._started.code, _CODE_LIMIT)
+        data = os.read(self._started.code, _CODE_LIMIT)
         if self.code is None:
-            self.code = _code(said)
+            self.code = _code(data)
         return True
 
     def answered(
@@ -204,10 +204,10 @@ def from_json(answer: bytes) -> Any:
         raise ValueError("nests too deeply") from None
 
 
-def _code(said: bytes) -> int | None:
+def _code(data: bytes) -> int | None:
     """Return an exit code that the launcher tells; it may have been taken over."""
     try:
-        code = int(said)
+        code = int(data)
     except ValueError:
         return None
     return code if code >= 0 or -code in {*signal.Signals} else FAILED

@@ -61,8 +61,8 @@ class _Process(Child):
             self._places.append(PLACE.unpack(place))
         if self._stopped:
             return WorkerFailed("was stopped")
-        found = self.answered(child_process.ANSWER_LIMIT, *self._places[number])
-        return found if isinstance(found, WorkerFailed) else found[0]
+        answer = self.answered(child_process.ANSWER_LIMIT, *self._places[number])
+        return answer if isinstance(answer, WorkerFailed) else answer[0]
 
     def stop(self) -> None:
         """End the process, whatever it does; nothing happens if it has been stopped."""

@@ -29,8 +29,8 @@ _GROWN = 100_000_000
 """Bytes by which works may make their fork grow before the next one is given a new fork."""
 
 
-Forks = Callable[[Sequence[Callable[[], bytes]]], list[bytes | WorkerFailed]]
-"""Does works in forks: `in_forks` with its limits given."""
+ForkRunner = Callable[[Sequence[Callable[[], bytes]]], list[bytes | WorkerFailed]]
+"""Does work in forks: `in_forks` with its limits given."""
 
 
 def in_fork(work: Callable[[], bytes], seconds: int) -> bytes | WorkerFailed:

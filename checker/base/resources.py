@@ -37,9 +37,11 @@ def tool_version() -> str:
 
 def versions() -> dict[str, str]:
     """Return the versions that a result depends on; nothing is imported for it."""
-    found = {"subt-check": tool_version(), "python": platform.python_version()}
+    known_versions = {"subt-check": tool_version(), "python": platform.python_version()}
     known = {library: version_of(library) for library in LIBRARIES}
-    return found | {library: number for library, number in known.items() if number != UNKNOWN}
+    return known_versions | {
+        library: number for library, number in known.items() if number != UNKNOWN
+    }
 
 
 @cache

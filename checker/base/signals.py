@@ -24,10 +24,10 @@ def on_requests_to_end(numbers: Collection[signal.Signals], *do: Callable[[], ob
     os.set_blocking(told, False)
 
     def in_turn() -> None:
-        for each in do:
+        for action in do:
             while os.read(heard, 1)[0] not in numbers:
                 pass  # a signal that somebody else handles
-            each()
+            action()
 
     threading.Thread(target=in_turn, daemon=True, name="requests to end").start()
     signal.set_wakeup_fd(told, warn_on_full_buffer=False)

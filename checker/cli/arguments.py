@@ -79,12 +79,12 @@ def networks(text: str) -> str:
     """Return addresses and networks as they are: one that is misspelt would never be met."""
     import ipaddress
 
-    for each in text.split(",") if text else ():
+    for network in text.split(",") if text else ():
         try:
-            ipaddress.ip_network(each.strip())
+            ipaddress.ip_network(network.strip())
         except ValueError:
             raise argparse.ArgumentTypeError(
-                f"{each!r} is not an address or network, expected for example 127.0.0.1 or "
+                f"{network!r} is not an address or network, expected for example 127.0.0.1 or "
                 "172.30.77.0/24"
             ) from None
     return text

@@ -52,9 +52,9 @@ def write_baseline(before: Baseline, report: Report, rules: Collection[str]) -> 
     for package in report.packages:
         packages[package.name] = _entries(package, before.packages.get(package.name, ()), rules)
     write(before.path, _text(before.path, packages))
-    said = count(sum(len(packages[package.name]) for package in report.packages), "finding")
+    findings = count(sum(len(packages[package.name]) for package in report.packages), "finding")
     where = count(len(report.packages), "package")
-    return f"{plain(str(before.path))} contains {said} of {where}\n"
+    return f"{plain(str(before.path))} contains {findings} of {where}\n"
 
 
 def _refuse_equal_names(report: Report) -> None:
@@ -85,15 +85,17 @@ def _entries(
 
     What rules said that did not look this time stays.
     """
-    spots = [(at, each) for at, found in enumerate(package.findings) for each in spots_of(found)]
-    known = matched([each for _, each in spots], before)
+    spots = [
+        (at, spot) for at, finding in enumerate(package.findings) for spot in spots_of(finding)
+    ]
+    known = matched([spot for _, spot in spots], before)
     reasons: dict[int, str] = {}
     for (at, _), entry in zip(spots, known.entries, strict=True):
         if entry is not None and before[entry].reason:
             reasons.setdefault(at, before[entry].reason)
-    now = [_entry(found, reasons.get(at, "")) for at, found in enumerate(package.findings)]
+    now = [_entry(finding, reasons.get(at, "")) for at, finding in enumerate(package.findings)]
     stale = [before[at] for at in known.stale]
-    kept = [each for each in stale if each.rule in rules and each.rule not in package.looked]
+    kept = [entry for entry in stale if entry.rule in rules and entry.rule not in package.looked]
     return (*now, *kept)
 
 

@@ -136,10 +136,10 @@ def run(options: argparse.Namespace) -> int:
         apply_fixes(paths, wishes, allowed)
     say = say_progress if sys.stderr.isatty() else say_nothing
     report = check_paths(paths, wishes, options.jobs, say)
-    for each in report.not_opened:
-        if each.failed:
+    for item in report.not_opened:
+        if item.failed:
             print(
-                f"subt-check: {plain(shortened(each.path, 300))} {plain(each.reason)}",
+                f"subt-check: {plain(shortened(item.path, 300))} {plain(item.reason)}",
                 file=sys.stderr,
             )
     if renewed:
@@ -193,7 +193,7 @@ def _to_renew(options: argparse.Namespace) -> Baseline:
     named: set[Path | None] = set()
     for path in map(Path, options.paths):
         with suppress(UnreadableInput):  # said when it is to be checked
-            named |= {each.baseline.path for each in settings_of(path)}
+            named |= {settings.baseline.path for settings in settings_of(path)}
     only = named.pop() if len(named) == 1 else None
     return baseline_to_renew(_from(here(), only) if only else Path(DEFAULT_FILE))
 

@@ -8,7 +8,7 @@ from checker.report.report import Report
 
 def exit_code(report: Report) -> int:
     """Return what went wrong most: unreadable input, then a crash, then findings."""
-    if any(each.failed for each in report.not_opened):
+    if any(item.failed for item in report.not_opened):
         return EXIT_USAGE
     if any(package.crashed for package in report.packages):
         return EXIT_CRASH

@@ -85,8 +85,8 @@ def exported(path: Path, form: str, *, apart: bool = False, cached: bool = True)
     """
     with open_input(path) as opened:
         if len(opened.packages) != 1:
-            found = len(opened.packages)
-            raise CheckerError(f"{path} contains {found} packages; give one of them")
+            number = len(opened.packages)
+            raise CheckerError(f"{path} contains {number} packages; give one of them")
         package = opened.packages[0]
         subject = Subject(package, Cache(cache_folder()) if cached else NO_CACHE)
         try:

@@ -157,7 +157,7 @@ def fix_paths(
     for path in paths if write else ():
         _refuse_archives(path)
     return [
-        each for path in paths for each in _fix_input(Task(path, wishes=wishes), allowed, write)
+        fixed for path in paths for fixed in _fix_input(Task(path, wishes=wishes), allowed, write)
     ]
 
 
@@ -229,15 +229,17 @@ def _summary(package: FixedPackage) -> Iterator[str]:
     if fixed.left:
         yield f"could not fix {count(len(fixed.left), 'finding')} ({_rules(fixed.left)})"
     if fixed.elsewhere:
-        edits = [edit for each in fixed.elsewhere if each.fix for edit in each.fix.edits]
+        edits = [
+            edit for reported in fixed.elsewhere if reported.fix for edit in reported.fix.edits
+        ]
         files = sorted({plain(edit.place.file) for edit in edits})
-        said = count(len(fixed.elsewhere), "finding")
-        yield f"{said} to fix in {listed(files)}: check the package that contains it"
+        findings = count(len(fixed.elsewhere), "finding")
+        yield f"{findings} to fix in {listed(files)}: check the package that contains it"
     if fixed.withheld:
-        said = count(len(fixed.withheld), "finding")
+        findings = count(len(fixed.withheld), "finding")
         yield (
-            f"{said} not fixed, because the fix changes behaviour ({_rules(fixed.withheld)}): see "
-            "--diff --unsafe"
+            f"{findings} not fixed, because the fix changes behaviour ({_rules(fixed.withheld)}): "
+            "see --diff --unsafe"
         )
 
 

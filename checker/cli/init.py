@@ -70,7 +70,7 @@ def with_hook(text: str) -> str | None:
 
 
 def _mappings(value: object) -> list[dict[Any, Any]]:
-    return [each for each in value if isinstance(each, dict)] if isinstance(value, list) else []
+    return [entry for entry in value if isinstance(entry, dict)] if isinstance(value, list) else []
 
 
 def _loaded(text: str) -> Any:
@@ -133,16 +133,16 @@ def guessed_profile(folder: Path) -> Guess:
     """Return the profile that suits all packages of a folder."""
     try:
         with open_input(folder) as opened:
-            found = Counter(filter(None, map(_profile_of, islice(opened.packages, _LOOKED_AT))))
+            profiles = Counter(filter(None, map(_profile_of, islice(opened.packages, _LOOKED_AT))))
     except UnreadableInput:
-        found = Counter()
+        profiles = Counter()
     counted = ", ".join(
         f"{number} {'package' if number == 1 else 'packages'} for {profile}"
-        for profile, number in sorted(found.items())
+        for profile, number in sorted(profiles.items())
     )
-    if len(found) == 1:
-        return Guess(next(iter(found)), counted)
-    if found:
+    if len(profiles) == 1:
+        return Guess(next(iter(profiles)), counted)
+    if profiles:
         return Guess("", f"{counted}; each is checked with the profile subt, or urdf if it is URDF")
     return Guess("", "nothing: there is no robot yet")
 
@@ -204,7 +204,7 @@ def _settings(folder: Path) -> Iterator[str]:
 
 
 def _hook(folder: Path) -> Iterator[str]:
-    root = next((each for each in folders_above(folder) if (each / ".git").exists()), None)
+    root = next((parent for parent in folders_above(folder) if (parent / ".git").exists()), None)
     if root is None:
         yield f"added no hook: {plain(str(folder))} is not in a git repository"
         return

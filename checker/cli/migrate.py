@@ -46,23 +46,23 @@ def migrated_and_checked(
         NotMigrated: It cannot be done; no package was made.
         UnreadableInput: The source cannot be opened.
     """
-    made = migrate(source, destination, wishes)
-    report = check_paths([made.folder], check_wishes, say=say)
+    migrated = migrate(source, destination, wishes)
+    report = check_paths([migrated.folder], check_wishes, say=say)
     (package,) = report.packages
     verdict = to_text(report, Palette(enabled=False)).splitlines()[-1]
-    return "\n".join([*_lines(made, package), verdict, ""]), report
+    return "\n".join([*_lines(migrated, package), verdict, ""]), report
 
 
-def _lines(made: Migrated, package: PackageReport) -> Iterator[str]:
-    yield f"made {plain(str(made.folder))}"
-    yield from _listed("decided", made.notes)
-    yield from _listed("left to you", made.open_points)
-    found = []
+def _lines(migrated: Migrated, package: PackageReport) -> Iterator[str]:
+    yield f"made {plain(str(migrated.folder))}"
+    yield from _listed("decided", migrated.notes)
+    yield from _listed("left to you", migrated.open_points)
+    lines = []
     for finding in package.findings:
         place = finding.places[0]
         more = f" (and {len(finding.places) - 1} more)" if len(finding.places) > 1 else ""
-        found.append(f"{finding.severity} {finding.rule} {place}: {finding.message}{more}")
-    yield from _listed(f"found by subt-check {plain(str(made.folder))}", found)
+        lines.append(f"{finding.severity} {finding.rule} {place}: {finding.message}{more}")
+    yield from _listed(f"found by subt-check {plain(str(migrated.folder))}", lines)
 
 
 def _listed(title: str, lines: tuple[str, ...] | list[str]) -> Iterator[str]:
@@ -135,6 +135,6 @@ def run(options: argparse.Namespace) -> int:
     }
     say = say_progress if sys.stderr.isatty() else say_nothing
     source, destination = Path(options.source), Path(options.destination)
-    said, report = migrated_and_checked(source, destination, wishes, settings, say)
-    show(said)
+    text, report = migrated_and_checked(source, destination, wishes, settings, say)
+    show(text)
     return exit_code(report)

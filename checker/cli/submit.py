@@ -108,21 +108,21 @@ def _write_all(check: Check, standing: Standing, folder: Path) -> None:
             write(folder / name, content)
 
 
-def _seen_from_here(report: Report, given: Path) -> Report:
+def _seen_from_here(report: Report, path: Path) -> Report:
     """Return a report whose paths start at what was given, not at what the service calls it."""
     packages = (
-        replace(package, path=_package_path(package.path, package.name, given))
+        replace(package, path=_package_path(package.path, package.name, path))
         for package in report.packages
     )
-    not_opened = (replace(each, path=str(given / _below(each.path))) for each in report.not_opened)
+    not_opened = (replace(item, path=str(path / _below(item.path))) for item in report.not_opened)
     return replace(report, packages=tuple(packages), not_opened=tuple(not_opened))
 
 
-def _package_path(path: str, name: str, given: Path) -> str:
-    if given.name.lower().endswith(SINGLE_FILE_SUFFIXES):
-        return str(given.parent)
-    is_itself = given.is_dir() and name == given.resolve().name
-    return str(given if is_itself else given / _below(path))
+def _package_path(path: str, name: str, source: Path) -> str:
+    if source.name.lower().endswith(SINGLE_FILE_SUFFIXES):
+        return str(source.parent)
+    is_itself = source.is_dir() and name == source.resolve().name
+    return str(source if is_itself else source / _below(path))
 
 
 def _below(path: str) -> str:
@@ -134,7 +134,7 @@ def _with_pages(report: Report) -> Report:
     """Return a report with why and how at each finding whose rule is known here as well."""
     pages = {rule.id: parse_page(rule.page) for rule in all_rules()}
     packages = [
-        replace(package, findings=tuple(_explained(found, pages) for found in package.findings))
+        replace(package, findings=tuple(_explained(finding, pages) for finding in package.findings))
         for package in report.packages
     ]
     return replace(report, packages=tuple(packages))

@@ -14,7 +14,7 @@ from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.fixed_joints import Lumping
-from checker.physics.mass.mechanism import hang
+from checker.physics.mass.mechanism import spanning_tree_of
 
 
 class PartOfBody(Record, eq=False):
@@ -68,23 +68,23 @@ class Bodies(Record, eq=False):
 
 def bodies_of(robot: Robot, description: UrdfDescription, notes: Notes) -> Bodies:
     """Lump a robot; links without mass that Gazebo's parser drops are dropped, with a note."""
-    hanging = hang(robot)
+    spanning_tree = spanning_tree_of(robot)
     kept = Lumping(description).kept_joints
-    found = Bodies(left_out=hanging.left_out)
-    for name in hanging.depth_first:
-        link, tie = robot.tree.links[name], hanging.by.get(name)
+    bodies = Bodies(left_out=spanning_tree.left_out)
+    for name in spanning_tree.depth_first:
+        link, tie = robot.tree.links[name], spanning_tree.by.get(name)
         if name == WORLD:
             continue
-        holder = found.holders.get(tie.parent) if tie is not None else None
+        holder = bodies.holders.get(tie.parent) if tie is not None else None
         pose = Transform()
         if tie is None or holder is None or not _lumped(tie, link, kept, notes):
-            holder = found.bodies[name] = Body([], tie)
+            holder = bodies.bodies[name] = Body([], tie)
         else:
-            pose = found.poses[tie.parent] @ tie.joint.pose.transform
+            pose = bodies.poses[tie.parent] @ tie.joint.pose.transform
         holder.parts.append(PartOfBody(link, pose))
-        found.holders[name], found.poses[name] = holder, pose
-    _drop_massless(found, notes)
-    return found
+        bodies.holders[name], bodies.poses[name] = holder, pose
+    _drop_massless(bodies, notes)
+    return bodies
 
 
 def _lumped(tie: Tie, link: Link, kept: frozenset[str], notes: Notes) -> bool:
@@ -94,27 +94,27 @@ def _lumped(tie: Tie, link: Link, kept: frozenset[str], notes: Notes) -> bool:
     if tie.joint.name.value not in kept:
         return True
     if link.mass == 0.0:
-        said = "has no mass: its fixed joint is lumped, although a <gazebo> tag asks to keep it"
-        notes.say(link, f"link {link.name.value!r} {said}")
+        reason = "has no mass: its fixed joint is lumped, although a <gazebo> tag asks to keep it"
+        notes.say(link, f"link {link.name.value!r} {reason}")
         return True
     return False
 
 
-def _drop_massless(found: Bodies, notes: Notes) -> None:
+def _drop_massless(bodies: Bodies, notes: Notes) -> None:
     """Drop bodies without mass on which nothing hangs, from the ends of the tree inwards."""
     carrying: set[str] = set()
-    for name, body in reversed(list(found.bodies.items())):
-        if body.mass == 0.0 and name not in carrying and len(found.bodies) > 1:
+    for name, body in reversed(list(bodies.bodies.items())):
+        if body.mass == 0.0 and name not in carrying and len(bodies.bodies) > 1:
             notes.say(body.link, f"link {name!r} has no mass: left out, as in Gazebo")
-            del found.bodies[name]
+            del bodies.bodies[name]
             for part in body.parts:
-                del found.holders[part.link.scoped_name]
+                del bodies.holders[part.link.scoped_name]
             continue
         if body.mass == 0.0:
-            said = "Gazebo drops it with all links below it, so it needs an <inertial>"
-            notes.say(body.link, f"link {name!r} has no mass: {said}")
-        if body.tie is not None and body.tie.parent in found.holders:
-            carrying.add(found.holders[body.tie.parent].link.scoped_name)
+            reason = "Gazebo drops it with all links below it, so it needs an <inertial>"
+            notes.say(body.link, f"link {name!r} has no mass: {reason}")
+        if body.tie is not None and body.tie.parent in bodies.holders:
+            carrying.add(bodies.holders[body.tie.parent].link.scoped_name)
 
 
 # The mass and inertia of several links as those of one.

@@ -30,17 +30,17 @@ class Placed(Protocol):
 class Notes:
     """Sentences, each once, in the order in which they were said."""
 
-    _said: dict[str, None] = field(default_factory=dict)
+    _sentences: dict[str, None] = field(default_factory=dict)
 
     def say(self, where: Placed, what: str) -> None:
         """Note something about a place of the source."""
         place = where.span.place()
-        self._said[f"{place.file}:{place.line}: {what}"] = None
+        self._sentences[f"{place.file}:{place.line}: {what}"] = None
 
     @property
     def all(self) -> tuple[str, ...]:
         """The sentences."""
-        return tuple(self._said)
+        return tuple(self._sentences)
 
 
 class CarriedPlugin(Record, eq=False):

@@ -79,17 +79,17 @@ class Copier:
             chosen = unique(name, self.taken.setdefault((link, element.tag), {}))
             if chosen != name:
                 twin.set("name", chosen)
-                said = f"{element.tag} {name!r} is renamed to {chosen!r}"
-                self.notes.say(element, f"{said}: link {link!r} already has one with that name")
+                message = f"{element.tag} {name!r} is renamed to {chosen!r}"
+                self.notes.say(element, f"{message}: link {link!r} already has one with that name")
             name = chosen
         return name if element.tag == "sensor" else ""
 
-    def _list_plugins(self, element: Element, twin: etree._Element, found: CarriedFrom) -> None:
+    def _list_plugins(self, element: Element, twin: etree._Element, origin: CarriedFrom) -> None:
         nodes = list(twin.iter(etree.Element))
         for source, node in zip((element, *element.descendants()), nodes, strict=True):
             if source.tag == "plugin":
-                plugin = read_plugin(source, owner=found.sensor)
-                carried = CarriedPlugin(plugin, found.link, found.sensor, found.reference, node)
+                plugin = read_plugin(source, owner=origin.sensor)
+                carried = CarriedPlugin(plugin, origin.link, origin.sensor, origin.reference, node)
                 self.plugins.append(carried)
 
     def _move(self, element: Element, twin: etree._Element, pose: Transform) -> None:
@@ -97,8 +97,8 @@ class Copier:
         scope = Scope("", MODEL_FRAME, (1, 6), ValueReader(), FrameGraph())
         own = scope.pose(element)
         if own.relative_to:
-            said = f"<pose> of a {element.tag} is relative to {own.relative_to!r}: not changed"
-            self.notes.say(own, said)
+            message = f"<pose> of a {element.tag} is relative to {own.relative_to!r}: not changed"
+            self.notes.say(own, message)
             return
         node = twin.find("pose")
         if node is None:

@@ -68,7 +68,7 @@ class Setting(Record, eq=False):
 
 
 @dataclass
-class Said:
+class GazeboSettings:
     """What tags say about one link, joint, or the whole robot.
 
     Attributes:
@@ -90,23 +90,25 @@ class Said:
     copied: list[Element] = field(default_factory=list)
 
 
-def gazebo_tags(robot: Robot, description: UrdfDescription, notes: Notes) -> dict[str, Said]:
+def gazebo_tags(
+    robot: Robot, description: UrdfDescription, notes: Notes
+) -> dict[str, GazeboSettings]:
     """Sort what the tags of a description say, by the name they refer to; empty for the robot.
 
     A tag about a name that is neither link nor joint is noted and left out.
     """
-    said: dict[str, Said] = {}
+    settings: dict[str, GazeboSettings] = {}
     for tag in description.gazebo:
         reference = tag.reference.value
         kinds = _kinds_of(reference, robot)
         if not kinds:
             notes.say(tag, f"<gazebo> refers to {reference!r}, which does not exist: left out")
             continue
-        here = said.setdefault(reference, Said())
+        here = settings.setdefault(reference, GazeboSettings())
         for element in tag.element.children:
             if not _sort(element, here, kinds):
                 notes.say(element, f"<{element.tag}> of a <gazebo> tag is left out")
-    return said
+    return settings
 
 
 def _kinds_of(reference: str, robot: Robot) -> Collection[str]:
@@ -117,23 +119,23 @@ def _kinds_of(reference: str, robot: Robot) -> Collection[str]:
     return [kind for kind, names in kinds if reference in names]
 
 
-def _sort(element: Element, said: Said, kinds: Collection[str]) -> bool:
+def _sort(element: Element, settings: GazeboSettings, kinds: Collection[str]) -> bool:
     """Enter an element where it belongs; return whether it is known to belong somewhere."""
     known = False
     if "robot" in kinds:
-        known = _of_whole(element, said)
+        known = _of_whole(element, settings)
     if "link" in kinds:
-        known = _of_link(element, said)
+        known = _of_link(element, settings)
     if "joint" in kinds:
-        known = _of_joint(element, said, alone="link" not in kinds) or known
+        known = _of_joint(element, settings, alone="link" not in kinds) or known
     return known
 
 
-def _of_joint(element: Element, said: Said, *, alone: bool) -> bool:
+def _of_joint(element: Element, settings: GazeboSettings, *, alone: bool) -> bool:
     if element.tag in _JOINT:
-        said.joint.append(Setting(_JOINT[element.tag], value_of(element), element))
+        settings.joint.append(Setting(_JOINT[element.tag], value_of(element), element))
     elif element.tag == "sensor" and alone:
-        said.copied.append(element)
+        settings.copied.append(element)
     else:
         return element.tag in _LUMPING
     return True
@@ -144,31 +146,31 @@ def value_of(element: Element) -> str:
     return element.get("value") or element.text.value
 
 
-def _of_whole(element: Element, said: Said) -> bool:
+def _of_whole(element: Element, settings: GazeboSettings) -> bool:
     if element.tag in _WHOLE:
-        said.whole.append(Setting((element.tag,), value_of(element), element))
+        settings.whole.append(Setting((element.tag,), value_of(element), element))
     elif element.tag in _INTO_MODEL:
-        said.copied.append(element)
+        settings.copied.append(element)
     else:
         return False
     return True
 
 
-def _of_link(element: Element, said: Said) -> bool:
+def _of_link(element: Element, settings: GazeboSettings) -> bool:
     tag, value = element.tag, value_of(element)
     if tag in _COLLISION:
-        said.collision.append(Setting(_COLLISION[tag], value, element))
+        settings.collision.append(Setting(_COLLISION[tag], value, element))
     elif tag in _LINK:
-        said.link += [Setting(path, value, element) for path in _LINK[tag]]
+        settings.link += [Setting(path, value, element) for path in _LINK[tag]]
     elif tag == "turnGravityOff":
         acts = "true" if value.lower() in _FALSE else "false"
-        said.link.append(Setting(("gravity",), acts, element))
+        settings.link.append(Setting(("gravity",), acts, element))
     elif tag == "material" and not element.children:
-        said.materials.append(element)
+        settings.materials.append(element)
     elif tag in _EVERY_SHAPE:
-        said.shapes.append(element)
+        settings.shapes.append(element)
     elif tag in COPIED:
-        said.copied.append(element)
+        settings.copied.append(element)
     else:
         return False
     return True

@@ -12,7 +12,7 @@ from lxml import etree
 from checker.base.record import Record
 from checker.convert.bodies import Body, PartOfBody
 from checker.convert.conversion import Notes
-from checker.convert.gazebo_tags import Said, Setting
+from checker.convert.gazebo_tags import GazeboSettings, Setting
 from checker.convert.names import Naming
 from checker.convert.urdf_materials import Materials
 from checker.convert.urdf_shapes import Shape, shapes_of
@@ -49,10 +49,10 @@ def add_joint(
     """Add a joint to a model; None for one of a type that leaves its child free in Gazebo."""
     kind = _TYPES.get(joint.type.value)
     if kind is None:
-        said = (
+        message = (
             f"joint {joint.name.value!r} has the type {joint.type.value!r}, which SDF does not have"
         )
-        notes.say(joint, f"{said}: left out, so link {ends.child!r} moves freely")
+        notes.say(joint, f"{message}: left out, so link {ends.child!r} moves freely")
         return None
     element = add(model, "joint", name=name, type_=kind)
     add(element, "parent", ends.parent)
@@ -64,8 +64,10 @@ def add_joint(
         if kind != "fixed" or setting.path[0] != "axis":
             child_of(element, *setting.path).text = setting.value
     for named in joint.mimics:
-        said = f"joint {joint.name.value!r} mimics {named.value!r}, which SDF 1.6 cannot describe"
-        notes.say(named, f"{said}: it moves independently")
+        message = (
+            f"joint {joint.name.value!r} mimics {named.value!r}, which SDF 1.6 cannot describe"
+        )
+        notes.say(named, f"{message}: it moves independently")
     return element
 
 
@@ -101,15 +103,15 @@ class ShapeWriter:
 
     Attributes:
         mesh_uri: Gives the URI to write for a mesh or texture.
-        said: What `<gazebo>` tags say, by the name of the link as the source has it.
+        settings: What `<gazebo>` tags say, by the name of the link as the source has it.
     """
 
     naming: Naming
-    said: Mapping[str, Said]
+    settings: Mapping[str, GazeboSettings]
     materials: Materials
     mesh_uri: Callable[[str], str]
     notes: Notes
-    _nothing: Said = field(default_factory=Said)
+    _nothing: GazeboSettings = field(default_factory=GazeboSettings)
 
     def collisions(self, body: Body, link: etree._Element) -> None:
         """Add the collisions of a body to its element."""
@@ -148,11 +150,11 @@ class ShapeWriter:
 
     def _shapes(self, shape: Collision | Visual) -> Sequence[Shape]:
         """Return what a shape consists of in SDF 1.6; nothing, with a note, for what it lacks."""
-        found = shapes_of(shape.geometry, _PRIMITIVES)
-        if not found:
+        elements = shapes_of(shape.geometry, _PRIMITIVES)
+        if not elements:
             kind = shape.geometry.shape or "missing or unknown shape"
             self.notes.say(shape, f"a {shape.element.tag} that is a {kind} is left out")
-        return found
+        return elements
 
     def _place(
         self, element: etree._Element, part: PartOfBody, source: Collision | Visual, shape: Shape
@@ -184,12 +186,12 @@ class ShapeWriter:
             if blob.tag != element.tag:
                 continue
             for child in blob.children:
-                for there in [each for each in element if each.tag == child.node.tag]:
+                for there in [node for node in element if node.tag == child.node.tag]:
                     element.remove(there)
                 element.append(copied(child.node))
 
-    def _of(self, part: PartOfBody) -> Said:
-        return self.said.get(part.link.name.value, self._nothing)
+    def _of(self, part: PartOfBody) -> GazeboSettings:
+        return self.settings.get(part.link.name.value, self._nothing)
 
 
 def copied(node: etree._Element) -> etree._Element:

@@ -15,7 +15,7 @@ from checker.model.components import UNLIMITED, Axis, Joint
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
-from checker.physics.mass.mechanism import Freedom, Motion, hang, motions_of
+from checker.physics.mass.mechanism import Freedom, Motion, motions_of, spanning_tree_of
 
 # Joints in URDF, where a joint turns about its child's origin and has one axis at most.
 
@@ -115,14 +115,14 @@ def add_joint(robot: etree._Element, named: Named, step: Step, base: Transform) 
 
 
 def _add_limits(joint: etree._Element, kind: str, axis: Axis) -> None:
-    said = {}
+    limits = {}
     if kind != "continuous":
-        said = {"lower": _finite(axis.lower.value), "upper": _finite(axis.upper.value)}
+        limits = {"lower": _finite(axis.lower.value), "upper": _finite(axis.upper.value)}
     most = (axis.effort.value, axis.velocity.value)
-    if said or any(map(math.isfinite, most)):
+    if limits or any(map(math.isfinite, most)):
         # URDF wants both of every joint that states limits.
-        said |= {"effort": _finite(most[0]), "velocity": _finite(most[1])}
-        add(joint, "limit", **said)
+        limits |= {"effort": _finite(most[0]), "velocity": _finite(most[1])}
+        add(joint, "limit", **limits)
     resistance = {"damping": axis.damping.value, "friction": axis.friction.value}
     if any(resistance.values()):
         add(joint, "dynamics", **{name: exact(value) for name, value in resistance.items()})
@@ -162,7 +162,7 @@ class _Writer:
         self.robot = robot
         self.prefix = prefix
         self.notes = Notes()
-        self.hanging = hang(robot)
+        self.spanning_tree = spanning_tree_of(robot)
         self.links = LinkWriter(robot, mesh_uri, self.notes)
         self.root = etree.Element("robot", name=robot.name.value)
         self.link_names = dict.fromkeys(robot.tree.links, 0)
@@ -173,7 +173,7 @@ class _Writer:
         top = self._top()
         if top == WORLD:
             add(self.root, "link", name=WORLD)
-        for name in self.hanging.depth_first:
+        for name in self.spanning_tree.depth_first:
             if name == WORLD:
                 continue
             self.links.write(
@@ -190,17 +190,19 @@ class _Writer:
 
     def _top(self) -> str:
         """Return the link that all others hang on: `world` where one is tied to it."""
-        if any(tie.parent == WORLD for tie in self.hanging.by.values()):
+        if any(tie.parent == WORLD for tie in self.spanning_tree.by.values()):
             return WORLD
-        return next((name for name in self.hanging.order if name not in self.hanging.by), "")
+        return next(
+            (name for name in self.spanning_tree.order if name not in self.spanning_tree.by), ""
+        )
 
     def _hang(self, name: str, top: str) -> None:
         """Add the joints by which a link hangs."""
-        tie, child = self.hanging.by.get(name), self._pose(name)
+        tie, child = self.spanning_tree.by.get(name), self._pose(name)
         if tie is None:
             link = self.robot.tree.links[name]
-            said = f"link {name!r} has no parent link: a floating joint connects it to {top!r}"
-            self.notes.say(link, said)
+            message = f"link {name!r} has no parent link: a floating joint connects it to {top!r}"
+            self.notes.say(link, message)
         at = top if tie is None else tie.parent
         steps = [Step("floating", child)] if tie is None else self._steps(tie, child)
         base, parent = self._pose(at), self._name(at)
@@ -218,8 +220,10 @@ class _Writer:
         steps = list(steps_of(self.robot, tie, child))
         joint = tie.joint
         if steps[0].kind == "fixed" and joint.type.value != "fixed":
-            said = f"joint {joint.scoped_name!r} ({joint.type.value}) is written as a fixed joint"
-            self.notes.say(joint, f"{said}: its limits, its axis or URDF allow no motion")
+            message = (
+                f"joint {joint.scoped_name!r} ({joint.type.value}) is written as a fixed joint"
+            )
+            self.notes.say(joint, f"{message}: its limits, its axis or URDF allow no motion")
         return steps
 
     def _pose(self, name: str) -> Transform:
@@ -232,15 +236,15 @@ class _Writer:
         return link if link == WORLD else self.prefix + link
 
     def _say_what_is_cut(self) -> None:
-        for tie in self.hanging.left_out:
-            said = (
+        for tie in self.spanning_tree.left_out:
+            message = (
                 f"joint {tie.joint.scoped_name!r} closes a loop, which URDF cannot describe: left "
                 "out"
             )
-            self.notes.say(tie.joint, said)
+            self.notes.say(tie.joint, message)
         for broken in self.robot.tree.broken:
-            said = f"joint {broken.joint.scoped_name!r} connects {broken.missing.value!r}"
-            self.notes.say(broken.joint, f"{said}, which is not a link: left out")
+            message = f"joint {broken.joint.scoped_name!r} connects {broken.missing.value!r}"
+            self.notes.say(broken.joint, f"{message}, which is not a link: left out")
 
 
 # The URDF for RViz as a xacro file, whose argument `name` goes in front of every link.

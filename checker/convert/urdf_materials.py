@@ -59,21 +59,24 @@ class Materials:
     def __init__(self, robot: Robot, notes: Notes) -> None:
         self._notes = notes
         inside = [visual.element.child("material") for visual in _visuals(robot)]
-        every = (*robot.element.all("material"), *(each for each in inside if each is not None))
+        every = (
+            *robot.element.all("material"),
+            *(material for material in inside if material is not None),
+        )
         self._named: dict[str, Paint] = {}
         for element in every:
             paint = _paint(element, notes)
             if paint is not None:
                 self._named.setdefault(element.get("name") or "", paint)
 
-    def of(self, visual: Visual, said: Sequence[Element]) -> Paint | None:
+    def of(self, visual: Visual, materials: Sequence[Element]) -> Paint | None:
         """Return how a visual looks; None for a look of its own, such as a mesh's.
 
         Args:
             visual: Of the source.
-            said: The `<material>`s of `<gazebo>` tags about its link; they come first.
+            materials: The `<material>`s of `<gazebo>` tags about its link; they come first.
         """
-        for element in reversed(said):
+        for element in reversed(materials):
             paint = self._of_gazebo(element)
             if paint is not None:
                 return paint
@@ -107,11 +110,11 @@ def _paint(material: Element, notes: Notes) -> Paint | None:
     rgba = [1.0, 1.0, 1.0, 1.0]
     if colour is not None:
         read = ValueReader().attribute_numbers(colour, "rgba", (0.0, 0.0, 0.0, 1.0))
-        rgba = [each.value for each in read]
+        rgba = [value.value for value in read]
         if max(rgba[:3]) > 1.0:
             notes.say(colour, f"colour {colour.get('rgba')!r} is read as 0 to 255, not 0 to 1")
-            rgba = [*(each / _BYTE for each in rgba[:3]), rgba[3]]
-        rgba = [min(max(each, 0.0), 1.0) for each in rgba]
+            rgba = [*(value / _BYTE for value in rgba[:3]), rgba[3]]
+        rgba = [min(max(value, 0.0), 1.0) for value in rgba]
     opaque = (*rgba[:3], 1.0)
     file = texture.get("filename") or "" if texture is not None else ""
     colours = {"ambient": opaque, "diffuse": opaque, "specular": (*_SHINE, 1.0)}

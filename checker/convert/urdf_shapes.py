@@ -93,8 +93,8 @@ class LinkWriter:
             return
         inertial = add(element, "inertial")
         if link.inertial is None:
-            said = f"link {link.scoped_name!r} has no inertial: SDFormat's default is written"
-            self.notes.say(link, said)
+            message = f"link {link.scoped_name!r} has no inertial: SDFormat's default is written"
+            self.notes.say(link, message)
             mass, moments = exact(link.mass), ["1", "0", "0", "1", "0", "1"]
         else:
             self._origin(inertial, link, link.inertial.pose)
@@ -142,8 +142,8 @@ class LinkWriter:
         frame = self.robot.pose_of(link.scoped_name)
         at = self.robot.pose_of_part(link, stated)
         if frame is None or at is None:
-            said = f"a pose is relative to {stated.relative_to!r}, which is not known"
-            self.notes.say(stated, f"{said}: the link's frame is used")
+            message = f"a pose is relative to {stated.relative_to!r}, which is not known"
+            self.notes.say(stated, f"{message}: the link's frame is used")
             return Transform()
         return frame.inverse @ at
 
@@ -164,16 +164,16 @@ class LinkWriter:
         if material is None:
             return ("", "")
         colour = material.colours.get("diffuse") or material.colours.get("ambient") or ()
-        rgba = [each.value for each in colour]
+        rgba = [number.value for number in colour]
         if len(rgba) in (3, 4):
             rgba = [*rgba, 1.0][:4]
             see_through = stated_number(visual.element, "transparency")
             rgba[3] *= 1.0 - (see_through.value if see_through is not None else 0.0)
             # As in Gazebo; readers of URDF refuse what lies beyond.
-            rgba = [min(max(each, 0.0), 1.0) for each in rgba]
+            rgba = [min(max(number, 0.0), 1.0) for number in rgba]
         texture = material.textures[0].value if self._has_texture(visual) else ""
-        said = " ".join(map(exact, rgba)) if len(rgba) == 4 else ""
-        return (said, self.mesh_uri(texture) if texture else "")
+        text = " ".join(map(exact, rgba)) if len(rgba) == 4 else ""
+        return (text, self.mesh_uri(texture) if texture else "")
 
     def _has_texture(self, visual: Visual) -> bool:
         """Return whether the first texture of a visual is its colour."""

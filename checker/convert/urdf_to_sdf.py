@@ -9,7 +9,7 @@ from lxml import etree
 from checker.convert.bodies import Body, alone, bodies_of, frame_of, joined_inertial
 from checker.convert.conversion import CarriedPlugin, Conversion, Lumped, Notes
 from checker.convert.gazebo_extensions import Copier
-from checker.convert.gazebo_tags import Said, gazebo_tags
+from checker.convert.gazebo_tags import GazeboSettings, gazebo_tags
 from checker.convert.names import Naming, naming_of
 from checker.convert.sdf_shapes import Ends, ShapeWriter, add_joint
 from checker.convert.urdf_materials import Materials
@@ -72,16 +72,16 @@ class _Writer:
         self.robot = robot
         self.naming = naming
         self.notes = Notes()
-        self.said = gazebo_tags(robot, description, self.notes)
+        self.settings = gazebo_tags(robot, description, self.notes)
         self.found = bodies_of(robot, description, self.notes)
         self.plugins: list[CarriedPlugin] = []
         self.copier = Copier(naming, self.notes, self.plugins)
         materials = Materials(robot, self.notes)
-        self.shapes = ShapeWriter(naming, self.said, materials, mesh_uri, self.notes)
+        self.shapes = ShapeWriter(naming, self.settings, materials, mesh_uri, self.notes)
 
     def write(self, model: etree._Element) -> None:
         """Write everything into the model."""
-        whole = self._said("")
+        whole = self._settings_of("")
         for setting in whole.whole:
             child_of(model, *setting.path).text = setting.value
         for body in self.found.bodies.values():
@@ -117,18 +117,20 @@ class _Writer:
         for part in body.parts:
             source = part.link.name.value
             own, reference = self.naming.local(name), self.naming.local(source)
-            for element in self._said(source).copied:
+            for element in self._settings_of(source).copied:
                 self.copier.copy(element, link, link=own, reference=reference, pose=part.pose)
 
     def _settings(self, link: etree._Element, body: Body) -> None:
         """Apply what tags say about the link itself; of lumped links it is noted."""
         for part in body.parts:
-            for setting in self._said(part.link.name.value).link:
+            for setting in self._settings_of(part.link.name.value).link:
                 if part.link is body.link:
                     child_of(link, *setting.path).text = setting.value
                 else:
-                    said = f"<{setting.element.tag}> of link {part.link.name.value!r} is left out"
-                    self.notes.say(setting.element, f"{said}: the link is lumped")
+                    message = (
+                        f"<{setting.element.tag}> of link {part.link.name.value!r} is left out"
+                    )
+                    self.notes.say(setting.element, f"{message}: the link is lumped")
 
     def _joint(self, model: etree._Element, body: Body) -> None:
         if body.tie is None:
@@ -138,11 +140,11 @@ class _Writer:
         if holder is None and tie.parent != WORLD:
             return
         parent = WORLD if holder is None else local(holder.link.name.value)
-        name, said = tie.joint.name.value, self._said(tie.joint.name.value)
+        name, settings = tie.joint.name.value, self._settings_of(tie.joint.name.value)
         ends = Ends(parent, local(body.link.name.value))
-        joint = add_joint(model, tie.joint, local(name), ends, said.joint, self.notes)
+        joint = add_joint(model, tie.joint, local(name), ends, settings.joint, self.notes)
         if joint is not None and name not in self.robot.links_by_name:
-            for element in said.copied:
+            for element in settings.copied:
                 self.copier.copy(element, joint, link=ends.child, reference=local(name))
 
     def _retie(self, joints: list[etree._Element]) -> None:
@@ -155,21 +157,21 @@ class _Writer:
 
     def _say_what_is_cut(self) -> None:
         for tie in self.found.left_out:
-            said = f"joint {tie.joint.name.value!r} connects {tie.child!r}"
-            self.notes.say(tie.joint, f"{said}, which already has a parent link: left out")
+            message = f"joint {tie.joint.name.value!r} connects {tie.child!r}"
+            self.notes.say(tie.joint, f"{message}, which already has a parent link: left out")
         for broken in self.robot.tree.broken:
-            said = f"joint {broken.joint.name.value!r} connects {broken.missing.value!r}"
-            self.notes.say(broken.joint, f"{said}, which is not a link: left out")
+            message = f"joint {broken.joint.name.value!r} connects {broken.missing.value!r}"
+            self.notes.say(broken.joint, f"{message}, which is not a link: left out")
         free = [body for body in self.found.bodies.values() if body.tie is None]
         for body in free[1:]:
-            said = f"link {body.link.name.value!r} has no parent link"
-            self.notes.say(body.link, f"{said}: it moves freely in the model")
+            message = f"link {body.link.name.value!r} has no parent link"
+            self.notes.say(body.link, f"{message}: it moves freely in the model")
 
-    def _said(self, name: str) -> Said:
-        return self.said.get(name, _NOTHING)
+    def _settings_of(self, name: str) -> GazeboSettings:
+        return self.settings.get(name, _NOTHING)
 
 
-_NOTHING = Said()
+_NOTHING = GazeboSettings()
 
 
 def _add_inertial(link: etree._Element, body: Body) -> None:
@@ -182,7 +184,7 @@ def _add_inertial(link: etree._Element, body: Body) -> None:
         if not is_identity(pose):
             add(element, "pose", " ".join(six_numbers(pose, source.pose)))
         # A single link's moments stay along its own axes.
-        mass, moments = exact(source.mass.value), [exact(each.value) for each in source.moments]
+        mass, moments = exact(source.mass.value), [exact(moment.value) for moment in source.moments]
     else:
         joined = joined_inertial(body.parts)
         if any(joined.centre):

@@ -94,13 +94,13 @@ def _same(first: Transform, second: Transform) -> bool:
 
 
 def _entries(pose: Transform) -> Sequence[float]:
-    return (*pose.translation, *(each for row in pose.rotation for each in row))
+    return (*pose.translation, *(value for row in pose.rotation for value in row))
 
 
 def add(parent: etree._Element, tag: str, text: str = "", **attributes: str) -> etree._Element:
     """Add an element at the end of another one; an attribute `type_` is written `type`."""
-    said = {name.removesuffix("_"): value for name, value in attributes.items()}
-    child = etree.SubElement(parent, tag, said)
+    named = {name.removesuffix("_"): value for name, value in attributes.items()}
+    child = etree.SubElement(parent, tag, named)
     if text:
         child.text = text
     return child
@@ -110,8 +110,8 @@ def child_of(parent: etree._Element, *path: str) -> etree._Element:
     """Return the element at a path below another one; what is missing is added."""
     at = parent
     for tag in path:
-        found = at.find(tag)
-        at = found if found is not None else etree.SubElement(at, tag)
+        child = at.find(tag)
+        at = child if child is not None else etree.SubElement(at, tag)
     return at
 
 

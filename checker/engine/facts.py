@@ -34,15 +34,15 @@ _SERIES_DIGITS = 6
 def measured(driven: RobotTrial, outcome: Outcome) -> dict[str, Any]:
     """Return what JSON can express of a trial and of what the rules said about its figures."""
     trial = driven.trial
-    said = replace(trial, replay=None).as_json()
+    data = replace(trial, replay=None).as_json()
     return {
         "drive": trial.drive,
         "versions": dict(trial.versions),
-        "course": said["legs"],
+        "course": data["legs"],
         "refused": trial.refused,
         "refused_part": trial.refused_part,
         "measurements": list(_measurements(driven, outcome)),
-        "repairs": said["repairs"],
+        "repairs": data["repairs"],
         "notes": list(trial.notes),
         "trouble": list(trial.trouble),
         "series": _series(trial),
@@ -76,12 +76,12 @@ _Verdicts = dict[str, list[tuple[Severity, frozenset[tuple[str, int, int]]]]]
 def _verdicts(outcome: Outcome) -> _Verdicts:
     verdicts: _Verdicts = {}
     # A figure is out of its limits also where that shall not count.
-    aside = (each.finding for each in outcome.suppressed)
-    for found in (*outcome.findings, *aside):
-        if found.rule in _JUDGES or found.rule.startswith("TRI"):
-            places = frozenset(map(_start, found.places))
-            for name in found.key.split():
-                verdicts.setdefault(name, []).append((found.severity, places))
+    aside = (item.finding for item in outcome.suppressed)
+    for finding in (*outcome.findings, *aside):
+        if finding.rule in _JUDGES or finding.rule.startswith("TRI"):
+            places = frozenset(map(_start, finding.places))
+            for name in finding.key.split():
+                verdicts.setdefault(name, []).append((finding.severity, places))
     return verdicts
 
 
@@ -89,15 +89,17 @@ def _start(place: Place) -> tuple[str, int, int]:
     return place.file, place.line, place.column
 
 
-def _verdict(each: Measurement, driven: RobotTrial, verdicts: _Verdicts, looked: bool) -> str:
+def _verdict(
+    measurement: Measurement, driven: RobotTrial, verdicts: _Verdicts, looked: bool
+) -> str:
     """Return the gravest that was said about a figure; `ok` when its rule looked and was silent."""
-    said = verdicts.get(each.name, [])
-    if each.part:
-        start = _start(driven.part(each.part).span.place())
-        said = [(severity, places) for severity, places in said if start in places]
-    if said:
-        return str(min((severity for severity, _ in said), key=lambda severity: severity.rank))
-    return "ok" if looked and MEASURES[each.name].silence_is_ok else NOT_JUDGED
+    judged = verdicts.get(measurement.name, [])
+    if measurement.part:
+        start = _start(driven.part(measurement.part).span.place())
+        judged = [(severity, places) for severity, places in judged if start in places]
+    if judged:
+        return str(min((severity for severity, _ in judged), key=lambda severity: severity.rank))
+    return "ok" if looked and MEASURES[measurement.name].silence_is_ok else NOT_JUDGED
 
 
 def _limits(name: str, options: Mapping[str, Any]) -> dict[str, Any]:
@@ -213,5 +215,5 @@ def _finite(known: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
 def _rounded(value: float | Sequence[Any]) -> float | list[Any] | None:
     if isinstance(value, float):
         return float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None
-    rounded = [_rounded(each) for each in value]
+    rounded = [_rounded(item) for item in value]
     return None if None in rounded else rounded

@@ -82,7 +82,7 @@ def _typed(value: object, default: object) -> object:
     Options are sizes, counts, shares: where the default is above 0, nothing is negative.
     """
     if isinstance(default, tuple) and isinstance(value, list):
-        elements = tuple(_typed(each, _element(default)) for each in value)
+        elements = tuple(_typed(item, _element(default)) for item in value)
         return None if None in elements else elements
     typed = _finite(value) if isinstance(default, float) and type(value) in (int, float) else value
     return typed if type(typed) is type(default) and _is_allowed(typed, default) else None

@@ -58,8 +58,8 @@ def memory_key(package: Package, settings: Settings) -> str:
     """Return the key of a package's report; empty when it is not worth remembering."""
     if package.only:
         return ""
-    asked = json.dumps(msgspec.to_builtins(settings, enc_hook=str))
-    parts: list[bytes | str] = [*program_parts(), asked, str(package.root)]
+    options = json.dumps(msgspec.to_builtins(settings, enc_hook=str))
+    parts: list[bytes | str] = [*program_parts(), options, str(package.root)]
     parts += _content(package)
     beside = list(islice(_beside(package), ENTRIES_LIMIT))
     return key_of(*parts, *beside) if len(beside) < ENTRIES_LIMIT else ""
@@ -72,17 +72,17 @@ def program_parts() -> list[str]:
 
 def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
     """Return the report that was remembered under a key; None when there is none."""
-    said = cache.get(KIND, key) if key else None
-    if said is None:
+    data = cache.get(KIND, key) if key else None
+    if data is None:
         return None
     try:
-        return from_stored(said, shown)
+        return from_stored(data, shown)
     except (KeyError, TypeError, ValueError):
         return None
 
 
 def remember(cache: Cache, key: str, report: PackageReport) -> None:
-    """Keep a report, unless something was not at hand or not drawn: it may be the next time."""
+    """Keep a report, unless something was not available or not drawn: it may be the next time."""
     undrawn = report.display is not None and not report.display.pictures
     if key and not report.blind_spots and not undrawn:
         cache.put(KIND, key, msgspec.to_builtins(report))
@@ -124,7 +124,7 @@ def _below(folder: Path) -> Iterator[str]:
     while waiting:
         with suppress(OSError), os.scandir(waiting.pop()) as items:
             for item in sorted(items, key=lambda item: item.name):
-                found = item.stat(follow_symlinks=item.is_symlink() and item.is_file())
-                yield f"{item.path} {found.st_mode} {found.st_size} {found.st_mtime_ns}"
-                if stat.S_ISDIR(found.st_mode) and item.name not in SKIPPED_FOLDERS:
+                status = item.stat(follow_symlinks=item.is_symlink() and item.is_file())
+                yield f"{item.path} {status.st_mode} {status.st_size} {status.st_mtime_ns}"
+                if stat.S_ISDIR(status.st_mode) and item.name not in SKIPPED_FOLDERS:
                     waiting.append(Path(item.path))

@@ -29,8 +29,8 @@ from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.profiles import Profile, profile
+from checker.rulebook.suppression.matcher import SuppressionMatcher
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
-from checker.rulebook.suppression.silencer import Silencer
 from checker.settings import Settings
 
 # Rules about suppressions need to know what all others found; those about the baseline, which of
@@ -57,26 +57,26 @@ def run_and_set_aside(
     first = [rule for rule in rules if rule not in (*of_suppressions, *of_baseline)]
 
     held = settings.baseline.packages.get(subject.package.name, ())
-    silencer = Silencer(subject.package, settings.suppress, all_rules(), held)
-    outcome = run_rules(first, subject, profile, settings, silencer)
-    used = silencer.suppressions(_looked(outcome), settings.source)
-    said = run_rules(of_suppressions, _With(subject, used), profile, settings, silencer)
-    outcome = joined(outcome, said)
-    stale = _stale(silencer, outcome, settings)
-    said = run_rules(of_baseline, _With(subject, stale), profile, settings, silencer)
-    return joined(outcome, said)
+    matcher = SuppressionMatcher(subject.package, settings.suppress, all_rules(), held)
+    outcome = run_rules(first, subject, profile, settings, matcher)
+    used = matcher.suppressions(_looked(outcome), settings.source)
+    added = run_rules(of_suppressions, _With(subject, used), profile, settings, matcher)
+    outcome = joined(outcome, added)
+    stale = _stale(matcher, outcome, settings)
+    added = run_rules(of_baseline, _With(subject, stale), profile, settings, matcher)
+    return joined(outcome, added)
 
 
 def _looked(outcome: Outcome) -> set[str]:
     """Return the rules that looked at all they ask for, so that their silence tells something."""
-    return set(outcome.looked) - {each.rule for each in outcome.not_checked}
+    return set(outcome.looked) - {skipped.rule for skipped in outcome.not_checked}
 
 
-def _stale(silencer: Silencer, outcome: Outcome, settings: Settings) -> BaselineUse:
+def _stale(matcher: SuppressionMatcher, outcome: Outcome, settings: Settings) -> BaselineUse:
     """Return what of the baseline is gone."""
     path = settings.baseline.path
     ids = {rule.id for rule in all_rules()}
-    return BaselineUse(silencer.held.stale(ids, _looked(outcome), path.name if path else ""))
+    return BaselineUse(matcher.held.stale(ids, _looked(outcome), path.name if path else ""))
 
 
 def judged(
@@ -160,7 +160,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         outcome.findings,
         (*outcome.not_checked, *blind, *trouble, *undrawn),
         tuple(
-            InheritedPart(each.part, each.package_name, each.at_hand) for each in package.inherited
+            InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited
         ),
         facts,
         dict(subject.stages.seconds),

@@ -29,7 +29,7 @@ from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
 from checker.rulebook.profiles import Profile
 from checker.rulebook.suppression.finding_places import Spot, spot
-from checker.rulebook.suppression.silencer import Silencer, parted
+from checker.rulebook.suppression.matcher import SuppressionMatcher, parted
 from checker.settings import Settings
 
 TEXT_LIMIT = 1000
@@ -55,7 +55,7 @@ def run_rules(
     parts: Parts,
     profile: Profile,
     settings: Settings,
-    silencer: Silencer | None = None,
+    matcher: SuppressionMatcher | None = None,
 ) -> Outcome:
     """Run the rules that profile and settings want; one that crashes stops no other."""
     findings: list[ReportedFinding] = []
@@ -66,22 +66,23 @@ def run_rules(
         if not wanted(rule, profile, settings):
             not_checked += _switched_off(rule, profile, settings)
             continue
-        said = _run_isolated(rule, parts, profile.context, settings)
-        if isinstance(said, NotChecked):
-            not_checked.append(said)
+        result = _run_isolated(rule, parts, profile.context, settings)
+        if isinstance(result, NotChecked):
+            not_checked.append(result)
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
-        found = [each for each in said if isinstance(each, Finding)]
+        own = [item for item in result if isinstance(item, Finding)]
         spot_of = partial(_spot, rule, profile, settings)
-        for silence, group in parted(rule.id, found, silencer, spot_of).items():
+        for suppression, group in parted(rule.id, own, matcher, spot_of).items():
             reported = _report(rule, group, profile, settings)
-            if silence is None:
+            if suppression is None:
                 findings += reported
             else:
                 suppressed += [
-                    Suppressed(each, silence.by, silence.reason, silence.place) for each in reported
+                    Suppressed(finding, suppression.by, suppression.reason, suppression.place)
+                    for finding in reported
                 ]
-        unchecked = (each.reason for each in said if isinstance(each, Unchecked))
+        unchecked = (item.reason for item in result if isinstance(item, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
         not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
     return _outcome(_sorted(findings), suppressed, not_checked, looked)
@@ -94,15 +95,15 @@ def _outcome(
     looked: Mapping[str, Mapping[str, Any]],
 ) -> Outcome:
     """Number findings that would have one fingerprint: those that count first."""
-    aside = [each.finding for each in suppressed]
-    prints = numbered(each.fingerprint for each in (*findings, *aside))
+    aside = [item.finding for item in suppressed]
+    prints = numbered(finding.fingerprint for finding in (*findings, *aside))
     distinct = [
-        replace(each, fingerprint=own)
-        for each, own in zip((*findings, *aside), prints, strict=True)
+        replace(finding, fingerprint=own)
+        for finding, own in zip((*findings, *aside), prints, strict=True)
     ]
     counting, others = distinct[: len(findings)], distinct[len(findings) :]
     set_aside = (
-        replace(each, finding=found) for each, found in zip(suppressed, others, strict=True)
+        replace(item, finding=finding) for item, finding in zip(suppressed, others, strict=True)
     )
     return Outcome(tuple(counting), tuple(not_checked), looked, tuple(set_aside))
 
@@ -113,7 +114,7 @@ def joined(*outcomes: Outcome) -> Outcome:
     for outcome in outcomes:
         looked.update(outcome.looked)
     return Outcome(
-        tuple(_sorted([found for outcome in outcomes for found in outcome.findings])),
+        tuple(_sorted([finding for outcome in outcomes for finding in outcome.findings])),
         tuple(unseen for outcome in outcomes for unseen in outcome.not_checked),
         looked,
         tuple(aside for outcome in outcomes for aside in outcome.suppressed),
@@ -160,7 +161,7 @@ def _run_isolated(
             cause = Cause.NOT_AT_HAND if arguments.applicable else Cause.NOT_APPLICABLE
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
         options = options_of(rule, settings)
-        return [found for argument in arguments for found in rule.check(**argument, **options)]
+        return [outcome for argument in arguments for outcome in rule.check(**argument, **options)]
     except Exception as error:  # noqa: BLE001 - the other rules go on, the exit code says so
         return crashed(rule.id, error)
 
@@ -180,18 +181,18 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
         if isinstance(had, NotAvailable):
             return had
         wanted[name] = had
-    return [dict(zip(wanted, each, strict=True)) for each in product(*wanted.values())]
+    return [dict(zip(wanted, choice, strict=True)) for choice in product(*wanted.values())]
 
 
 def _report(
-    rule: Rule, found: list[Finding], profile: Profile, settings: Settings
+    rule: Rule, findings: list[Finding], profile: Profile, settings: Settings
 ) -> Iterator[ReportedFinding]:
     """Join findings that are one fault in many places, and add what the rule's page says."""
     page = parse_page(rule.page)
     groups: dict[tuple[Severity, str], list[Finding]] = {}
-    for each in found:
-        severity = _severity(rule, each, profile, settings)
-        groups.setdefault((severity, each.key or each.message), []).append(each)
+    for finding in findings:
+        severity = _severity(rule, finding, profile, settings)
+        groups.setdefault((severity, finding.key or finding.message), []).append(finding)
     for (severity, _), group in groups.items():
         first = group[0]
         places = _joined_places(group)
@@ -203,7 +204,7 @@ def _report(
             shortened(first.message, TEXT_LIMIT),
             fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
             places,
-            _joined_fix([each.fix for each in group if each.fix]),
+            _joined_fix([finding.fix for finding in group if finding.fix]),
             page.reason,
             " ".join(page.fix.split()),
             first.key,
@@ -232,35 +233,35 @@ def _joined_fix(fixes: list[Fix]) -> Fix | None:
     return Fix(max((fix.safety for fix in fixes), key=list(Safety).index), tuple(edits))
 
 
-def _spot(rule: Rule, profile: Profile, settings: Settings, found: Finding) -> Spot:
+def _spot(rule: Rule, profile: Profile, settings: Settings, finding: Finding) -> Spot:
     """Return how the baseline knows a finding, in the words of the report."""
-    severity = _severity(rule, found, profile, settings)
-    message = shortened(found.message, TEXT_LIMIT)
-    return spot(rule.id, severity, found.places[0], found.key, message)
+    severity = _severity(rule, finding, profile, settings)
+    message = shortened(finding.message, TEXT_LIMIT)
+    return spot(rule.id, severity, finding.places[0], finding.key, message)
 
 
-def _severity(rule: Rule, found: Finding, profile: Profile, settings: Settings) -> Severity:
+def _severity(rule: Rule, finding: Finding, profile: Profile, settings: Settings) -> Severity:
     """The user's word counts most, then the finding's, then the rule's; a profile can lower it."""
     if rule.id in settings.severity:
         return settings.severity[rule.id]
-    severity = found.severity or rule.severity
+    severity = finding.severity or rule.severity
     limit = profile.severity.get(rule.id)
     return max(severity, limit, key=lambda s: s.rank) if limit else severity
 
 
-def _identity(found: Finding) -> str:
+def _identity(finding: Finding) -> str:
     """Return what tells a fault from others of its rule in the same element or file.
 
     An element's path stays when its value changes, the message does not; elsewhere the message
     has to do, without the numbers of lines in it.
     """
-    message = "" if found.places[0].element else found.message
-    return without_line_numbers(found.key or message)
+    message = "" if finding.places[0].element else finding.message
+    return without_line_numbers(finding.key or message)
 
 
 def _sorted(findings: list[ReportedFinding]) -> list[ReportedFinding]:
-    def key(each: ReportedFinding) -> tuple[int, str, int, int, str]:
-        place = each.places[0]
-        return each.severity.rank, place.file, place.line, place.column, each.rule
+    def key(reported: ReportedFinding) -> tuple[int, str, int, int, str]:
+        place = reported.places[0]
+        return reported.severity.rank, place.file, place.line, place.column, reported.rule
 
     return sorted(findings, key=key)

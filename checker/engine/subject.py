@@ -39,7 +39,7 @@ from checker.model.sensing.view import SensorViews
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.files import UrdfFiles
-from checker.model.urdf.package_descriptions import Describing
+from checker.model.urdf.package_descriptions import PackageDescriptions
 from checker.package.configuration import configuration_number, first_configuration
 from checker.package.inheritance import SPAWNER, Missing
 from checker.package.kind import PackageKind
@@ -101,8 +101,8 @@ class Subject(Record, eq=False, dict=True):
         return self._provided[kind]
 
     def provided(self, kind: type[T]) -> Sequence[T]:
-        """Return a part that some rule had; nothing when none asked for it or it is not at hand."""
-        return [each for each in self._provided.get(kind, ()) if isinstance(each, kind)]
+        """Return a part that some rule had; nothing when none asked for it or it is missing."""
+        return [item for item in self._provided.get(kind, ()) if isinstance(item, kind)]
 
     def start(self, kinds: Collection[type]) -> None:
         """Begin with parts that take long, so that they come about while the rules run."""
@@ -115,7 +115,7 @@ class Subject(Record, eq=False, dict=True):
         if SensorViews in kinds and not isinstance(self.robot_views, NotAvailable):
             self.robot_views.begin()
         if UrdfFiles in kinds or UrdfDescription in kinds:
-            _ = self.describing
+            _ = self.package_descriptions
 
     def start_meshes(self) -> None:
         """Begin to read the robot's meshes; what goes wrong is met again by who asks for it."""
@@ -135,10 +135,10 @@ class Subject(Record, eq=False, dict=True):
         for robot in robots if isinstance(robots, tuple) else ():
             if isinstance(robot.meshes, PackageMeshes):
                 robot.meshes.stop()
-        names = ("trials", "describing", "display", "robot_views")
-        for each in map(self.__dict__.get, names):
-            if each is not None and not isinstance(each, NotAvailable):
-                each.stop()
+        names = ("trials", "package_descriptions", "display", "robot_views")
+        for value in map(self.__dict__.get, names):
+            if value is not None and not isinstance(value, NotAvailable):
+                value.stop()
 
     @cached_property
     def paperwork(self) -> Paperwork:
@@ -164,20 +164,20 @@ class Subject(Record, eq=False, dict=True):
     @property
     def _urdf(self) -> XmlDocument | NotAvailable:
         """The first description of a URDF package, or of a file."""
-        found = self.descriptions
-        return found if isinstance(found, NotAvailable) else found[0].document
+        descriptions = self.descriptions
+        return descriptions if isinstance(descriptions, NotAvailable) else descriptions[0].document
 
     @cached_property
-    def describing(self) -> Describing:
+    def package_descriptions(self) -> PackageDescriptions:
         """The URDF files that stand for a robot, as they are being expanded."""
-        return Describing(self.package, self.cache)
+        return PackageDescriptions(self.package, self.cache)
 
     @property
     def urdf_files(self) -> UrdfFiles | NotAvailable:
         """What became of the URDF files."""
-        if not self.describing.applicable:
+        if not self.package_descriptions.applicable:
             return NotAvailable("no URDF file is a robot", applicable=False)
-        return self.describing.files
+        return self.package_descriptions.files
 
     @cached_property
     def descriptions(self) -> tuple[UrdfDescription, ...] | NotAvailable:
@@ -187,8 +187,8 @@ class Subject(Record, eq=False, dict=True):
             return files if isinstance(files, NotAvailable) else files.descriptions
         wrong = [f"{fault.file} cannot be expanded" for fault in files.faults]
         reasons = [*wrong, *files.unread]
-        said = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
-        return NotAvailable(said, applicable=bool(reasons))
+        reason = next(iter((*reasons, *files.set_aside)), "the URDF files contain no robot")
+        return NotAvailable(reason, applicable=bool(reasons))
 
     def document(self, path: str) -> XmlDocument | NotAvailable:
         """Return a file as XML, or say why it cannot be had."""
@@ -230,8 +230,12 @@ class Subject(Record, eq=False, dict=True):
         if isinstance(self.model, NotAvailable):
             return self.model
         if self.model.root.tag == "robot":
-            found = self.descriptions
-            return found if isinstance(found, NotAvailable) else tuple(each.robot for each in found)
+            descriptions = self.descriptions
+            return (
+                descriptions
+                if isinstance(descriptions, NotAvailable)
+                else tuple(description.robot for description in descriptions)
+            )
         robots = read_sdf(self.model, ModelIncludes(self.package))
         if self.package.kind is not PackageKind.SINGLE_FILE:
             robots = robots[:1]
@@ -258,7 +262,7 @@ class Subject(Record, eq=False, dict=True):
 
     @cached_property
     def first_configuration(self) -> FirstConfiguration | NotAvailable:
-        """The configuration of the same robot that has the lowest number at hand."""
+        """The configuration of the same robot that has the lowest available number."""
         package = first_configuration(self.package)
         if package is None:
             return NotAvailable(
@@ -356,7 +360,7 @@ class Subject(Record, eq=False, dict=True):
     @cached_property
     def control(self) -> ControlSystem | NotAvailable:
         """What controls the joints of a URDF package."""
-        alone = self.package.only and self.describing.applicable
+        alone = self.package.only and self.package_descriptions.applicable
         if self.package.kind is not PackageKind.URDF_DESCRIPTION and not alone:
             return NotAvailable("the package is not a URDF package", applicable=False)
         return control_system(self.package, self.launch_entries, self.robots, self.descriptions)
@@ -384,9 +388,11 @@ class Subject(Record, eq=False, dict=True):
         numbers = {configuration_number(self.package)}
         if not isinstance(path, Missing):
             numbers.add(configuration_number(path.package))
-        found = [find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots]
-        known = tuple(each for devices in found for each in devices.known)
-        return SensorDevices(known, found[0].diversions)
+        by_robot = [
+            find_sensor_devices(robot, self.devices, sheet, numbers) for robot in self.robots
+        ]
+        known = tuple(device for devices in by_robot for device in devices.known)
+        return SensorDevices(known, by_robot[0].diversions)
 
 
 _PROVIDERS: dict[type, Callable[[Subject], object]] = {

@@ -154,9 +154,9 @@ def fix_package(package: Package, judge: Judge, allowed: Collection[Safety]) -> 
             break
     return Fixed(
         tuple(_changes(package, edited)),
-        tuple({each.fingerprint: each for each in fixed}.values()),
-        tuple(each for each in wanted if not _elsewhere(each)),
-        tuple(each for each in wanted if _elsewhere(each)),
+        tuple({reported.fingerprint: reported for reported in fixed}.values()),
+        tuple(reported for reported in wanted if not _elsewhere(reported)),
+        tuple(reported for reported in wanted if _elsewhere(reported)),
         tuple(finding for finding in findings if finding.fix and finding.fix.safety not in allowed),
         rounds,
     )

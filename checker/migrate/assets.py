@@ -62,14 +62,14 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     request = json.dumps({"shapes": shapes}).encode()
     files = dict.fromkeys((str(shape["file"]) for shape in shapes if shape["file"]), SIZE_LIMIT)
     limits = Limits(_SECONDS, _MEMORY, draws=True)
-    said = ask("checker.migrate.thumbnail_worker", request, limits, from_disk(files.items()))
-    if isinstance(said, WorkerFailed):
-        return Thumbnails(trouble=_trouble(f"the process that draws {said.reason}"))
+    data = ask("checker.migrate.thumbnail_worker", request, limits, from_disk(files.items()))
+    if isinstance(data, WorkerFailed):
+        return Thumbnails(trouble=_trouble(f"the process that draws {data.reason}"))
     try:
-        answer = from_json(said)
+        answer = from_json(data)
         if "pictures" not in answer:
             return Thumbnails(trouble=_trouble(str(answer.get("unable", "there is no picture"))))
-        pictures = (base64.b64decode(each) for each in answer["pictures"])
+        pictures = (base64.b64decode(picture) for picture in answer["pictures"])
         return Thumbnails(dict(zip(NAMES, pictures, strict=True)))
     except NONSENSE:
         return Thumbnails(trouble=_trouble("the process that draws sent an invalid answer"))
@@ -113,8 +113,8 @@ def _file(visual: Visual, folder: Path) -> str:
 
 
 def _colour(visual: Visual) -> list[float]:
-    said = visual.material.colours.get("diffuse", ()) if visual.material is not None else ()
-    values = [min(max(each.value, 0.0), 1.0) for each in said[:4]]
+    colour = visual.material.colours.get("diffuse", ()) if visual.material is not None else ()
+    values = [min(max(number.value, 0.0), 1.0) for number in colour[:4]]
     return [*values, *_GREY[len(values) :]]
 
 
@@ -144,7 +144,7 @@ class Assets:
     _targets: dict[str, str] = field(default_factory=dict)
     """New path by old path, as the source's package lists it."""
     _missing: dict[str, str] = field(default_factory=dict)
-    """Path where a file that is not at hand belongs, by its URI."""
+    """Path where a file that is not available belongs, by its URI."""
     _folders: dict[str, str] = field(default_factory=dict)
     """Folder of the source by the folder of the new package that holds its files."""
 
@@ -157,17 +157,17 @@ class Assets:
         if written.startswith(_FROM_THE_NET):
             return written
         folder = posixpath.dirname(self.source.description.file)
-        found = file_behind(self.source.package, folder, written)
+        file = file_behind(self.source.package, folder, written)
         name = posixpath.basename(written.rstrip("/")) or "mesh"
-        if not isinstance(found, MeshFile):
+        if not isinstance(file, MeshFile):
             wanted = self._free(f"{_folder_for(name)}/{_fit(name)}")
             place = self._missing.setdefault(written, wanted)
             new = posixpath.basename(place)
             renamed = "" if new == name else f" as {new}"
             folder = posixpath.dirname(place)
-            self._note(f"{written} {found.reason}: put the file into {folder}/{renamed}")
+            self._note(f"{written} {file.reason}: put the file into {folder}/{renamed}")
             return place
-        return self._target(found.path)
+        return self._target(file.path)
 
     def package_uri(self, package: str) -> dict[str, str]:
         """Return the `package://` URI in the new package of each file's old path."""

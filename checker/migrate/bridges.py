@@ -77,7 +77,7 @@ class SensorBridges(Record):
 def sensor_bridges(robot: Robot) -> list[SensorBridges]:
     """Return the bridges of all sensors whose data has a place in ROS."""
     taken: set[str] = set()
-    found = []
+    bridged = []
     for sensor in robot.sensors:
         channels = [channel for channel in sensor_channels(sensor) if _is_wanted(sensor, channel)]
         if not channels:
@@ -86,8 +86,8 @@ def sensor_bridges(robot: Robot) -> list[SensorBridges]:
         bridges = tuple(_bridges(sensor, channels, base))
         pictures = base if sensor.kind.takes_pictures else ""
         name = sensor.name.value
-        found.append(SensorBridges(name, sensor.type.value.replace("_", " "), bridges, pictures))
-    return found
+        bridged.append(SensorBridges(name, sensor.type.value.replace("_", " "), bridges, pictures))
+    return bridged
 
 
 def _is_wanted(sensor: Sensor, channel: Channel) -> bool:

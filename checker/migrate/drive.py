@@ -129,9 +129,9 @@ def _velocity(wheels: Wheels, radius: float, wishes: MigrationOptions) -> tuple[
 
 def _skidding(robot: Robot, plain: Drive) -> Drive:
     count = len(plain.wheels.all)
-    said = f"DiffDrive turns {', '.join((*plain.left, *plain.right))}: {plain.wheels.reason}"
+    note = f"DiffDrive turns {', '.join((*plain.left, *plain.right))}: {plain.wheels.reason}"
     notes = (
-        said,
+        note,
         f"wheel separation {plain.separation:g} m and radius {plain.radius:g} m from the geometry",
     )
     if count < _WHEELS_THAT_SLIP:
@@ -160,16 +160,16 @@ def _steering(robot: Robot, plain: Drive) -> Drive:
         raise NotMigrated(f"joint {joints[0].name.value!r} steers, but its place is not known")
     base = abs(fmean(p[0] for p in places) - fmean(w.centre[0] for w in rear if w.centre))
     limits = [abs(x.value) for j in joints for x in (j.axes[0].lower, j.axes[0].upper)]
-    limit = min((each for each in limits if 0.0 < each < math.pi / 2), default=_STEERING_LIMIT)
+    limit = min((angle for angle in limits if 0.0 < angle < math.pi / 2), default=_STEERING_LIMIT)
     names = tuple(joint.name.value for joint in joints)
-    said = f"AckermannSteering steers by {', '.join(names)}: {plain.wheels.reason}"
+    note = f"AckermannSteering steers by {', '.join(names)}: {plain.wheels.reason}"
     return replace(
         plain,
         steering=names,
         wheel_base=round(base, _ROUNDED),
         kingpin_width=round(abs(places[0][1] - places[1][1]), _ROUNDED),
         steering_limit=round(limit, _ROUNDED),
-        notes=(said, f"wheel base {base:.4g} m, steering up to {limit:.3g} rad"),
+        notes=(note, f"wheel base {base:.4g} m, steering up to {limit:.3g} rad"),
     )
 
 

@@ -48,7 +48,7 @@ class Facts(Record):
 
 
 def facts_of(robot: Robot) -> Facts:
-    """Measure a robot whose meshes are at hand."""
+    """Measure a robot whose meshes are available."""
     box = _box(robot, visuals_too=True)
     size: tuple[str, ...] = ()
     if box is not None:
@@ -103,7 +103,7 @@ _KINDS = {
 
 def _box(robot: Robot, *, visuals_too: bool) -> Box | None:
     return union(
-        each.box
+        piece.box
         for link in robot.links
-        for each in placed(robot, link, (*link.collisions, *(link.visuals if visuals_too else ())))
+        for piece in placed(robot, link, (*link.collisions, *(link.visuals if visuals_too else ())))
     )

@@ -58,7 +58,7 @@ def mend_model(staging: Staging) -> list[str]:
     with open_input(staging.folder) as opened:
         package = opened.packages[0]
         fixed = fix_package(
-            package, lambda each: findings_of(each, _SETTINGS, NO_CACHE), list(Safety)
+            package, lambda subject: findings_of(subject, _SETTINGS, NO_CACHE), list(Safety)
         )
     for file in fixed.files:
         staging.write(file.path, file.after.encode())
@@ -117,7 +117,7 @@ def migrate(path: Path, destination: Path, wishes: MigrationOptions) -> Migrated
     if not wishes.organization:
         log.points.insert(0, f"the organization's name, here {NO_ORGANIZATION!r} (--organization)")
     log.points.append(_SHEET_POINTS)
-    notes, points = (tuple(dict.fromkeys(each)) for each in (log.notes, log.points))
+    notes, points = (tuple(dict.fromkeys(lines)) for lines in (log.notes, log.points))
     return Migrated(staging.final, notes, points)
 
 
@@ -165,7 +165,7 @@ def _converted(
     description = source.description
     robot = description.robot
     conversion = sdf_of(robot, description, name=names.package, mesh_uri=assets.uri)
-    links = [each.get("name") or "" for each in conversion.tree.iter("link")]
+    links = [link.get("name") or "" for link in conversion.tree.iter("link")]
     if not links:
         raise NotMigrated(
             f"{description.file} has no link that Gazebo keeps, so the model is empty"
@@ -202,7 +202,7 @@ def _surround(
         staging.write(f"thumbnails/{name}.png", picture)
     log.points += [pictures.trouble] if pictures.trouble else []
     folders = sorted(
-        {each.name for each in staging.folder.iterdir() if each.is_dir()}
+        {entry.name for entry in staging.folder.iterdir() if entry.is_dir()}
         | {"launch", "urdf", "worlds"}
     )
     sensors = sensor_bridges(robot)

@@ -31,7 +31,7 @@ def call_base_link(conversion: Conversion) -> list[str]:
     Where the source has a link of that name, merged into the root, the root takes its frame, so
     that the name means the same place as before.
     """
-    links = {each.get("name") or "": each for each in conversion.tree.iter("link")}
+    links = {link.get("name") or "": link for link in conversion.tree.iter("link")}
     joints = list(conversion.tree.iter("joint"))
     below = {joint.findtext("child", "").strip() for joint in joints}
     roots = [name for name in links if name not in below]

@@ -73,11 +73,15 @@ class Known(Record, eq=False):
     def words(self) -> dict[str, Any]:
         """Everything by the names that templates use."""
         drive, facts = self.drive, self.facts
-        said = f"{self.names.robot.replace('_', ' ').capitalize()}, moved from Gazebo 9 to Ignition"
+        description = (
+            f"{self.names.robot.replace('_', ' ').capitalize()}, moved from Gazebo 9 to Ignition"
+        )
         return {
             **_by_name(facts),
             **_by_name(self),
-            "description": f"{said}: {facts.description}" if facts.description else said,
+            "description": f"{description}: {facts.description}"
+            if facts.description
+            else description,
             "turning_radius": f"{drive.turning_radius:.2f}" if drive else "",
             "lateral_compliance": exact(LATERAL_COMPLIANCE),
             "sensor_lines": list(sensor_lines(facts)),
@@ -121,7 +125,7 @@ def _becomes_xml(template: str | None) -> bool:
 def _environment() -> Environment:
     from jinja2 import Environment, FunctionLoader, StrictUndefined
 
-    made = Environment(
+    environment = Environment(
         loader=FunctionLoader(lambda name: templates("migrate").joinpath(name).read_text("utf-8")),
         # What becomes XML is escaped; names in Ruby were looked at before (`check_names`).
         autoescape=_becomes_xml,  # noqa: S701
@@ -130,8 +134,8 @@ def _environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    made.filters["number"] = exact
-    return made
+    environment.filters["number"] = exact
+    return environment
 
 
 _PREFIX = ".subt-check-migrate-"
@@ -171,7 +175,7 @@ def staged(destination: Path, package: str) -> Iterator[Staging]:
     Raises:
         NotMigrated: The destination is not empty, or cannot be written to.
     """
-    made = _made(destination)
+    folders = _made(destination)
     hidden: Path | None = None
     try:
         hidden = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=destination))
@@ -184,7 +188,7 @@ def staged(destination: Path, package: str) -> Iterator[Staging]:
     finally:
         if hidden is not None:
             shutil.rmtree(hidden, ignore_errors=True)
-        for folder in made:
+        for folder in folders:
             # Only what is empty goes: after a failure, what was made for nothing.
             with suppress(OSError):
                 folder.rmdir()
@@ -194,7 +198,7 @@ def _made(destination: Path) -> list[Path]:
     """Make the destination; return the folders that were not there, innermost first."""
     try:
         if destination.is_dir():
-            held = [each.name for each in destination.iterdir()]
+            held = [entry.name for entry in destination.iterdir()]
             if held := sorted(name for name in held if not name.startswith(_PREFIX)):
                 raise NotMigrated(
                     f"{destination} is not empty (it contains {held[0]}); give a folder that is "
@@ -205,7 +209,7 @@ def _made(destination: Path) -> list[Path]:
             raise NotMigrated(
                 f"{destination} is not a folder; give one that is empty or does not exist"
             )
-        missing = [each for each in (destination, *destination.parents) if not each.exists()]
+        missing = [folder for folder in (destination, *destination.parents) if not folder.exists()]
         destination.mkdir(parents=True)
     except OSError as error:
         raise _not_written(destination, error) from None

@@ -66,16 +66,16 @@ def servos_of(source: Source, robot: Robot) -> list[Servo]:
         subject.close()
     if not isinstance(control, ControlSystem):
         return []
-    found: dict[str, Servo] = {}
+    servos: dict[str, Servo] = {}
     for joint, gains in _held(control.controllers):
         own = robot.joints_by_name.get(joint)
-        if own is None or not own.axes or joint in found:
+        if own is None or not own.axes or joint in servos:
             continue
         effort = own.axes[0].effort.value
         limit = effort if math.isfinite(effort) and effort > 0.0 else 0.0
         topic = _UNFIT.sub("_", joint) + "_cmd"
-        found[joint] = Servo(joint, topic, gains["p"], gains["i"], gains["d"], limit)
-    return list(found.values())
+        servos[joint] = Servo(joint, topic, gains["p"], gains["i"], gains["d"], limit)
+    return list(servos.values())
 
 
 def _held(controllers: Iterable[Controller]) -> Iterator[tuple[str, dict[str, float]]]:
@@ -83,8 +83,8 @@ def _held(controllers: Iterable[Controller]) -> Iterator[tuple[str, dict[str, fl
     for controller in controllers:
         if controller.kind != _KIND:
             continue
-        for joint, said in controller.gains.items():
-            values = {name: said[name].value if name in said else 0.0 for name in "pid"}
+        for joint, gains in controller.gains.items():
+            values = {name: gains[name].value if name in gains else 0.0 for name in "pid"}
             known = {
                 name: 0.0 if x is None or not math.isfinite(x) else x for name, x in values.items()
             }
@@ -125,7 +125,7 @@ def judge_plugins(conversion: Conversion, base: str) -> Judged:
         if library_stem(filename) in plugin_libraries(SUBT_RELEASE):
             continue
         known = classic_plugin(filename)
-        judged.notes.append(f"{where} {_said(known)}")
+        judged.notes.append(f"{where} {_what_becomes_of(known)}")
         if carried.sensor:
             continue
         if known is None:
@@ -144,7 +144,7 @@ def judge_plugins(conversion: Conversion, base: str) -> Judged:
     return judged
 
 
-def _said(known: dict[str, Any] | None) -> str:
+def _what_becomes_of(known: dict[str, Any] | None) -> str:
     if known is None:
         return "is removed: it is built for Gazebo 9, and only its author knows a replacement"
     instead = known.get("replacement") or {}
@@ -205,11 +205,11 @@ def _body(carried: CarriedPlugin, conversion: Conversion, base: str) -> tuple[st
 
 
 def _link(tree: etree._Element, name: str) -> etree._Element | None:
-    return next((each for each in tree.iter("link") if each.get("name") == name), None)
+    return next((link for link in tree.iter("link") if link.get("name") == name), None)
 
 
 def _free_name(link: etree._Element, name: str) -> str:
-    taken, number_ = {each.get("name") for each in link.iterfind("sensor")}, 2
+    taken, number_ = {sensor.get("name") for sensor in link.iterfind("sensor")}, 2
     unique = name
     while unique in taken:
         unique, number_ = f"{name}_{number_}", number_ + 1
@@ -238,14 +238,14 @@ def _merged(carried: CarriedPlugin, tree: etree._Element) -> Iterator[str]:
     if not cameras:
         yield f"{name} names no camera of the model, so no camera can replace it"
         return
-    kept = next((each for each in cameras if "color" in each.get("name", "")), cameras[0])
-    depth = next((each for each in cameras if each.get("type") == "depth"), None)
+    kept = next((camera for camera in cameras if "color" in camera.get("name", "")), cameras[0])
+    depth = next((camera for camera in cameras if camera.get("type") == "depth"), None)
     prefix = _prefix(carried) or carried.reference or kept.get("name", "")
-    names = [each.get("name", "") for each in cameras]
-    for each in cameras:
-        parent = each.getparent()
-        if each is not kept and parent is not None:
-            parent.remove(each)
+    names = [camera.get("name", "") for camera in cameras]
+    for sensor in cameras:
+        parent = sensor.getparent()
+        if sensor is not kept and parent is not None:
+            parent.remove(sensor)
     kept.set("name", prefix.strip("_/ ") or "rgbd_camera")
     kept.set("type", "rgbd_camera")
     near = number_at(carried.node, "rangeMinDepth", 0.0)
@@ -262,7 +262,7 @@ def _cameras_of(carried: CarriedPlugin, tree: etree._Element) -> Sequence[etree.
 
     They bear the plugin's prefix, stand in its link, or are called by what they see.
     """
-    cameras = [each for each in tree.iter("sensor") if each.get("type") in _LENSES]
+    cameras = [sensor for sensor in tree.iter("sensor") if sensor.get("type") in _LENSES]
     prefix = _prefix(carried)
     named = [camera for camera in cameras if prefix and camera.get("name", "").startswith(prefix)]
     if named:
@@ -278,12 +278,12 @@ _PARTS = re.compile(r"(?:^|[/_])(?:colou?r|rgb|depth|i?red_?[12]|infra(?:red)?_?
 
 
 def _prefix(carried: CarriedPlugin) -> str:
-    said = (carried.node.findtext(tag) or "" for tag in ("prefix", "cameraName"))
-    return next((word.strip() for word in said if word.strip()), "")
+    names = (carried.node.findtext(tag) or "" for tag in ("prefix", "cameraName"))
+    return next((word.strip() for word in names if word.strip()), "")
 
 
 def _lights(tree: etree._Element) -> Iterator[str]:
-    names = [each.get("name", "") for each in tree.iter("light")]
+    names = [light.get("name", "") for light in tree.iter("light")]
     if names:
         yield (
             f"lights {', '.join(names)} are darker in Ignition Gazebo than in Gazebo 9: make them "

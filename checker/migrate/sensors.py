@@ -17,7 +17,7 @@ _BY_TYPE = {
     **dict.fromkeys(("depth", "depth_camera", "rgbd", "rgbd_camera"), "rgbd_camera"),
     **dict.fromkeys(("camera", "multicamera", "wideanglecamera", "wide_angle_camera"), "camera"),
     **dict.fromkeys(("thermal", "thermal_camera"), "thermal"),
-    **{each: each for each in ("imu", "magnetometer", "air_pressure", "altimeter", "contact")},
+    **{kind: kind for kind in ("imu", "magnetometer", "air_pressure", "altimeter", "contact")},
     "logical_camera": "logical_camera",
 }
 """What takes the place of each type; of those that are missing nothing does."""
@@ -99,8 +99,8 @@ def _rewritten(sensor: etree._Element) -> Iterator[str]:
 
 def _type_by_plugin(sensor: etree._Element) -> str:
     """Return the type that the first known plugin of a sensor asks for; empty without one."""
-    for each in sensor.iterfind("plugin"):
-        known = classic_plugin(each.get("filename", "")) or {}
+    for plugin in sensor.iterfind("plugin"):
+        known = classic_plugin(plugin.get("filename", "")) or {}
         if kind := str((known.get("replacement") or {}).get("sensor_type") or ""):
             return kind
     return ""
@@ -158,7 +158,7 @@ def _rate(sensor: etree._Element, plugin: etree._Element | None, kind: str) -> f
 
 def _order(sensor: etree._Element) -> None:
     """Put what says where and how often in front."""
-    for place, tag in enumerate(each for each in _FIRST if sensor.find(each) is not None):
+    for place, tag in enumerate(name for name in _FIRST if sensor.find(name) is not None):
         child = sensor.find(tag)
         if child is not None:
             sensor.insert(place, child)

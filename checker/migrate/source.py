@@ -16,7 +16,7 @@ from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.migrate.options import NotMigrated
 from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.files import UrdfFiles
-from checker.model.urdf.package_descriptions import Describing
+from checker.model.urdf.package_descriptions import PackageDescriptions
 from checker.package.inputs import Opened, open_input
 from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
@@ -59,11 +59,11 @@ def opened_source(path: Path, urdf: str, args: Mapping[str, str]) -> Iterator[So
     with open_input(path) as opened:
         package = _package_of(opened, path, urdf)
         chosen = _file_in(package, urdf) if urdf else ""
-        describing = Describing(package, NO_CACHE, only=chosen, args=args)
+        descriptions = PackageDescriptions(package, NO_CACHE, only=chosen, args=args)
         try:
-            yield Source(package, _only_one(describing.files, package, path))
+            yield Source(package, _only_one(descriptions.files, package, path))
         finally:
-            describing.stop()
+            descriptions.stop()
 
 
 def _package_of(opened: Opened, path: Path, urdf: str) -> Package:
@@ -76,7 +76,7 @@ def _package_of(opened: Opened, path: Path, urdf: str) -> Package:
         raise NotMigrated(
             f"{path} contains several packages ({names}); give the folder of one of them"
         )
-    with_model = [each for each in opened.packages if each.index.with_suffix(".sdf")]
+    with_model = [item for item in opened.packages if item.index.with_suffix(".sdf")]
     if with_model:
         raise NotMigrated(
             f"{path} already has an SDF model ({with_model[0].index.with_suffix('.sdf')[0].path}), "
@@ -99,9 +99,9 @@ def _file_in(package: Package, urdf: str) -> str:
     real = Path(os.path.realpath(urdf))
     if real.is_relative_to(package.root) and real.is_file():
         return real.relative_to(package.root).as_posix()
-    found = [each.path for each in package.index.with_suffix(".urdf", ".xacro")]
+    paths = [file.path for file in package.index.with_suffix(".urdf", ".xacro")]
     raise NotMigrated(
-        f"{urdf} is not a file of {package.name}; found: {_listed(found) or 'no URDF file'}"
+        f"{urdf} is not a file of {package.name}; found: {_listed(paths) or 'no URDF file'}"
     )
 
 
@@ -151,9 +151,9 @@ def original_text(source: Source, new_uris: Mapping[str, str]) -> bytes:
     root = copy.deepcopy(source.description.document.root.node)
     folder = posixpath.dirname(source.description.file)
     for element in root.iter("mesh", "texture"):
-        found = file_behind(source.package, folder, element.get("filename") or "")
-        if isinstance(found, MeshFile) and found.path in new_uris:
-            element.set("filename", new_uris[found.path])
+        file = file_behind(source.package, folder, element.get("filename") or "")
+        if isinstance(file, MeshFile) and file.path in new_uris:
+            element.set("filename", new_uris[file.path])
     root.insert(0, etree.Comment(_COMMENT))
     return document_text(root).encode()
 
@@ -184,8 +184,12 @@ def papers_of(source: Source) -> Papers:
     """Return what is known; what is not stands as TODO."""
     manifest = source.manifest
     people = (*manifest.maintainers, *manifest.authors) if manifest is not None else ()
-    person = next((each for each in people if each.name.value and each.email.value), None)
-    license = next((each.value for each in manifest.licenses if each.value), "") if manifest else ""
+    person = next(
+        (candidate for candidate in people if candidate.name.value and candidate.email.value), None
+    )
+    license = (
+        next((entry.value for entry in manifest.licenses if entry.value), "") if manifest else ""
+    )
     open_points = []
     if person is None:
         open_points.append("the maintainer, with email (package.xml, model.config)")

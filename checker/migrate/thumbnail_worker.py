@@ -41,9 +41,9 @@ def answer(request: bytes, files: Files) -> bytes:
     from checker.base.parts import WorkerFailed
 
     for renderer in _RENDERERS:
-        said = in_fork(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
-        if not isinstance(said, WorkerFailed):
-            return said
+        pictures = in_fork(partial(_pictures, shapes, files, renderer), _SECONDS_EACH)
+        if not isinstance(pictures, WorkerFailed):
+            return pictures
     return _unable("OpenGL is not available (EGL or OSMesa)")
 
 
@@ -79,21 +79,21 @@ def _pictures(shapes: Sequence[Mapping[str, Any]], files: Files, renderer: str) 
     mujoco.mj_forward(model, data)
     centre, diagonal = _extent(model, data)
     with mujoco.Renderer(model, HEIGHT, WIDTH) as drawer:
-        made = []
+        pictures = []
         for azimuth, elevation in _VIEWS:
             camera = mujoco.MjvCamera()
             camera.lookat[:] = centre
             camera.distance = _DISTANCE * diagonal
             camera.azimuth, camera.elevation = azimuth, elevation
             drawer.update_scene(data, camera)
-            made.append(base64.b64encode(_png(drawer.render())).decode())
-    return json.dumps({"pictures": made}).encode()
+            pictures.append(base64.b64encode(_png(drawer.render())).decode())
+    return json.dumps({"pictures": pictures}).encode()
 
 
 def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], content: Content, number: int) -> None:
     """Add a shape to the scene; a mesh that cannot be read is left out."""
     kind = mujoco.mjtGeom
-    given = {
+    attributes = {
         "pos": shape["position"],
         "quat": shape["quaternion"],
         "rgba": shape["colour"],
@@ -103,15 +103,15 @@ def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], content: Content, num
     sizes = shape["sizes"]
     match shape["shape"]:
         case "box":
-            half = [max(abs(each) / 2, 1e-6) for each in sizes["size"]]
-            spec.worldbody.add_geom(type=kind.mjGEOM_BOX, size=half, **given)
+            half = [max(abs(length) / 2, 1e-6) for length in sizes["size"]]
+            spec.worldbody.add_geom(type=kind.mjGEOM_BOX, size=half, **attributes)
         case "sphere":
             size = [max(sizes["radius"][0], 1e-6), 0, 0]
-            spec.worldbody.add_geom(type=kind.mjGEOM_SPHERE, size=size, **given)
+            spec.worldbody.add_geom(type=kind.mjGEOM_SPHERE, size=size, **attributes)
         case "cylinder" | "capsule" as round_:
             size = [max(sizes["radius"][0], 1e-6), max(sizes["length"][0] / 2, 1e-6), 0]
             tall = kind.mjGEOM_CYLINDER if round_ == "cylinder" else kind.mjGEOM_CAPSULE
-            spec.worldbody.add_geom(type=tall, size=size, **given)
+            spec.worldbody.add_geom(type=tall, size=size, **attributes)
         case _:
             corners = _corners(shape["file"], content, sizes.get("scale", [1.0, 1.0, 1.0]))
             if corners is None:
@@ -120,7 +120,7 @@ def _add(spec: Any, mujoco: Any, shape: Mapping[str, Any], content: Content, num
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
             mesh.uservert = corners.reshape(-1)
             mesh.userface = list(range(len(corners)))
-            spec.worldbody.add_geom(type=kind.mjGEOM_MESH, meshname=f"m{number}", **given)
+            spec.worldbody.add_geom(type=kind.mjGEOM_MESH, meshname=f"m{number}", **attributes)
 
 
 def _corners(file: str, content: Content, scale: Sequence[float]) -> Any:

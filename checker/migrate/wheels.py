@@ -157,15 +157,15 @@ def _rolling(robot: Robot) -> Iterator[Wheel]:
         for joint in robot.joints
         if joint in reader.child_of and _is_upright(robot, joint) and _is_endless(joint)
     }
-    found = []
+    wheels = []
     for joint in robot.joints[:_JOINTS_LIMIT]:
         if not _is_endless(joint) or reader.parent_of.get(joint) in swivelling:
             continue
         wheel = reader.below(joint, Side.LEFT, knuckles)
         if wheel is not None and wheel.radius and _lies_across(wheel) and _is_round(robot, wheel):
-            found.append(wheel)
-    low = min((_bottom(wheel) for wheel in found), default=0.0)
-    on_ground = [w for w in found if _bottom(w) - low <= _LEVEL * (w.radius or 0.0)]
+            wheels.append(wheel)
+    low = min((_bottom(wheel) for wheel in wheels), default=0.0)
+    on_ground = [w for w in wheels if _bottom(w) - low <= _LEVEL * (w.radius or 0.0)]
     yield from on_ground if len(on_ground) <= _SEVERAL else ()
 
 

@@ -76,8 +76,8 @@ def put(parent: etree._Element, tag: str, content: Content) -> etree._Element:
     old = parent.findall(tag)
     if old:
         parent.insert(parent.index(old[0]), new)
-        for each in old:
-            parent.remove(each)
+        for child in old:
+            parent.remove(child)
     else:
         parent.append(new)
     return new
@@ -85,7 +85,7 @@ def put(parent: etree._Element, tag: str, content: Content) -> etree._Element:
 
 def drop(parent: etree._Element, *tags: str) -> None:
     """Remove the children of some tags."""
-    for child in [each for each in parent if each.tag in tags]:
+    for child in [node for node in parent if node.tag in tags]:
         parent.remove(child)
 
 

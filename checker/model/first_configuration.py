@@ -7,7 +7,7 @@ from checker.model.robot import Robot
 
 
 class FirstConfiguration(Record, eq=False):
-    """The configuration of lowest number at hand, for those of higher numbers; without meshes.
+    """The available configuration of lowest number, for those of higher numbers; without meshes.
 
     Attributes:
         name: Its package.

@@ -33,7 +33,7 @@ class Attenuation(Record, eq=False):
     @property
     def is_stated(self) -> bool:
         """Whether the file spells out how the light weakens, and not only how far it shines."""
-        return any(each.stated for each in (self.constant, self.linear, self.quadratic))
+        return any(factor.stated for factor in (self.constant, self.linear, self.quadratic))
 
     def divisor(self, distance: float) -> float:
         """Return by what the light is divided at a distance, metres."""

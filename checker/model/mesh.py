@@ -97,7 +97,7 @@ class NoMeshes(Record):
     """For a robot that was read without its package."""
 
     def of(self, uri: Located[str]) -> Mesh | MeshFault:  # noqa: ARG002 - as a `Meshes` has it
-        """Say that the file is not at hand."""
+        """Say that the file is not available."""
         return MeshFault(MeshTrouble.NOT_LOOKED_AT, "was not searched")
 
 

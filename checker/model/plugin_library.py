@@ -46,7 +46,7 @@ def library_stem(filename: str) -> str:
 
 @cache
 def plugin_libraries(release: str) -> Mapping[str, PluginLibrary]:
-    """Return the libraries at hand in a release by their stem; none for an unknown release."""
+    """Return the libraries available in a release by their stem; none for an unknown release."""
     libraries: dict[str, PluginLibrary] = {}
     systems = table("gazebo_plugins")["releases"].get(release, {"plugins": ()})["plugins"]
     for system in systems:
@@ -82,8 +82,8 @@ def release_label(release: str) -> str:
 def release_major(release: str) -> int | None:
     """Return the major version of a release's simulator: 4 for Dome."""
     entry = table("gazebo_plugins")["releases"].get(release)
-    found = re.search(r"\d+\Z", entry["branch"]) if entry else None
-    return int(found.group()) if found else None
+    match = re.search(r"\d+\Z", entry["branch"]) if entry else None
+    return int(match.group()) if match else None
 
 
 def classic_plugin(filename: str) -> dict[str, Any] | None:

@@ -50,7 +50,7 @@ class Robot(Part, dict=True):
         plugins: Of the model file and, in a package, of what the spawner emits.
         frame_graph: Where everything is.
         faults: What could not be read as it stands.
-        unresolved_includes: URIs of includes whose model is not at hand.
+        unresolved_includes: URIs of includes whose model is not available.
         unread_plugins: Why plugins that the spawner adds are not among these; else empty.
         meshes: What its mesh files hold.
     """

@@ -10,19 +10,19 @@ _NUMBERED = re.compile(r"(.+_sensor_config_)([1-9][0-9]{0,5})")
 
 
 def configurations(package: Package) -> tuple[int, dict[int, Package]] | None:
-    """Return a package's number, and the configurations of its robot at hand by their numbers.
+    """Return a package's number, and the available configurations of its robot by number.
 
     None for a package that is no numbered configuration.
     """
     own = _NUMBERED.fullmatch(package.name)
     if own is None or package.only:
         return None
-    found = {int(own.group(2)): package}
+    packages = {int(own.group(2)): package}
     for name, other in package.workspace.packages.items():
         match = _NUMBERED.fullmatch(name)
         if match and match.group(1) == own.group(1):
-            found.setdefault(int(match.group(2)), other)
-    return int(own.group(2)), found
+            packages.setdefault(int(match.group(2)), other)
+    return int(own.group(2)), packages
 
 
 def configuration_number(package: Package) -> int:
@@ -32,10 +32,10 @@ def configuration_number(package: Package) -> int:
 
 
 def first_configuration(package: Package) -> Package | None:
-    """Return the configuration of lowest number at hand; None for that package itself."""
+    """Return the configuration of lowest number that is available; None for that package itself."""
     known = configurations(package)
     if known is None:
         return None
-    number, found = known
-    first = min(found)
-    return found[first] if first < number else None
+    number, packages = known
+    first = min(packages)
+    return packages[first] if first < number else None

@@ -29,7 +29,7 @@ class Lenders(Record):
 
     Attributes:
         at_hand: The package itself first, then what it depends on, directly or not.
-        missing: Names of packages that it depends on and that are not at hand.
+        missing: Names of packages that it depends on and that are not available.
     """
 
     at_hand: tuple[Package, ...]
@@ -37,7 +37,7 @@ class Lenders(Record):
 
     def libraries(self) -> frozenset[str]:
         """Return the names of all libraries, without `lib` and `.so`."""
-        return frozenset(name for each in self.at_hand for name in libraries_of(each))
+        return frozenset(name for package in self.at_hand for name in libraries_of(package))
 
 
 def lenders_of(package: Package) -> Lenders:
@@ -47,12 +47,12 @@ def lenders_of(package: Package) -> Lenders:
     waiting = [package]
     while waiting:
         for other in _needs(waiting.pop()):
-            found = package.workspace.package(other.package_name)
-            if found is None:
+            dependency = package.workspace.package(other.package_name)
+            if dependency is None:
                 missing[other.package_name] = None
-            elif found.name not in at_hand:
-                at_hand[found.name] = found
-                waiting.append(found)
+            elif dependency.name not in at_hand:
+                at_hand[dependency.name] = dependency
+                waiting.append(dependency)
     return Lenders(tuple(at_hand.values()), tuple(missing))
 
 

@@ -151,19 +151,19 @@ def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:
 
 
 def inherited_parts(package: Package) -> Iterator[Inherited]:
-    """Yield what a package takes from siblings, at hand or not."""
+    """Yield what a package takes from siblings, available or not."""
     for part in Part:
         if part is Part.SPAWNER:
             yield from _loaded_ruby(package)
             continue
-        found = package.model_path if part is Part.MODEL else package.part(part)
+        file = package.model_path if part is Part.MODEL else package.part(part)
         reference = lender_of(package, part)
         if reference is None:
             continue
-        if isinstance(found, Found) and found.is_inherited:
-            yield Inherited(part, found.package.name, reference.place, at_hand=True)
-        elif isinstance(found, Missing) and found.package_not_at_hand:
-            yield Inherited(part, found.package_not_at_hand, reference.place, at_hand=False)
+        if isinstance(file, Found) and file.is_inherited:
+            yield Inherited(part, file.package.name, reference.place, at_hand=True)
+        elif isinstance(file, Missing) and file.package_not_at_hand:
+            yield Inherited(part, file.package_not_at_hand, reference.place, at_hand=False)
 
 
 def _loaded_ruby(package: Package) -> Iterator[Inherited]:

@@ -136,8 +136,8 @@ def changed_packages(files: Iterable[Path], here: Path) -> list[Path]:
         folder = Path(abspath(here / file)).parent  # noqa: PTH100
         if folder not in by_folder:
             by_folder[folder] = _outermost(folder)
-    found = dict.fromkeys(package for package in by_folder.values() if package is not None)
-    return [each.relative_to(here) if each.is_relative_to(here) else each for each in found]
+    paths = dict.fromkeys(package for package in by_folder.values() if package is not None)
+    return [path.relative_to(here) if path.is_relative_to(here) else path for path in paths]
 
 
 def _refuse_folder(file: Path, here: Path) -> None:

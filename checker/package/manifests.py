@@ -111,9 +111,9 @@ def read_package_xml(document: XmlDocument) -> PackageManifest:
         name=_text(root, "name"),
         version=_text(root, "version"),
         description=_description(root),
-        maintainers=tuple(_person(each) for each in root.all("maintainer")),
-        authors=tuple(_person(each) for each in root.all("author")),
-        licenses=tuple(each.text for each in root.all("license")),
+        maintainers=tuple(_person(maintainer) for maintainer in root.all("maintainer")),
+        authors=tuple(_person(author) for author in root.all("author")),
+        licenses=tuple(entry.text for entry in root.all("license")),
         dependencies=tuple(
             Dependency(child.tag, child.text)
             for child in root.children
@@ -130,10 +130,10 @@ def read_model_config(document: XmlDocument) -> ModelConfig:
     return ModelConfig(
         name=_text(root, "name"),
         version=_text(root, "version"),
-        sdf=tuple(SdfEntry(each.text, _attribute(each, "version")) for each in root.all("sdf")),
+        sdf=tuple(SdfEntry(entry.text, _attribute(entry, "version")) for entry in root.all("sdf")),
         authors=tuple(
-            Person(_text(each, "name"), _text(each, "email"), each.span)
-            for each in root.all("author")
+            Person(_text(author, "name"), _text(author, "email"), author.span)
+            for author in root.all("author")
         ),
         description=_text(root, "description"),
         span=root.span,

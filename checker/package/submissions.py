@@ -51,7 +51,7 @@ def blank_xml_comments(text: str) -> str:
     if "-->" not in text:
         return text
     last = text.rindex("-->") + 3
-    blanked = _COMMENT.sub(lambda each: _NOT_LINE_END.sub(" ", each.group()), text[:last])
+    blanked = _COMMENT.sub(lambda comment: _NOT_LINE_END.sub(" ", comment.group()), text[:last])
     return blanked + text[last:]
 
 

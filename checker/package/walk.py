@@ -15,7 +15,7 @@ MAX_DEPTH = 50
 SKIPPED_FOLDERS = frozenset({".git"})
 
 Inside = Callable[[Path], bool]
-"""Says whether a real path belongs to a sibling package at hand."""
+"""Says whether a real path belongs to an available sibling package."""
 
 
 def build_index(root: Path, inside: Inside) -> FileIndex:
@@ -110,10 +110,10 @@ class _Walk:
         target = _shown(str(location.readlink()))
         state = self._state(location)
         if state in (LinkState.OK, LinkState.SIBLING):
-            found = entry_at(location, path, self.root, self.inside)
-            if found is not None:
+            entry = entry_at(location, path, self.root, self.inside)
+            if entry is not None:
                 return FileEntry(
-                    path, EntryKind.LINK, found.size, found.location, found.content, state, target
+                    path, EntryKind.LINK, entry.size, entry.location, entry.content, state, target
                 )
             state = LinkState.DANGLING
         return FileEntry(path, EntryKind.LINK, 0, location, EntryKind.LINK, state, target)

@@ -55,17 +55,17 @@ class Workspace(Record, eq=False, dict=True):
 
     @cached_property
     def packages(self) -> dict[str, Package]:
-        """Every package at hand by its folder's name; the first one when a name comes twice."""
-        found: dict[str, Package] = {}
+        """Every available package by its folder's name; the first one when a name comes twice."""
+        packages: dict[str, Package] = {}
         for directory in self.directories:
             for folder in _subfolders(directory):
                 if looks_like_package(folder):
-                    found.setdefault(folder.name, self.at(folder))
-        return found
+                    packages.setdefault(folder.name, self.at(folder))
+        return packages
 
     @cached_property
     def thumbnails_by_size(self) -> dict[int, list[tuple[Package, str]]]:
-        """Every thumbnail of every package at hand, by its size in bytes."""
+        """Every thumbnail of every available package, by its size in bytes."""
         by_size: dict[int, list[tuple[Package, str]]] = {}
         for package in self.packages.values():
             folder = package.root / THUMBNAILS

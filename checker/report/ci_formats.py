@@ -26,7 +26,7 @@ def to_junit(report: Report) -> str:
     """Return the report in the dialect that Jenkins' XSD describes."""
     suites = ET.Element("testsuites", name="subt-check")
     suites.extend(_suite(package) for package in report.packages)
-    suites.extend(_unopened(each.path, each.reason) for each in report.not_opened if each.failed)
+    suites.extend(_unopened(item.path, item.reason) for item in report.not_opened if item.failed)
     for kind in ("tests", "failures", "errors"):
         suites.set(kind, str(sum(int(suite.get(kind, "0")) for suite in suites)))
     ET.indent(suites)
@@ -40,14 +40,14 @@ def _xml(text: str) -> str:
 
 
 def _suite(package: PackageReport) -> ET.Element:
-    found: dict[str, list[ReportedFinding]] = {}
+    by_rule: dict[str, list[ReportedFinding]] = {}
     for finding in package.findings:
-        found.setdefault(finding.rule, []).append(finding)
+        by_rule.setdefault(finding.rule, []).append(finding)
     unseen: dict[str, list[NotChecked]] = {}
     for missing in package.not_checked:
         unseen.setdefault(missing.rule, []).append(missing)
-    rules = sorted({*package.looked, *found, *unseen})
-    cases = [_case(rule, package, found.get(rule, ()), unseen.get(rule, ())) for rule in rules]
+    rules = sorted({*package.looked, *by_rule, *unseen})
+    cases = [_case(rule, package, by_rule.get(rule, ()), unseen.get(rule, ())) for rule in rules]
     return _counted(package.name, cases, sum(package.timings.values()))
 
 
@@ -72,15 +72,15 @@ def _counted(name: str, cases: Sequence[ET.Element], seconds: float) -> ET.Eleme
 def _case(
     rule: str,
     package: PackageReport,
-    found: Sequence[ReportedFinding],
+    findings: Sequence[ReportedFinding],
     unseen: Sequence[NotChecked],
 ) -> ET.Element:
     """Return a case; its name is the rule's id alone, so that its history is one over time."""
     case = ET.Element("testcase", classname=_xml(package.name), name=_xml(rule))
-    failing = [each for each in found if each.severity.rank <= package.fail_on.rank]
-    lesser = [each for each in found if each.severity.rank > package.fail_on.rank]
-    reasons = "; ".join(dict.fromkeys(each.reason for each in unseen))
-    if any(each.cause is Cause.CRASHED for each in unseen):
+    failing = [reported for reported in findings if reported.severity.rank <= package.fail_on.rank]
+    lesser = [reported for reported in findings if reported.severity.rank > package.fail_on.rank]
+    reasons = "; ".join(dict.fromkeys(skipped.reason for skipped in unseen))
+    if any(skipped.cause is Cause.CRASHED for skipped in unseen):
         ET.SubElement(case, "error", message=_xml(reasons), type="crashed")
     if failing:
         first = failing[0]
@@ -108,13 +108,13 @@ def _written(findings: Sequence[ReportedFinding], package: PackageReport) -> str
     return "\n".join([*lines, first.help]) + "\n"
 
 
-def _line(each: ReportedFinding, package: PackageReport) -> str:
-    place = each.places[0]
+def _line(reported: ReportedFinding, package: PackageReport) -> str:
+    place = reported.places[0]
     where = path_of(place, package) + (f":{place.line}:{place.column}" if place.file else "/")
-    repeats = sum(not other.note for other in each.places[1:])
+    repeats = sum(not other.note for other in reported.places[1:])
     more = f" (and {count(repeats, 'more place')})" if repeats else ""
-    message = shortened(each.message, 600)
-    return _xml(f"{where} {each.severity} {each.rule} {each.name}: {message}{more}")
+    message = shortened(reported.message, 600)
+    return _xml(f"{where} {reported.severity} {reported.rule} {reported.name}: {message}{more}")
 
 
 LINES_LIMIT = 50
@@ -125,26 +125,28 @@ _COMMAND = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO:
 
 def to_github(report: Report) -> str:
     """Return one workflow command a line, the gravest first; then counts and verdicts."""
-    found = list(each_once(report))
+    findings = list(each_once(report))
     lines = [
-        _command("error", {"title": "not opened"}, plain(f"{each.path} {each.reason}"))
-        for each in report.not_opened
-        if each.failed
+        _command("error", {"title": "not opened"}, plain(f"{item.path} {item.reason}"))
+        for item in report.not_opened
+        if item.failed
     ]
     for severity in Severity:
-        of_one = [(package, each) for package, each in found if each.severity is severity]
-        lines += [_annotation(each, package) for package, each in of_one[:LINES_LIMIT]]
+        of_one = [
+            (package, reported) for package, reported in findings if reported.severity is severity
+        ]
+        lines += [_annotation(reported, package) for package, reported in of_one[:LINES_LIMIT]]
     numbers = [
-        count(sum(each.severity is severity for _, each in found), _COMMAND[severity])
+        count(sum(reported.severity is severity for _, reported in findings), _COMMAND[severity])
         for severity in Severity
     ]
     lines.append(f"{listed(numbers)} in all; GitHub shows the first ten of each")
-    lines += [_uncommanding(f"{each.name}: {sentence(each)}") for each in report.packages]
+    lines += [_uncommanding(f"{summary.name}: {sentence(summary)}") for summary in report.packages]
     return "\n".join(lines) + "\n"
 
 
-def _annotation(each: ReportedFinding, package: PackageReport) -> str:
-    place = each.places[0]
+def _annotation(reported: ReportedFinding, package: PackageReport) -> str:
+    place = reported.places[0]
     properties: dict[str, str | int] = {"file": path_of(place, package)}
     if place.file:
         properties["line"] = place.line
@@ -154,22 +156,22 @@ def _annotation(each: ReportedFinding, package: PackageReport) -> str:
         else:
             properties |= {"col": place.column, "endLine": place.line}
             properties["endColumn"] = max(place.column, place.end_column)
-    properties["title"] = f"{each.rule} {each.name}"
-    return _command(_COMMAND[each.severity], properties, "\n".join(_words(each)))
+    properties["title"] = f"{reported.rule} {reported.name}"
+    return _command(_COMMAND[reported.severity], properties, "\n".join(_words(reported)))
 
 
-def _words(each: ReportedFinding) -> Iterator[str]:
-    yield plain(shortened(each.message, MESSAGE_LIMIT))
-    if repeats := sum(not place.note for place in each.places[1:]):
+def _words(reported: ReportedFinding) -> Iterator[str]:
+    yield plain(shortened(reported.message, MESSAGE_LIMIT))
+    if repeats := sum(not place.note for place in reported.places[1:]):
         yield f"also in {count(repeats, 'more place')}"
-    if each.how:
-        yield f"fix: {plain(each.how)}"
-    yield each.help
+    if reported.how:
+        yield f"fix: {plain(reported.how)}"
+    yield reported.help
 
 
 def _command(name: str, properties: Mapping[str, str | int], message: str) -> str:
-    said = ",".join(f"{key}={_property(plain(str(value)))}" for key, value in properties.items())
-    return f"::{name} {said}::{_data(message)}"
+    options = ",".join(f"{key}={_property(plain(str(value)))}" for key, value in properties.items())
+    return f"::{name} {options}::{_data(message)}"
 
 
 def _data(text: str) -> str:

@@ -136,5 +136,5 @@ def _stated(name: str, value: str) -> Fact:
 def _quantity(name: str, value: float | list[float]) -> str:
     if isinstance(value, float):
         return f"{value:.4g}"
-    numbers = [f"{round(each, 3) + 0.0:g}" for each in value]
+    numbers = [f"{round(number, 3) + 0.0:g}" for number in value]
     return " × ".join(numbers) if name == "size" else f"({', '.join(numbers)})"

@@ -58,7 +58,7 @@ def to_dict(report: Report) -> dict[str, Any]:
             SCHEMA_VERSION,
             ToolJson(versions=report.versions),
             tuple(map(_package_json, report.packages)),
-            tuple(NotOpenedJson(each.path, each.reason, each.failed) for each in report.not_opened),
+            tuple(NotOpenedJson(item.path, item.reason, item.failed) for item in report.not_opened),
         )
     )
     return members
@@ -83,17 +83,17 @@ def _package_json(package: PackageReport) -> PackageJson:
     )
 
 
-def _finding_json(found: ReportedFinding) -> FindingJson:
+def _finding_json(reported: ReportedFinding) -> FindingJson:
     return FindingJson(
-        rule=found.rule,
-        name=found.name,
-        severity=found.severity,
-        concern=found.concern,
-        message=found.message,
-        fingerprint=found.fingerprint,
-        places=tuple(map(_place_json, found.places)),
-        help=found.help,
-        fix=msgspec.UNSET if found.fix is None else _fix_json(found.fix),
+        rule=reported.rule,
+        name=reported.name,
+        severity=reported.severity,
+        concern=reported.concern,
+        message=reported.message,
+        fingerprint=reported.fingerprint,
+        places=tuple(map(_place_json, reported.places)),
+        help=reported.help,
+        fix=msgspec.UNSET if reported.fix is None else _fix_json(reported.fix),
     )
 
 
@@ -145,7 +145,7 @@ def _report(read: ReportJson) -> Report:
     return Report(
         tuple(map(_package, read.packages)),
         read.tool.versions,
-        tuple(NotOpened(each.path, each.reason, each.failed) for each in read.not_opened),
+        tuple(NotOpened(item.path, item.reason, item.failed) for item in read.not_opened),
     )
 
 

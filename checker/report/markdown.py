@@ -30,11 +30,15 @@ _TEXT_LIMIT = 300
 
 def to_markdown(report: Report) -> str:
     """Return verdicts, a table of findings, and the rest folded; below `SIZE_LIMIT`."""
-    found = sorted(each_once(report), key=lambda pair: pair[1].severity.rank)
-    pages = {each.rule: each for _, each in found if each.severity is not Severity.INFO}
+    findings = sorted(each_once(report), key=lambda pair: pair[1].severity.rank)
+    pages = {
+        reported.rule: reported
+        for _, reported in findings
+        if reported.severity is not Severity.INFO
+    }
     blocks = [
         *_verdicts(report),
-        _findings(found),
+        _findings(findings),
         _folded("Why, and how to fix it", list(pages.values()), _page),
         _folded("Suppressed", _pairs(report, lambda package: package.suppressed), _aside),
         _folded("Not checked", _pairs(report, _unseen), _unseen_line),
@@ -49,42 +53,42 @@ def _verdicts(report: Report) -> Iterator[str]:
         table, left = summary_markdown(report.packages, _PACKAGES_ROOM)
         yield table + _left(left, "package")
     for package in report.packages if len(report.packages) == 1 else ():
-        said, name = sentence(package), _short(package.name)
-        aside = f" ({escaped(said.aside)})" if said.aside else ""
-        yield f"## {name}: {said.lead}"
-        yield f"{escaped(said.rest)}{aside}"
-    unopened = [each for each in report.not_opened if each.failed]
+        verdict, name = sentence(package), _short(package.name)
+        aside = f" ({escaped(verdict.aside)})" if verdict.aside else ""
+        yield f"## {name}: {verdict.lead}"
+        yield f"{escaped(verdict.rest)}{aside}"
+    unopened = [item for item in report.not_opened if item.failed]
     rows, left = fitting(unopened, _unopened, _DETAILS_ROOM)
     yield "\n".join(rows) + _left(left, "path")
 
 
-def _unopened(each: NotOpened) -> str:
-    return f"- {code(shortened(each.path, _TEXT_LIMIT))}: {_short(each.reason)}"
+def _unopened(item: NotOpened) -> str:
+    return f"- {code(shortened(item.path, _TEXT_LIMIT))}: {_short(item.reason)}"
 
 
-def _findings(found: Sequence[tuple[PackageReport, ReportedFinding]]) -> str:
-    rows, left = fitting(found, _row, _FINDINGS_ROOM)
+def _findings(findings: Sequence[tuple[PackageReport, ReportedFinding]]) -> str:
+    rows, left = fitting(findings, _row, _FINDINGS_ROOM)
     if not rows:
         return ""
     head = ["| severity | rule | place | what |", "|---|---|---|---|"]
     return "\n".join([*head, *rows]) + _left(left, "finding", "; `--format json` lists all")
 
 
-def _row(found: tuple[PackageReport, ReportedFinding]) -> str:
-    package, each = found
-    place = each.places[0]
+def _row(pair: tuple[PackageReport, ReportedFinding]) -> str:
+    package, reported = pair
+    place = reported.places[0]
     path = path_of(place, package)
     where = code(f"…{path[-200:]}" if len(path) > 200 else path)
     line = f" line {place.line}" if place.file else ""
-    repeats = sum(not other.note for other in each.places[1:])
+    repeats = sum(not other.note for other in reported.places[1:])
     more = f" (and {count(repeats, 'more place')})" if repeats else ""
-    rule = f"{each.rule} {_short(each.name)}"
-    return f"| {each.severity} | {rule} | {where}{line} | {_short(each.message)}{more} |"
+    rule = f"{reported.rule} {_short(reported.name)}"
+    return f"| {reported.severity} | {rule} | {where}{line} | {_short(reported.message)}{more} |"
 
 
-def _page(each: ReportedFinding) -> str:
-    how = f" **Fix:** {with_code(each.how)}" if each.how else ""
-    return f"- **{each.rule}** {with_code(each.why)}{how}"
+def _page(reported: ReportedFinding) -> str:
+    how = f" **Fix:** {with_code(reported.how)}" if reported.how else ""
+    return f"- **{reported.rule}** {with_code(reported.why)}{how}"
 
 
 def _pairs(report: Report, items_of: Callable[[PackageReport], Iterable[T]]) -> list[tuple[str, T]]:
@@ -102,17 +106,17 @@ def _begin(name: str) -> str:
 
 
 def _aside(pair: tuple[str, Suppressed]) -> str:
-    name, each = pair
-    said = f"{each.finding.rule} {_short(each.finding.message)}"
-    return f"{_begin(name)}{said} ({each.by}: {_short(each.reason)})"
+    name, suppressed = pair
+    text = f"{suppressed.finding.rule} {_short(suppressed.finding.message)}"
+    return f"{_begin(name)}{text} ({suppressed.by}: {_short(suppressed.reason)})"
 
 
 def _unseen(package: PackageReport) -> Iterable[tuple[str, list[str]]]:
     """Return reasons, each with the rules that it kept from looking."""
     by_reason: dict[str, list[str]] = {}
-    for each in package.not_checked:
-        if each.cause is not Cause.NOT_APPLICABLE:
-            by_reason.setdefault(each.reason, []).append(each.rule)
+    for skipped in package.not_checked:
+        if skipped.cause is not Cause.NOT_APPLICABLE:
+            by_reason.setdefault(skipped.reason, []).append(skipped.rule)
     return by_reason.items()
 
 

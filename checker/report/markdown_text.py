@@ -31,7 +31,7 @@ def escaped(text: str) -> str:
 
 
 def _numbered(text: str) -> str:
-    return _MARKS.sub(lambda found: f"&#{ord(found[0])};", text)
+    return _MARKS.sub(lambda match: f"&#{ord(match[0])};", text)
 
 
 def with_code(text: str) -> str:
@@ -39,7 +39,7 @@ def with_code(text: str) -> str:
     pieces = text.split("`")
     if len(pieces) % 2 == 0:
         return escaped(text)
-    return "".join(code(each) if n % 2 else escaped(each) for n, each in enumerate(pieces))
+    return "".join(code(piece) if n % 2 else escaped(piece) for n, piece in enumerate(pieces))
 
 
 def code(text: str) -> str:

@@ -46,17 +46,17 @@ class Share(Record):
     elsewhere: Mapping[str, int]
 
 
-def share_of(package: PackageReport, said_by: Mapping[Identity, str]) -> Share:
+def share_of(package: PackageReport, owner_of: Mapping[Identity, str]) -> Share:
     """Set apart the findings in another package's files that its own report holds too.
 
     Args:
         package: Whose findings to part.
-        said_by: As `owners` returns it.
+        owner_of: As `owners` returns it.
     """
     own: list[ReportedFinding] = []
     elsewhere: dict[str, int] = {}
     for finding in package.findings:
-        owner = said_by.get(identity(package, finding))
+        owner = owner_of.get(identity(package, finding))
         if owner is not None and is_foreign(finding.places[0]):
             elsewhere[owner] = elsewhere.get(owner, 0) + 1
         else:
@@ -66,10 +66,10 @@ def share_of(package: PackageReport, said_by: Mapping[Identity, str]) -> Share:
 
 def each_once(report: Report) -> Iterator[tuple[PackageReport, ReportedFinding]]:
     """Yield every finding once, however many packages share the file it lies in."""
-    said_by, said = owners(report), set[Identity]()
+    owner_of, seen = owners(report), set[Identity]()
     for package in report.packages:
-        for finding in share_of(package, said_by).own:
+        for finding in share_of(package, owner_of).own:
             known = identity(package, finding)
-            if not (is_foreign(finding.places[0]) and known in said):
+            if not (is_foreign(finding.places[0]) and known in seen):
                 yield package, finding
-            said.add(known)
+            seen.add(known)

@@ -29,7 +29,7 @@ RELATED_LIMIT = 100
 LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
-class Said(Record):
+class PackageFinding(Record):
     """A finding, of which package, and what set it aside."""
 
     package: PackageReport
@@ -54,18 +54,18 @@ class Marks(Record):
     suppressions: bool
 
 
-def result(said: Said, index: int, marks: Marks, folder: str) -> Json:
+def result(item: PackageFinding, index: int, marks: Marks, folder: str) -> Json:
     """Return a result.
 
     Args:
-        said: What was found.
+        item: What was found.
         index: Of its rule among the run's.
         marks: What it carries besides.
         folder: Where the command was run.
     """
-    package, finding = said.package, said.finding
+    package, finding = item.package, item.finding
     first, *others = finding.places
-    made: Json = {
+    members: Json = {
         "ruleId": finding.rule,
         "ruleIndex": index,
         "level": LEVELS[finding.severity],
@@ -77,15 +77,15 @@ def result(said: Said, index: int, marks: Marks, folder: str) -> Json:
     if others:
         related = (_related(other, package, folder) for other in others[:RELATED_LIMIT])
         # The standard wants them distinct, and words made plain may have become alike.
-        made["relatedLocations"] = list({str(each): each for each in related}.values())
-        made["occurrenceCount"] = 1 + sum(not other.note for other in others)
+        members["relatedLocations"] = list({str(place): place for place in related}.values())
+        members["occurrenceCount"] = 1 + sum(not other.note for other in others)
     if fix := fixes(finding.fix, finding.how, package, folder):
-        made["fixes"] = fix
+        members["fixes"] = fix
     if marks.baseline:
-        made["baselineState"] = "unchanged" if said.in_baseline else "new"
+        members["baselineState"] = "unchanged" if item.in_baseline else "new"
     if marks.suppressions:
-        made["suppressions"] = _suppressions(said, folder) if said.set_aside else []
-    return made
+        members["suppressions"] = _suppressions(item, folder) if item.set_aside else []
+    return members
 
 
 def words(message: str) -> str:
@@ -94,19 +94,19 @@ def words(message: str) -> str:
 
 
 def _related(place: Place, package: PackageReport, folder: str) -> Json:
-    said = words(place.note or place.message or "also here")
-    return {**location(place, package, folder), "message": {"text": said}}
+    text = words(place.note or place.message or "also here")
+    return {**location(place, package, folder), "message": {"text": text}}
 
 
-def _suppressions(said: Said, folder: str) -> list[Json]:
-    aside = said.suppressed
+def _suppressions(item: PackageFinding, folder: str) -> list[Json]:
+    aside = item.suppressed
     if aside is None:
         return []
     kind = "inSource" if aside.by is SuppressedBy.COMMENT else "external"
-    found: Json = {"kind": kind, "status": "accepted", "justification": plain(aside.reason)}
+    suppression: Json = {"kind": kind, "status": "accepted", "justification": plain(aside.reason)}
     if aside.place is not None:
-        found["location"] = location(aside.place, said.package, folder)
-    return [found]
+        suppression["location"] = location(aside.place, item.package, folder)
+    return [suppression]
 
 
 SCHEMA = (
@@ -129,56 +129,58 @@ def to_sarif(report: Report, folder: str) -> str:
 
 
 def _run(report: Report, folder: str) -> Json:
-    said = sorted(
-        _all_said(report),
-        key=lambda each: (each.suppressed is not None, each.finding.severity.rank),
+    findings = sorted(
+        _all_findings(report),
+        key=lambda item: (item.suppressed is not None, item.finding.severity.rank),
     )
-    shown = said[:RESULTS_LIMIT]
+    shown = findings[:RESULTS_LIMIT]
     rules = _first_by_rule(shown)
-    driver: Json = {"name": "subt-check", "rules": [_rule(each) for each in rules.values()]}
+    driver: Json = {"name": "subt-check", "rules": [_rule(rule) for rule in rules.values()]}
     # An installation may not know its own version.
     if (version := report.versions.get("subt-check", ""))[:1].isdigit():
         driver["version"] = plain(version)
     indices = {rule: index for index, rule in enumerate(rules)}
-    marks = Marks(any(each.in_baseline for each in said), any(each.set_aside for each in said))
+    marks = Marks(
+        any(item.in_baseline for item in findings), any(item.set_aside for item in findings)
+    )
     return {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
         "originalUriBaseIds": {
             BASE: {"description": {"text": "The folder where subt-check was run."}}
         },
-        "invocations": [_invocation(report, len(said) - len(shown))],
-        "results": [result(each, indices[each.finding.rule], marks, folder) for each in shown],
+        "invocations": [_invocation(report, len(findings) - len(shown))],
+        "results": [result(item, indices[item.finding.rule], marks, folder) for item in shown],
         "properties": {"packages": [_package(package) for package in report.packages]},
     }
 
 
-def _all_said(report: Report) -> Iterator[Said]:
+def _all_findings(report: Report) -> Iterator[PackageFinding]:
     for package, finding in each_once(report):
-        yield Said(package, finding)
+        yield PackageFinding(package, finding)
     for package in report.packages:
-        for each in package.suppressed:
-            yield Said(package, each.finding, each)
+        for suppressed in package.suppressed:
+            yield PackageFinding(package, suppressed.finding, suppressed)
 
 
 def _package(package: PackageReport) -> Json:
     return {"name": plain(package.name), "verdict": str(package.verdict)}
 
 
-def _first_by_rule(said: Sequence[Said]) -> Mapping[str, ReportedFinding]:
+def _first_by_rule(findings: Sequence[PackageFinding]) -> Mapping[str, ReportedFinding]:
     """Return the first finding of each rule, which is the gravest that counts."""
     rules: dict[str, ReportedFinding] = {}
-    for each in said:
-        rules.setdefault(each.finding.rule, each.finding)
+    for item in findings:
+        rules.setdefault(item.finding.rule, item.finding)
     return rules
 
 
 def _rule(finding: ReportedFinding) -> Json:
     """Describe a rule by what its findings quote of its page."""
     parts = [("", finding.why), ("Fix: ", finding.how), ("Source: ", finding.source)]
-    said = [(label, plain(text)) for label, text in parts if text]
-    text = [f"{label}{words}" for label, words in said]
-    marked = [f"**{label.strip()}** {words}" if label else words for label, words in said]
+    labelled = [(label, plain(text)) for label, text in parts if text]
+    text = [f"{label}{words}" for label, words in labelled]
+    marked = [f"**{label.strip()}** {words}" if label else words for label, words in labelled]
     rule: Json = {
         "id": finding.rule,
         "name": "".join(word[:1].upper() + word[1:] for word in plain(finding.name).split("-")),
@@ -198,19 +200,21 @@ def _rule(finding: ReportedFinding) -> Json:
 def _invocation(report: Report, left_out: int) -> Json:
     """Say what went wrong or could not be looked at."""
     crashed = any(package.crashed for package in report.packages)
-    failed = any(each.failed for each in report.not_opened)
-    said = [_notification(n, package) for package in report.packages for n in package.blind_spots]
-    for each in report.not_opened:
-        level = "error" if each.failed else "note"
-        text = f"{plain(each.path)} {plain(each.reason)}"
-        said.append({"level": level, "message": {"text": words(text)}})
-    said = sorted(said, key=lambda each: str(each["level"]))[:NOTIFICATIONS_LIMIT]
+    failed = any(item.failed for item in report.not_opened)
+    notifications = [
+        _notification(n, package) for package in report.packages for n in package.blind_spots
+    ]
+    for item in report.not_opened:
+        level = "error" if item.failed else "note"
+        text = f"{plain(item.path)} {plain(item.reason)}"
+        notifications.append({"level": level, "message": {"text": words(text)}})
+    notifications = sorted(notifications, key=lambda n: str(n["level"]))[:NOTIFICATIONS_LIMIT]
     if left_out:
         text = f"{count(left_out, 'result')} left out, {RESULTS_LIMIT} shown, the most severe first"
-        said.append({"level": "warning", "message": {"text": text}})
+        notifications.append({"level": "warning", "message": {"text": text}})
     return {
         "executionSuccessful": not (crashed or failed),
-        "toolExecutionNotifications": said,
+        "toolExecutionNotifications": notifications,
     }
 
 

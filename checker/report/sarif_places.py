@@ -55,11 +55,11 @@ def location(place: Place, package: PackageReport, folder: str) -> Json:
     physical: Json = {"artifactLocation": where, "region": region(place)}
     if context := _context(place):
         physical["contextRegion"] = context
-    found: Json = {"physicalLocation": physical}
+    result: Json = {"physicalLocation": physical}
     if place.element:
         name = plain(place.element)
-        found["logicalLocations"] = [{"fullyQualifiedName": name, "kind": "element"}]
-    return found
+        result["logicalLocations"] = [{"fullyQualifiedName": name, "kind": "element"}]
+    return result
 
 
 def region(place: Place) -> Json:
@@ -120,9 +120,9 @@ def fixes(fix: Fix | None, how: str, package: PackageReport, folder: str) -> lis
         for path, replacements in by_file.items()
     ]
     safety = {"safety": str(fix.safety)}
-    said = {"description": {"text": plain(how)}} if how else {}
-    return [{**said, "artifactChanges": changes, "properties": safety}]
+    description = {"description": {"text": plain(how)}} if how else {}
+    return [{**description, "artifactChanges": changes, "properties": safety}]
 
 
 def _is_text(edit: Edit) -> bool:
-    return not any("\ud800" <= each <= "\udfff" for each in edit.replacement)
+    return not any("\ud800" <= character <= "\udfff" for character in edit.replacement)

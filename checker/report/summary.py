@@ -33,8 +33,8 @@ class Sentence(Record):
 
     def __str__(self) -> str:
         """Give the whole sentence."""
-        said = f"{self.lead}: {self.rest}"
-        return f"{said} ({self.aside})" if self.aside else said
+        text = f"{self.lead}: {self.rest}"
+        return f"{text} ({self.aside})" if self.aside else text
 
 
 def sentence(package: PackageReport) -> Sentence:
@@ -43,11 +43,11 @@ def sentence(package: PackageReport) -> Sentence:
     looks = f"{count(warnings, 'warning')} to look at" if warnings else ""
     match package.verdict:
         case VerdictKind.NOT_READY:
-            said = [f"{count(errors, 'error')} to fix", looks]
-            return Sentence("Not ready", ", ".join(filter(None, said)), _aside(package))
+            phrases = [f"{count(errors, 'error')} to fix", looks]
+            return Sentence("Not ready", ", ".join(filter(None, phrases)), _aside(package))
         case VerdictKind.INCOMPLETE:
-            said = [f"no error, but {_unseen(package)}", looks]
-            return Sentence("Incomplete", ", ".join(filter(None, said)), _aside(package))
+            phrases = [f"no error, but {_unseen(package)}", looks]
+            return Sentence("Incomplete", ", ".join(filter(None, phrases)), _aside(package))
         case _:
             return Sentence("Ready", looks or "nothing to fix", _aside(package))
 
@@ -60,16 +60,16 @@ def _unseen(package: PackageReport) -> str:
 
 
 def _aside(package: PackageReport) -> str:
-    off = [each.reason for each in package.not_checked if each.cause is Cause.SWITCHED_OFF]
+    off = [skipped.reason for skipped in package.not_checked if skipped.cause is Cause.SWITCHED_OFF]
     others = sum(reason != NO_TRIAL for reason in off)
-    said = ["trial not run"] if NO_TRIAL in off else []
-    said += [f"{count(others, 'rule')} switched off"] if others else []
-    said += [_suppressed(package)] if package.suppressed else []
-    return ", ".join(said)
+    phrases = ["trial not run"] if NO_TRIAL in off else []
+    phrases += [f"{count(others, 'rule')} switched off"] if others else []
+    phrases += [_suppressed(package)] if package.suppressed else []
+    return ", ".join(phrases)
 
 
 def _suppressed(package: PackageReport) -> str:
-    errors = sum(each.finding.severity is Severity.ERROR for each in package.suppressed)
+    errors = sum(item.finding.severity is Severity.ERROR for item in package.suppressed)
     of_them = f", {errors} of them {'an error' if errors == 1 else 'errors'}" if errors else ""
     return f"{len(package.suppressed)} suppressed{of_them}"
 
@@ -100,7 +100,7 @@ def summary_markdown(packages: Sequence[PackageReport], room: int) -> tuple[str,
     words = _counted(packages)
     heads = [f"{word}s" if word in list(Severity) else word for word in words]
     head = "| package | verdict | " + " | ".join(heads) + " |"
-    rows, left = fitting(packages, lambda each: _row_in_markdown(each, len(words)), room)
+    rows, left = fitting(packages, lambda package: _row_in_markdown(package, len(words)), room)
     return "\n".join([head, "|---|---|" + "---:|" * len(words), *rows]), left
 
 
@@ -142,17 +142,19 @@ def statistics_text(report: Report) -> str:
         return "No findings.\n"
     widths = [max(len(row[column]) for row in rows) for column in range(4)]
     return "".join(
-        f"{rule:<{widths[0]}}  {severity:<{widths[1]}}  {found:>{widths[2]}}  "
+        f"{rule:<{widths[0]}}  {severity:<{widths[1]}}  {number:>{widths[2]}}  "
         f"{packages:>{widths[3]}}  {name}\n"
-        for rule, severity, found, packages, name in rows
+        for rule, severity, number, packages, name in rows
     )
 
 
 def _rows(report: Report) -> Iterator[tuple[str, str, str, str, str]]:
     """Count a rule apart for each severity that it found something of."""
     packages: dict[tuple[str, Severity, str], list[str]] = {}
-    for package, each in each_once(report):
-        packages.setdefault((each.rule, each.severity, each.name), []).append(package.path)
+    for package, reported in each_once(report):
+        packages.setdefault((reported.rule, reported.severity, reported.name), []).append(
+            package.path
+        )
     ordered = sorted(packages.items(), key=lambda row: (-len(row[1]), row[0][0], row[0][1].rank))
     for (rule, severity, name), found_in in ordered:
         yield rule, str(severity), str(len(found_in)), str(len(set(found_in))), plain(name)

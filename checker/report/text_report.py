@@ -103,12 +103,12 @@ def suppressed_text(suppressed: Sequence[Suppressed]) -> Iterator[str]:
         yield f"suppressed: {count(rest, 'more finding')}"
 
 
-def _words(each: Suppressed) -> str:
+def _words(suppressed: Suppressed) -> str:
     """Say by what and why a finding does not count; what the baseline holds is one heap."""
-    if each.reason == IN_BASELINE:
-        return f"by {_WHO[each.by]}"
-    reason = plain(shortened(each.reason, _REASON_LIMIT))
-    return f"of {each.finding.rule} by {_WHO[each.by]}: {reason}"
+    if suppressed.reason == IN_BASELINE:
+        return f"by {_WHO[suppressed.by]}"
+    reason = plain(shortened(suppressed.reason, _REASON_LIMIT))
+    return f"of {suppressed.finding.rule} by {_WHO[suppressed.by]}: {reason}"
 
 
 SHOWN_LIMIT = 200
@@ -117,23 +117,23 @@ SHOWN_LIMIT = 200
 
 def to_text(report: Report, palette: Palette) -> str:
     """Return the whole report."""
-    said_by = owners(report)
+    owner_of = owners(report)
     explained: set[str] = set()
-    blocks = [_package(package, said_by, explained, palette) for package in report.packages]
+    blocks = [_package(package, owner_of, explained, palette) for package in report.packages]
     if len(report.packages) > 1:
         blocks.append(summary_text(report.packages, palette))
-    if skipped := [_skipped(each) for each in report.not_opened if not each.failed]:
+    if skipped := [_skipped(item) for item in report.not_opened if not item.failed]:
         blocks.append("".join(skipped))
     return "\n".join(blocks)
 
 
 def _package(
     package: PackageReport,
-    said_by: Mapping[Identity, str],
+    owner_of: Mapping[Identity, str],
     explained: set[str],
     palette: Palette,
 ) -> str:
-    share = share_of(package, said_by)
+    share = share_of(package, owner_of)
     kind = package.kind.replace("_", " ") + _profile(package)
     lines = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
     for finding in share.own[:SHOWN_LIMIT]:
@@ -180,15 +180,15 @@ def _inherited(package: PackageReport) -> Iterator[str]:
 
 def _not_checked(not_checked: Sequence[NotChecked]) -> Iterator[str]:
     by_reason: dict[tuple[str, bool], list[str]] = {}
-    for each in not_checked:
-        applies = each.cause is not Cause.NOT_APPLICABLE
-        by_reason.setdefault((each.reason, applies), []).append(each.rule)
+    for skipped in not_checked:
+        applies = skipped.cause is not Cause.NOT_APPLICABLE
+        by_reason.setdefault((skipped.reason, applies), []).append(skipped.rule)
     for (reason, applies), rules in by_reason.items():
-        said = plain(shortened(reason, MESSAGE_LIMIT))
+        text = plain(shortened(reason, MESSAGE_LIMIT))
         if applies:
-            yield f"not checked: {', '.join(rules)}: {said}"
+            yield f"not checked: {', '.join(rules)}: {text}"
         else:
-            yield f"not applicable: {count(len(rules), 'rule')}: {said}"
+            yield f"not applicable: {count(len(rules), 'rule')}: {text}"
 
 
 def _facts(facts: Mapping[str, object]) -> Iterator[str]:
@@ -201,5 +201,5 @@ def _verdict(package: PackageReport, palette: Palette) -> str:
     return palette.verdict(package.verdict, f"{plain(package.name)}: {sentence(package)}")
 
 
-def _skipped(each: NotOpened) -> str:
-    return f"not opened: {plain(each.path)} {plain(each.reason)}\n"
+def _skipped(item: NotOpened) -> str:
+    return f"not opened: {plain(item.path)} {plain(item.reason)}\n"

@@ -20,7 +20,7 @@ def items(rules: Iterable[Rule]) -> Iterator[tuple[str, list[Rule]]]:
     known = tuple(rules)
     for entry in table("checklist")["items"]:
         wanted = entry["rules"]
-        yield entry["item"], [r for r in known if any(_covers(each, r) for each in wanted)]
+        yield entry["item"], [r for r in known if any(_covers(pattern, r) for pattern in wanted)]
 
 
 def _covers(pattern: str, rule: Rule) -> bool:

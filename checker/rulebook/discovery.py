@@ -30,14 +30,14 @@ def all_rules() -> tuple[Rule, ...]:
     Raises:
         CheckerError: Rules of another distribution cannot be loaded, or two rules have one id.
     """
-    found: dict[str, Rule] = {}
+    rules: dict[str, Rule] = {}
     for rule in chain(_rules_below(importlib.import_module("rules")), _registered_rules()):
-        if found.setdefault(rule.id, rule) is not rule:
-            modules = f"{found[rule.id].check.__module__} and {rule.check.__module__}"
+        if rules.setdefault(rule.id, rule) is not rule:
+            modules = f"{rules[rule.id].check.__module__} and {rule.check.__module__}"
             raise CheckerError(f"two rules have the id {rule.id}: {modules}")
     # Modules live as long as the process: the collection need not look through them ever again.
     gc.freeze()
-    return tuple(found[id] for id in sorted(found))
+    return tuple(rules[id] for id in sorted(rules))
 
 
 def rules_in(package: str) -> tuple[Rule, ...]:

@@ -89,8 +89,8 @@ def pages(rules: Iterable[Rule]) -> dict[str, str]:
         (group, list(members))
         for group, members in groupby(sorted(rules, key=lambda r: r.id), lambda r: r.group)
     ]
-    made = {f"{group}.md": _group_page(group, members) for group, members in groups}
-    return {"README.md": _index(groups), **made}
+    texts = {f"{group}.md": _group_page(group, members) for group, members in groups}
+    return {"README.md": _index(groups), **texts}
 
 
 def anchor(rule: Rule) -> str:
@@ -116,8 +116,8 @@ def _group_page(group: str, members: Sequence[Rule]) -> str:
 def about(members: Sequence[Rule]) -> str:
     """Return what a group is about: the docstring of its folder, without its letters."""
     folder = sys.modules[members[0].check.__module__.rpartition(".")[0]]
-    said = inspect.getdoc(folder) or ""
-    return escaped(said.partition("\n")[0].partition(": ")[2].rstrip("."))
+    docstring = inspect.getdoc(folder) or ""
+    return escaped(docstring.partition("\n")[0].partition(": ")[2].rstrip("."))
 
 
 def _title(rule: Rule) -> str:

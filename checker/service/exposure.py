@@ -95,13 +95,13 @@ def risk_of(environment: Mapping[str, str], layers: Callable[[], Sequence[Layer]
     config = config_from(environment)
     if config.only_here:
         return ""
-    found = layers()
-    if hides_files(found):
+    held = layers()
+    if hides_files(held):
         return ""
     if config.without_sandbox:
         return f"no sandbox layer hides files: {_RISK} (--without-sandbox)"
     raise CheckerError(
-        f"no sandbox layer hides files from uploads ({_missing(found)}); install bubblewrap or use "
+        f"no sandbox layer hides files from uploads ({_missing(held)}); install bubblewrap or use "
         "a kernel with Landlock (`subt-check doctor` tells more), or accept the risk with "
         f"--without-sandbox: {_RISK}"
     )
@@ -115,7 +115,7 @@ _RISK = (
 
 def _missing(layers: Sequence[Layer]) -> str:
     """Return why none of the layers that could hide files does."""
-    said = [f"{layer.name}: {layer.words}" for layer in layers if layer.name != SECCOMP]
+    reasons = [f"{layer.name}: {layer.words}" for layer in layers if layer.name != SECCOMP]
     return plain(
-        shortened("; ".join(said) or "the process that provides them ends immediately", 300)
+        shortened("; ".join(reasons) or "the process that provides them ends immediately", 300)
     )

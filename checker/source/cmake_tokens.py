@@ -74,23 +74,23 @@ class _Tokens:
     def __iter__(self) -> Iterator[Argument]:
         text, at = self._source.text, 0
         while at < len(text):
-            found = _TOKEN.match(text, at)
-            if found is None:
+            match = _TOKEN.match(text, at)
+            if match is None:
                 self._fault(at, at + 1, f"{text[at]!r} is not allowed here")
                 return
-            elif found["equals"] is not None:
-                at, argument = self._bracket(found)
+            elif match["equals"] is not None:
+                at, argument = self._bracket(match)
                 if argument:
                     yield argument
-            elif found["quote"]:
+            elif match["quote"]:
                 at, argument = self._quoted(at)
                 yield argument
             else:
-                at = found.end()
-                if found["paren"]:
-                    yield self._argument(ArgumentKind.PAREN, *found.span())
-                elif found["word"]:
-                    yield self._argument(ArgumentKind.UNQUOTED, *found.span())
+                at = match.end()
+                if match["paren"]:
+                    yield self._argument(ArgumentKind.PAREN, *match.span())
+                elif match["word"]:
+                    yield self._argument(ArgumentKind.UNQUOTED, *match.span())
 
     def _fault(self, start: int, end: int, message: str) -> None:
         self._faults.append(CMakeFault(Span(self._source, start, end), message))
@@ -99,7 +99,7 @@ class _Tokens:
         span = Span(self._source, start, end)
         text = span.text
         if kind in {ArgumentKind.QUOTED, ArgumentKind.UNQUOTED} and "\\" in text:
-            text = _ESCAPE.sub(lambda found: _ESCAPED.get(found[1], found[1]), text)
+            text = _ESCAPE.sub(lambda match: _ESCAPED.get(match[1], match[1]), text)
         return Argument(kind, Located(text, span))
 
     def _quoted(self, at: int) -> tuple[int, Argument]:

@@ -97,7 +97,7 @@ def read_markdown(source: SourceText) -> Markdown:
 
 def _line_starts(text: str) -> list[int]:
     """Return the offset of each line, and the end of the text."""
-    return [0, *(found.end() for found in re.finditer("\n", text)), len(text)]
+    return [0, *(match.end() for match in re.finditer("\n", text)), len(text)]
 
 
 def _passages(
@@ -144,17 +144,17 @@ def _visible(text: str) -> str:
     for start, end in _STRUCK:
         text = _blank_between(text, start, end)
     text = _TAG.sub(_blank_tag, text)
-    text = _DASH.sub(lambda found: "-".ljust(len(found.group())), text)
+    text = _DASH.sub(lambda match: "-".ljust(len(match.group())), text)
     return _EMPHASIS.sub(" ", _HIDDEN.sub(_blanks, text))
 
 
-def _blank_tag(found: re.Match[str]) -> str:
-    raised = found.group(2).lower() == "sup" and not found.group(1)
-    return ("^" if raised else "").rjust(len(found.group()))
+def _blank_tag(match: re.Match[str]) -> str:
+    raised = match.group(2).lower() == "sup" and not match.group(1)
+    return ("^" if raised else "").rjust(len(match.group()))
 
 
-def _blanks(found: re.Match[str]) -> str:
-    return re.sub(r"[^\n]", " ", found.group())
+def _blanks(match: re.Match[str]) -> str:
+    return re.sub(r"[^\n]", " ", match.group())
 
 
 def _blank_between(text: str, opening: str, closing: str) -> str:

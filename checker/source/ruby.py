@@ -77,12 +77,12 @@ class RubyNode:
 
     def walk(self) -> list[RubyNode]:
         """Return the node and all below it, in document order."""
-        found, waiting = [], [self]
+        nodes, waiting = [], [self]
         while waiting:
             node = waiting.pop()
-            found.append(node)
+            nodes.append(node)
             waiting.extend(reversed(node.children))
-        return found
+        return nodes
 
 
 def parse_ruby(source: SourceText) -> RubyNode:

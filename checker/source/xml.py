@@ -42,14 +42,14 @@ class XmlDocument(Record, eq=False, dict=True):
 
     @cached_property
     def _by_node(self) -> dict[etree._Element, Element]:
-        found: dict[etree._Element, Element] = {}
+        elements: dict[etree._Element, Element] = {}
         for node, position in zip(self.tree.iter(etree.Element), self.positions, strict=True):
             above = node.getparent()
-            parent = found[above] if above is not None else None
-            found[node] = element = Element(self, node, position, position.tag, parent)
+            parent = elements[above] if above is not None else None
+            elements[node] = element = Element(self, node, position, position.tag, parent)
             if parent is not None:
                 parent.children.append(element)
-        return found
+        return elements
 
     @cached_property
     def twins(self) -> dict[etree._Element, int]:
@@ -77,10 +77,10 @@ class XmlDocument(Record, eq=False, dict=True):
 
     def find_all(self, xpath: str) -> list[Element]:
         """Return the elements that an XPath expression selects, in document order."""
-        found = self.tree.xpath(xpath)
-        if not isinstance(found, list):
+        nodes = self.tree.xpath(xpath)
+        if not isinstance(nodes, list):
             return []
-        return [self.element_of(node) for node in found if isinstance(node, etree._Element)]
+        return [self.element_of(node) for node in nodes if isinstance(node, etree._Element)]
 
 
 def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
@@ -103,8 +103,8 @@ def parse_xml(source: SourceText) -> XmlDocument | XmlFault:
     tree = etree.fromstring(located.text.encode("utf-8"), parser)
     count = sum(1 for _ in tree.iter(etree.Element)) if tree is not None else 0
     if count != len(located.tags):
-        said = parser.error_log[0].message if len(parser.error_log) else "the tree is incomplete"
-        return XmlFault(source.whole(), said)
+        reason = parser.error_log[0].message if len(parser.error_log) else "the tree is incomplete"
+        return XmlFault(source.whole(), reason)
     document = XmlDocument(source, tree, located.tags, located.tolerated)
     if not len(parser.error_log):
         return document

@@ -148,8 +148,8 @@ def _never_closed(source: SourceText, opened: int, at: int) -> str:
 
 
 def _name(source: SourceText, opened: int) -> str:
-    found = _OPENING.match(source.text, opened)
-    return found.group(1) if found else "?"
+    match = _OPENING.match(source.text, opened)
+    return match.group(1) if match else "?"
 
 
 def _line(source: SourceText, at: int) -> int:
@@ -198,8 +198,8 @@ def _invalid(source: SourceText, at: int) -> XmlFault:
 
 
 def _second_root(text: str, at: int) -> str:
-    found = _OPENING.match(text, at)
-    what = f"<{found.group(1)}>" if found else "text"
+    match = _OPENING.match(text, at)
+    what = f"<{match.group(1)}>" if match else "text"
     return f"an XML file has one root element, but {what} follows it"
 
 

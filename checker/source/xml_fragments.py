@@ -37,7 +37,7 @@ class WrappedText(SourceText, kw_only=True):
 def parse_fragments(source: SourceText) -> XmlDocument | XmlFault:
     """Parse any number of elements side by side; they stand below an element `emitted`."""
     opening = f"<{ROOT}>"
-    inner = _DECLARATION.sub(lambda found: " " * len(found.group()), source.text)
+    inner = _DECLARATION.sub(lambda match: " " * len(match.group()), source.text)
     text = f"{opening}{inner}</{ROOT}>"
     return parse_xml(WrappedText(source.file, text, inner=source, offset=len(opening)))
 

@@ -84,9 +84,9 @@ def scan_start_tag(text: str, start: int, end: int) -> AttributeSpans:
     name = _NAME.match(text, start, end)
     tag = name.span(1) if name else (start, end)
     attributes = {}
-    for found in _ATTRIBUTE.finditer(text, tag[1], end):
-        value = found.span(2) if found.group(2) is not None else found.span(3)
-        attributes[found.group(1)] = (found.span(1), value)
+    for match in _ATTRIBUTE.finditer(text, tag[1], end):
+        value = match.span(2) if match.group(2) is not None else match.span(3)
+        attributes[match.group(1)] = (match.span(1), value)
     return AttributeSpans(tag, attributes)
 
 
@@ -201,8 +201,8 @@ _UP_TO_ITS_END = re.compile(rb"""[^>"']*+(?:(?:"[^"]*+"|'[^']*+')[^>"']*+)*+>"""
 
 def _tag_end(data: bytes, start: int) -> int:
     """Return the offset behind the `>` that closes a start tag, skipping quoted values."""
-    found = _UP_TO_ITS_END.match(data, start)
-    return found.end() if found else len(data)
+    match = _UP_TO_ITS_END.match(data, start)
+    return match.end() if match else len(data)
 
 
 _BLOCK = 512

@@ -70,11 +70,11 @@ class YamlNode(Record, eq=False):
 
     def get(self, key: Plain) -> YamlNode | None:
         """Return the value of a key of a mapping, the last when it stands there twice."""
-        found = None
+        result = None
         for name, value in self.entries:
             if name.kind == "scalar" and name.scalar == key and type(name.scalar) is type(key):
-                found = value
-        return found
+                result = value
+        return result
 
     def plain(self) -> object:
         """Return the value as lists, dictionaries and scalars; keys that are none are left out."""

@@ -35,7 +35,7 @@ def check(robot: Robot) -> Findings:
                 battery,
                 f"the battery comes before {behind[0].class_name}: move it after all plugins that "
                 "move the robot",
-                related=[(each, f"{each.class_name} comes later") for each in behind[:NOTED]],
+                related=[(drive, f"{drive.class_name} comes later") for drive in behind[:NOTED]],
             )
 
 

@@ -43,7 +43,7 @@ def check(
         yield unchecked(f"how fast a battery drains is known for Gazebo {RELEASE.title()} only")
         return
     allowed = air if robot.locomotion.copters else ground
-    known = [(each.minutes, each) for each in batteries(robot) if each.minutes is not None]
+    known = [(plugin.minutes, plugin) for plugin in batteries(robot) if plugin.minutes is not None]
     for minutes, battery in known:
         if minutes > allowed * (1 + tolerance):
             yield finding(

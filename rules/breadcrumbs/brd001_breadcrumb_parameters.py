@@ -44,7 +44,7 @@ def check(
     expected = " or ".join(map(str, counts)) or "0"
     for plugin in plugins:
         yield from _missing(plugin, expected)
-    numbers = [each.max_deployments for each in plugins if each.max_deployments is not None]
+    numbers = [plugin.max_deployments for plugin in plugins if plugin.max_deployments is not None]
     if not numbers or len(numbers) < len(plugins):
         return
     total = sum(number.value for number in numbers)

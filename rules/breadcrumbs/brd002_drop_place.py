@@ -52,7 +52,7 @@ def check(
         return
     if not plugins:
         return
-    shapes = [each for link in robot.links for each in placed(robot, link, link.collisions)]
+    shapes = [piece for link in robot.links for piece in placed(robot, link, link.collisions)]
     for plugin in plugins:
         if plugin.drop is None:
             continue
@@ -83,12 +83,12 @@ def check(
             )
 
 
-def _is_inside(robot: Robot, each: Placed, point: Vector, depth: float) -> bool:
+def _is_inside(robot: Robot, piece: Placed, point: Vector, depth: float) -> bool:
     """Whether no side of a shape leaves a point outside; sides are those of robot and shape."""
-    own = tuple(each.pose.rotate(axis) for axis in _AXES)
+    own = tuple(piece.pose.rotate(axis) for axis in _AXES)
     sides = (*_SIDES, *own, *((-x, -y, -z) for x, y, z in own))
     return all(
-        each.support(robot, side) - _along(side, point) >= depth - _ROUNDING for side in sides
+        piece.support(robot, side) - _along(side, point) >= depth - _ROUNDING for side in sides
     )
 
 

@@ -66,9 +66,9 @@ def _unbridged(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
 
 def _uncounted(bridges: Iterable[Bridge]) -> Iterator[Finding]:
     """Report launch files that drop breadcrumbs and do not tell how many remain."""
-    given = list(bridges)
-    counting = {each.ign_topic.removesuffix(REMAINING) for each in given if _counts(each)}
-    for bridge in given:
+    known = list(bridges)
+    counting = {bridge.ign_topic.removesuffix(REMAINING) for bridge in known if _counts(bridge)}
+    for bridge in known:
         if _drops(bridge) and bridge.ign_topic.removesuffix(DEPLOY) not in counting:
             yield finding(
                 bridge,

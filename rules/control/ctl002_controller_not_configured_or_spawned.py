@@ -27,7 +27,7 @@ def check(control: ControlSystem) -> Findings:
 
 def _unconfigured(control: ControlSystem) -> Findings:
     """Report spawned controllers; another rule reports those configured in another namespace."""
-    missing = [each for each in control.spawned if each.name not in control.namesakes]
+    missing = [spawned for spawned in control.spawned if spawned.name not in control.namesakes]
     if not missing or any(fault.hides for fault in control.faults):
         return
     if control.unread:
@@ -39,14 +39,16 @@ def _unconfigured(control: ControlSystem) -> Findings:
         for controller in control.controllers
         if controller.loaded_by is None
     }
-    for each in missing:
-        found, near = lying.get(each.name), meant.get(each.name)
+    for spawned in missing:
+        unloaded, near = lying.get(spawned.name), meant.get(spawned.name)
         hint = f"; did you mean {near.name!r}?" if near is not None else ""
-        if found is not None:
-            hint = f"; {found.span.source.file} configures it, but no launch file loads that file"
+        if unloaded is not None:
+            hint = (
+                f"; {unloaded.span.source.file} configures it, but no launch file loads that file"
+            )
         yield finding(
-            each,
-            f"controller {each.name!r} is spawned, but no loaded file configures it{hint}",
+            spawned,
+            f"controller {spawned.name!r} is spawned, but no loaded file configures it{hint}",
             related=[(near, f"{near.name!r} is configured here")] if near is not None else (),
         )
 
@@ -54,14 +56,14 @@ def _unconfigured(control: ControlSystem) -> Findings:
 def _misspelt(control: ControlSystem) -> dict[str, Controller]:
     """Return the controllers meant by names that are spawned but not configured."""
     names = Suggestions(control.namesakes)
-    spawned = {each.name for each in control.spawned}
+    spawned = {controller.name for controller in control.spawned}
     near = {name: names.near(name) for name in sorted(spawned - control.namesakes.keys())}
     return {name: control.namesakes[meant] for name, meant in near.items() if meant}
 
 
 def _without_type(control: ControlSystem) -> Findings:
-    for each in control.spawned:
-        controller = control.namesakes.get(each.name)
+    for spawned in control.spawned:
+        controller = control.namesakes.get(spawned.name)
         if controller is not None and controller.type is None:
             yield finding(
                 controller,
@@ -72,9 +74,9 @@ def _without_type(control: ControlSystem) -> Findings:
 
 
 def _never_spawned(control: ControlSystem) -> Findings:
-    started = {each.name for each in (*control.spawned, *control.dormant)}
+    started = {controller.name for controller in (*control.spawned, *control.dormant)}
     # One that a spawner misspells is reported there.
-    started |= {each.name for each in _misspelt(control).values()}
+    started |= {controller.name for controller in _misspelt(control).values()}
     idle = [
         controller
         for controller in control.controllers
@@ -83,10 +85,10 @@ def _never_spawned(control: ControlSystem) -> Findings:
     if idle and control.unread:
         yield from map(unchecked, control.unread)
         return
-    for each in idle:
+    for controller in idle:
         yield finding(
-            each,
-            f"controller {each.name!r} is configured, but no launch file spawns it",
+            controller,
+            f"controller {controller.name!r} is configured, but no launch file spawns it",
             severity=Severity.WARNING,
         )
 

@@ -26,15 +26,15 @@ def check(control: ControlSystem) -> Findings:
 
 
 def _parameters_elsewhere(control: ControlSystem) -> Findings:
-    for each in control.spawned:
-        configured = control.namesakes.get(each.name)
-        if configured is None or each.full_name in control.configured:
+    for spawned in control.spawned:
+        configured = control.namesakes.get(spawned.name)
+        if configured is None or spawned.full_name in control.configured:
             continue
         yield finding(
-            each,
-            f"controllers are started in namespace {each.namespace!r}, but their parameters are "
+            spawned,
+            f"controllers are started in namespace {spawned.namespace!r}, but their parameters are "
             f"loaded in {configured.namespace!r}: use one namespace",
-            key=f"{each.namespace} {configured.namespace}",
+            key=f"{spawned.namespace} {configured.namespace}",
             related=[(configured, f"loaded in namespace {configured.namespace!r}")],
         )
 
@@ -45,13 +45,15 @@ def _manager_elsewhere(control: ControlSystem) -> Findings:
     if not stated or len(stated) < len(control.plugins):
         return
     managed = {namespace.value for namespace in stated}
-    for each in control.spawned:
-        if each.namespace not in managed:
+    for spawned in control.spawned:
+        if spawned.namespace not in managed:
             yield finding(
-                each,
-                f"controllers are started in namespace {each.namespace!r}, but gazebo_ros_control "
-                f"runs their manager in {', '.join(map(repr, sorted(managed)))}: use one namespace",
-                key=f"manager {each.namespace}",
+                spawned,
+                f"controllers are started in namespace {spawned.namespace!r}, but "
+                f"gazebo_ros_control runs their manager in "
+                f"{', '.join(map(repr, sorted(managed)))}: "
+                "use one namespace",
+                key=f"manager {spawned.namespace}",
                 related=[(stated[0], "the namespace of the controller manager")],
             )
 
@@ -65,7 +67,7 @@ def _untold_states(control: ControlSystem) -> Findings:
         for controller in control.controllers
         if controller.kind == "JointStateController"
     ]
-    unknown = any(each.name not in control.namesakes for each in control.spawned)
+    unknown = any(spawned.name not in control.namesakes for spawned in control.spawned)
     if configured or unknown:
         return
     if control.unread:

@@ -25,7 +25,7 @@ def check(control: ControlSystem) -> Findings:
     everywhere = _topics(control, control.launches)
     for launch in control.launches:
         topics = launch.state_topics | (_topics(control, [launch]) or everywhere)
-        deaf = [each for each in launch.listeners if each.topic not in topics]
+        deaf = [listener for listener in launch.listeners if listener.topic not in topics]
         if deaf and control.unread:
             yield from map(unchecked, control.unread)
             return

@@ -38,11 +38,11 @@ def check(control: ControlSystem) -> Findings:
 
 def _incomplete(model: SpawnedModel) -> Findings:
     needs = (("-model <name>", ("-model",)), (" or ".join(FORMATS), FORMATS))
-    for said, options in (*needs, (" or ".join(SOURCES[:2]), SOURCES)):
+    for words, options in (*needs, (" or ".join(SOURCES[:2]), SOURCES)):
         if not any(option in model.options for option in options):
             yield finding(
                 model,
-                f"node {model.node.name!r} calls spawn_model without {said}, so it spawns nothing",
+                f"node {model.node.name!r} calls spawn_model without {words}, so it spawns nothing",
             )
 
 
@@ -77,8 +77,12 @@ def _same(name: str, known: Iterable[str]) -> bool:
     """Whether a name is a known one, perhaps with a number or more words around."""
     plain = name.rstrip("0123456789_").lower()
     return any(
-        each and (each.lower() in name.lower() or plain in (each.rstrip("0123456789_").lower(), ""))
-        for each in known
+        namespace
+        and (
+            namespace.lower() in name.lower()
+            or plain in (namespace.rstrip("0123456789_").lower(), "")
+        )
+        for namespace in known
     )
 
 

@@ -26,25 +26,25 @@ def check(specification: Specification, *, sections: tuple[str, ...] = ()) -> Fi
             the ten sections of the SubT template.
     """
     wanted: Sequence[str] = sections or table("subt_standards")["specifications_md"]["required"]
-    found = {words: _sections(specification, words) for words in wanted}
-    missing = [words for words, having in found.items() if not having]
+    of_words = {words: _sections(specification, words) for words in wanted}
+    missing = [words for words, having in of_words.items() if not having]
     if missing and specification.unread:
         yield unchecked(specification.unread)
         missing = []
     empty = [
         having[0]
-        for having in found.values()
-        if having and all(specification.says_nothing(each) for each in having)
+        for having in of_words.values()
+        if having and all(specification.says_nothing(section) for section in having)
     ]
-    said = []
+    phrases = []
     if missing:
-        said.append(f"{_are(missing)} missing: {', '.join(missing)}")
+        phrases.append(f"{_are(missing)} missing: {', '.join(missing)}")
     if empty:
-        said.append(f"{_are(empty)} empty: {', '.join(each.title for each in empty)}")
+        phrases.append(f"{_are(empty)} empty: {', '.join(section.title for section in empty)}")
     for section in empty:
-        yield finding(section, "; ".join(said), key=KEY)
+        yield finding(section, "; ".join(phrases), key=KEY)
     if missing and not empty:
-        yield finding(specification.source.whole(), said[0], key=KEY)
+        yield finding(specification.source.whole(), phrases[0], key=KEY)
 
 
 def _are(things: Sequence[object]) -> str:

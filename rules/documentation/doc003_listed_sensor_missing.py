@@ -28,22 +28,22 @@ def check(package: Package, robot: Robot, specification: Specification) -> Findi
         return
     number = configuration_number(package)
     listed = [
-        each
-        for each in specification.sensors
-        if each.kind in TYPES and (not each.configurations or number in each.configurations)
+        item
+        for item in specification.sensors
+        if item.kind in TYPES and (not item.configurations or number in item.configurations)
     ]
     families: dict[frozenset[str], list[ListedSensor]] = defaultdict(list)
-    for each in listed:
-        families[TYPES[each.kind]].append(each)
+    for item in listed:
+        families[TYPES[item.kind]].append(item)
     present = [sensor.type.value for sensor in robot.sensors]
     for types, items in families.items():
         amount = sum(kind in types for kind in present)
         accepted = types.union(*(SUBSTITUTES.get(item.kind, frozenset()) for item in items))
         if not accepted.intersection(present):
             for item in items:
-                said = f"the specification sheet lists {_words(item)!r}, but the model has no"
+                message = f"the specification sheet lists {_words(item)!r}, but the model has no"
                 how = "list it in both or in neither"
-                yield finding(item, f"{said} {_name(item.kind)} sensor: {how}")
+                yield finding(item, f"{message} {_name(item.kind)} sensor: {how}")
         elif amount and (total := _total(items)) is not None and total != amount:
             if total < amount and specification.other_sensors:
                 yield unchecked(

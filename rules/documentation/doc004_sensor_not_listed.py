@@ -72,7 +72,7 @@ def check(
                 f"the model has {len(sensors)} × {name}, but the specification sheet lists no "
                 f"{name}",
                 severity=Severity.INFO if sensors[0].type.value in minor else None,
-                related=[(each, f"sensor {each.name.value!r}") for each in sensors[:NOTED]],
+                related=[(sensor, f"sensor {sensor.name.value!r}") for sensor in sensors[:NOTED]],
             )
 
 

@@ -127,14 +127,14 @@ def _tags(reference: LineReference) -> Sequence[str]:
 
 def _expected(reference: LineReference) -> str:
     claim = _claim(reference)
-    found = (re.search(words, claim) for words, _ in TAGS)
-    words = dict.fromkeys(_whole_word(claim, each) for each in found if each)
+    matches = (re.search(words, claim) for words, _ in TAGS)
+    words = dict.fromkeys(_whole_word(claim, text) for text in matches if text)
     return " or ".join(words) or "a limit"
 
 
-def _whole_word(text: str, found: re.Match[str]) -> str:
-    rest = re.match(r"\w*", text[found.end() :])
-    return found.group() + (rest.group() if rest else "")
+def _whole_word(text: str, match: re.Match[str]) -> str:
+    rest = re.match(r"\w*", text[match.end() :])
+    return match.group() + (rest.group() if rest else "")
 
 
 def _claimed(sheet: Specification, reference: LineReference) -> Limit | None:
@@ -151,11 +151,11 @@ def _claimed(sheet: Specification, reference: LineReference) -> Limit | None:
 
 def _other_number(limit: Limit | None, text: str, tolerance: float) -> str:
     """Return the number that the lines should hold and do not; empty when they do."""
-    numbers = [abs(float(each)) for each in _NUMBER.findall(text)]
+    numbers = [abs(float(number)) for number in _NUMBER.findall(text)]
     if limit is None or not numbers:
         return ""
-    wanted = {abs(each) for each in (limit.minimum, limit.maximum) if each is not None}
-    near = any(abs(n - each) <= tolerance * max(each, n) for n in numbers for each in wanted)
+    wanted = {abs(bound) for bound in (limit.minimum, limit.maximum) if bound is not None}
+    near = any(abs(n - bound) <= tolerance * max(bound, n) for n in numbers for bound in wanted)
     return "" if near else f"{limit.maximum:g}"
 
 

@@ -48,7 +48,7 @@ def check(package: Package, specification: Specification) -> Findings:
 def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
     """Report another number in the title; a title of several numbers describes them all."""
     title = sheet.sections[0].span if sheet.sections else sheet.source.whole()
-    numbers = [int(found) for found in _TITLE.findall(title.text)]
+    numbers = [int(text) for text in _TITLE.findall(title.text)]
     if len(numbers) == 1 and numbers[0] != number:
         message = f"the title says configuration {numbers[0]}, but the package is {owner}"
         yield finding(title, message, severity=Severity.ERROR)
@@ -57,8 +57,8 @@ def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
 def _commands(sheet: Specification, owner: str) -> Iterator[Finding]:
     """Report names of other robots in commands and in the variable of the sheet."""
     text = sheet.source.text[: len(sheet.markdown.text)]
-    stretches = [found.span() for found in _COMMAND.finditer(text)]
-    stretches += [found.span(1) for found in _VARIABLE.finditer(sheet.markdown.text)]
+    stretches = [match.span() for match in _COMMAND.finditer(text)]
+    stretches += [match.span(1) for match in _VARIABLE.finditer(sheet.markdown.text)]
     commands = [(start, list(NAME.finditer(_apart(text[start:end])))) for start, end in stretches]
     own = [any(_is(name, owner) for name in names) for _, names in commands]
     reported: set[int] = set()
@@ -90,13 +90,13 @@ def _apart(command: str) -> str:
 def _of_itself(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
     """Report statements that the sheet describes another configuration."""
     for passage in sheet.markdown.passages:
-        for found in _ITSELF.finditer(passage.text):
-            group = next(i for i, each in enumerate(found.groups(), 1) if each)
-            if int(found.group(group)) != number:
+        for match in _ITSELF.finditer(passage.text):
+            group = next(i for i, text in enumerate(match.groups(), 1) if text)
+            if int(match.group(group)) != number:
                 yield finding(
-                    passage.part(*found.span()),
+                    passage.part(*match.span()),
                     "the specification sheet says that it describes configuration "
-                    f"{found.group(group)}, but the package is {owner}",
+                    f"{match.group(group)}, but the package is {owner}",
                     key="about another configuration",
                 )
 

@@ -51,9 +51,9 @@ def check(specification: Specification, *, tolerance: float = 0.01) -> Findings:
 
 def _sum(stated: tuple[Price, ...], tolerance: float) -> Iterator[Finding]:
     """Compare the sum of the parts with the stated total."""
-    sums = [each for each in stated if each.is_sum]
-    parts = [each for each in stated if each.is_part]
-    clear = all(each.is_clear for each in (*sums, *parts))
+    sums = [quantity for quantity in stated if quantity.is_sum]
+    parts = [quantity for quantity in stated if quantity.is_part]
+    clear = all(quantity.is_clear for quantity in (*sums, *parts))
     if len(sums) != 1 or len(parts) < FEWEST_PARTS or not clear:
         return
     added = sum(part.amount for part in parts)

@@ -51,7 +51,7 @@ def check(
     # Several drives may be the halves of a jointed robot, which turns in its own way.
     if len(drives) != 1:
         return
-    radii = [each for each in specification.turning_radii if not each.configurations]
+    radii = [radius for radius in specification.turning_radii if not radius.configurations]
     if moved.kind in _TURNS_ON_THE_SPOT:
         for stated in radii:
             if stated.value > on_the_spot:
@@ -83,10 +83,10 @@ def _steered(
         if not low <= stated.value <= high
     ]
     places += [(span, "that the robot turns on the spot") for span in _turns_on_the_spot(sheet)]
-    for place, said in places:
+    for place, words in places:
         yield finding(
             place,
-            f"the specification sheet says {said}, but the wheel base and steering limit give "
+            f"the specification sheet says {words}, but the wheel base and steering limit give "
             f"{radius:.3g} m",
             related=[(drive.steering_limit, "the steering limit")],
         )
@@ -96,9 +96,9 @@ def _turns_on_the_spot(sheet: Specification) -> Iterator[Span]:
     """Yield the places where the section on motion says so."""
     section = sheet.section("motion")
     for passage in section.passages if section is not None else ():
-        for found in _ON_THE_SPOT.finditer(passage.text):
-            if not _NOT.search(passage.text[max(0, found.start() - 80) : found.start()]):
-                yield passage.part(*found.span())
+        for match in _ON_THE_SPOT.finditer(passage.text):
+            if not _NOT.search(passage.text[max(0, match.start() - 80) : match.start()]):
+                yield passage.part(*match.span())
 
 
 _WHEELS = """

@@ -44,10 +44,10 @@ def check(robot: Robot) -> Findings:
         linear = motion.kind == "linear"
         if not linear and (motion.plugin.class_name in _LINEAR_ONLY or motion.plugin in unbounded):
             continue
-        for found in _unbounded(motion):
+        for fault in _unbounded(motion):
             if linear:
                 unbounded.add(motion.plugin)
-            yield found
+            yield fault
 
 
 def _unbounded(motion: BoundedMotion) -> Iterator[Finding]:

@@ -32,7 +32,7 @@ def check(robot: Robot, *, tolerance: float = 0.001) -> Findings:
 
 def _limits(robot: Robot) -> Iterator[tuple[str, Ends]]:
     motions = bounded_motions(robot.locomotion)
-    for motion in (each for each in motions if not each.both_kinds):
+    for motion in (motion for motion in motions if not motion.both_kinds):
         for quantity, _, ends in motion.quantities:
             yield f"{quantity} of {motion.plugin.class_name}", ends
     for track in robot.locomotion.tracks:

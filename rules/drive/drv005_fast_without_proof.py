@@ -47,7 +47,7 @@ def check(
     ]
     if not too_fast or specification.validation_links:
         return
-    speed, motion = max(too_fast, key=lambda each: abs(each[0].value))
+    speed, motion = max(too_fast, key=lambda pair: abs(pair[0].value))
     allowed = air if motion.flies else ground
     yield finding(
         _place(specification, motion, speed),

@@ -48,7 +48,7 @@ def check(robot: Robot, *, force: float = 0.2, radius: float = 0.03) -> Findings
 
 
 def _left_out(robot: Robot, listed: Sequence[SlippingWheel]) -> Iterator[Finding]:
-    names = {each.link for each in listed}
+    names = {entry.link for entry in listed}
     for wheel in robot.locomotion.wheels:
         if not names.intersection(link.scoped_name for link in wheel.body):
             yield finding(
@@ -59,23 +59,23 @@ def _left_out(robot: Robot, listed: Sequence[SlippingWheel]) -> Iterator[Finding
 
 
 def _compliances(listed: Sequence[SlippingWheel]) -> Iterator[Finding]:
-    for each in listed:
-        if each.lateral is None:
+    for entry in listed:
+        if entry.lateral is None:
             yield finding(
-                each,
-                f"slip_compliance_lateral of {each.link!r} is missing: without it the wheel does "
+                entry,
+                f"slip_compliance_lateral of {entry.link!r} is missing: without it the wheel does "
                 "not slip sideways",
             )
-        elif not each.lateral.value > 0:
+        elif not entry.lateral.value > 0:
             yield finding(
-                each.lateral,
-                f"slip_compliance_lateral of {each.link!r} is {each.lateral.value:g}, expected a "
+                entry.lateral,
+                f"slip_compliance_lateral of {entry.link!r} is {entry.lateral.value:g}, expected a "
                 "positive number",
             )
 
 
 def _forces(robot: Robot, listed: Sequence[SlippingWheel], tolerance: float) -> Iterator[Finding]:
-    wheels = max(len({each.link for each in listed}), _driven(robot))
+    wheels = max(len({entry.link for entry in listed}), _driven(robot))
     # Wheels that turn freely may carry their share of the weight.
     carrying = max(wheels, len(robot.wheels))
     mass = robot.mass
@@ -83,14 +83,14 @@ def _forces(robot: Robot, listed: Sequence[SlippingWheel], tolerance: float) -> 
     least = mass * GRAVITY / carrying
     if not (math.isfinite(most) and least > 0):
         return
-    for each in listed:
-        stated = each.normal_force
-        if stated is None or each.link not in robot.links_by_name:
+    for entry in listed:
+        stated = entry.normal_force
+        if stated is None or entry.link not in robot.links_by_name:
             continue
         if not least * (1 - tolerance) <= stated.value <= most * (1 + tolerance):
             yield finding(
                 stated,
-                f"wheel_normal_force of {each.link!r} is {stated.value:g} N, expected "
+                f"wheel_normal_force of {entry.link!r} is {stated.value:g} N, expected "
                 f"{most:.4g} N: {mass:.4g} kg on {wheels} wheels",
                 key=f"{stated.value:g} N",
             )
@@ -108,16 +108,16 @@ def _driven(robot: Robot) -> int:
 
 def _radii(robot: Robot, listed: Sequence[SlippingWheel], tolerance: float) -> Iterator[Finding]:
     wheels = {link.scoped_name: wheel for wheel in robot.locomotion.wheels for link in wheel.body}
-    for each in listed:
-        wheel = wheels.get(each.link)
-        if wheel is None or each.radius is None or not wheel.radius or stands_askew(robot, wheel):
+    for entry in listed:
+        wheel = wheels.get(entry.link)
+        if wheel is None or entry.radius is None or not wheel.radius or stands_askew(robot, wheel):
             continue
-        if abs(each.radius.value - wheel.radius) > tolerance * wheel.radius:
+        if abs(entry.radius.value - wheel.radius) > tolerance * wheel.radius:
             yield finding(
-                each.radius,
-                f"wheel_radius of {each.link!r} is {each.radius.value:g} m, but its collision has "
-                f"{wheel.radius:.4g} m",
-                key=f"{each.radius.value:g} {wheel.radius:.4g} m",
+                entry.radius,
+                f"wheel_radius of {entry.link!r} is {entry.radius.value:g} m, but its collision "
+                f"has {wheel.radius:.4g} m",
+                key=f"{entry.radius.value:g} {wheel.radius:.4g} m",
             )
 
 

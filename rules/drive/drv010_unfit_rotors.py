@@ -62,8 +62,8 @@ def check(
         yield unchecked(robot.unread_plugins)
     rotors = robot.locomotion.rotors
     by_themselves = [
-        *(found for rotor in rotors for found in _incomplete(rotor)),
-        *(found for group in _groups(rotors) for found in _numbers(group)),
+        *(fault for rotor in rotors for fault in _incomplete(rotor)),
+        *(fault for group in _groups(rotors) for fault in _numbers(group)),
     ]
     yield from by_themselves
     yield from _askew(robot, least_cosine)
@@ -186,11 +186,11 @@ def _disagreements(
     entries: Sequence[RotorEntry], rotors: Sequence[Rotor], tolerance: float
 ) -> Iterator[Finding]:
     for _, entry, motor in _pairs(entries, rotors):
-        name, told = motor.name.value, entry.direction
-        if told is not None and motor.direction and told.value != motor.direction:
+        name, direction = motor.name.value, entry.direction
+        if direction is not None and motor.direction and direction.value != motor.direction:
             yield finding(
-                told,
-                f"direction of {name!r} is {told.value:g} for the controller, but "
+                direction,
+                f"direction of {name!r} is {direction.value:g} for the controller, but "
                 f"{motor.direction} for its motor",
                 related=[(motor.plugin, "the motor")],
             )
@@ -205,16 +205,16 @@ def _disagreements(
 def _other_constant(
     name: str,
     tag: str,
-    told: Located[float] | None,
+    stated: Located[float] | None,
     actual: Located[float] | None,
     tolerance: float,
 ) -> Iterator[Finding]:
-    if told is None or actual is None:
+    if stated is None or actual is None:
         return
-    if abs(told.value - actual.value) > tolerance * abs(actual.value):
+    if abs(stated.value - actual.value) > tolerance * abs(actual.value):
         yield finding(
-            told,
-            f"{tag} of {name!r} is {told.value:g}, but its motor has {actual.value:g}",
+            stated,
+            f"{tag} of {name!r} is {stated.value:g}, but its motor has {actual.value:g}",
             severity=Severity.WARNING,
             related=[(actual, "the motor's")],
         )

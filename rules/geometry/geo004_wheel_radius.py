@@ -44,7 +44,7 @@ def _worst(
             off.append((abs(stated.value / wheel.radius - 1), -number, wheel))
     if not off:
         return
-    share, _, wheel = max(off, key=lambda each: each[:2])
+    share, _, wheel = max(off, key=lambda row: row[:2])
     if not share > warning_above:
         return
     count = sum(other[0] > warning_above for other in off)

@@ -78,7 +78,7 @@ def _box(
     """Return the box around all shapes; None when one of them is not known."""
     with_shape = [shape for shape in shapes if shape.geometry.shape]
     known = list(placed(robot, link, with_shape))
-    return union(each.box for each in known) if len(known) == len(with_shape) else None
+    return union(piece.box for piece in known) if len(known) == len(with_shape) else None
 
 
 def _body(pose: str, size: str, mark: str = "", name: str = "body") -> str:

@@ -32,9 +32,11 @@ def check(robot: Robot, *, most: float = 10.0, foot_height: float = 0.02) -> Fin
     """
     reader = FrictionReader(robot)
     across = _across(robot)
-    found = [(link, shape, reader.of(link, shape)) for link, shape in _ground(robot, foot_height)]
-    some_state = any(friction.first is not None for _, _, friction in found)
-    for link, shape, friction in found:
+    touching = [
+        (link, shape, reader.of(link, shape)) for link, shape in _ground(robot, foot_height)
+    ]
+    some_state = any(friction.first is not None for _, _, friction in touching)
+    for link, shape, friction in touching:
         yield from _absurd(link, friction, most, across.get(link.scoped_name, _Across.AS_ALONG))
         if friction.first is None:
             yield _missing(link, shape, some_state)
@@ -98,16 +100,16 @@ def _ground(robot: Robot, foot_height: float) -> Iterator[tuple[Link, Collision]
 
 def _feet(robot: Robot, foot_height: float) -> Iterator[tuple[Link, Collision]]:
     shapes = [
-        (shape, each)
+        (shape, piece)
         for link in robot.links
         for shape in link.collisions
-        for each in placed(robot, link, (shape,))
+        for piece in placed(robot, link, (shape,))
     ]
-    ground = min((each.box.low[2] for _, each in shapes), default=0.0)
-    for shape, each in shapes:
-        moves = each.link.scoped_name in robot.tree.above
-        if moves and each.box.low[2] <= ground + foot_height:
-            yield each.link, shape
+    ground = min((piece.box.low[2] for _, piece in shapes), default=0.0)
+    for shape, piece in shapes:
+        moves = piece.link.scoped_name in robot.tree.above
+        if moves and piece.box.low[2] <= ground + foot_height:
+            yield piece.link, shape
 
 
 def _rover(left: str, right: str, plugin: str = "DiffDrive", mark: str = "") -> str:

@@ -41,20 +41,20 @@ def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.
         name = link.scoped_name
         if name in rolling or bodies.of_link[name] not in carrying:
             continue
-        for each in placed(robot, link, link.collisions):
-            clearance = each.box.low[2] - ground
+        for piece in placed(robot, link, link.collisions):
+            clearance = piece.box.low[2] - ground
             # What reaches below the wheels by no more than the tolerance has no room at all.
             if clearance < -tolerance or max(clearance, 0.0) < least_clearance * radius:
-                yield _finding(each, clearance, least_clearance * radius, tolerance)
+                yield _finding(piece, clearance, least_clearance * radius, tolerance)
 
 
-def _finding(each: Placed, clearance: float, expected: float, tolerance: float) -> Finding:
-    what = f"collision {each.shape.name.value!r} of {each.link.name.value!r}"
+def _finding(piece: Placed, clearance: float, expected: float, tolerance: float) -> Finding:
+    what = f"collision {piece.shape.name.value!r} of {piece.link.name.value!r}"
     if clearance < -tolerance:
-        said = f"{what} reaches {-clearance * 1e3:.3g} mm below the wheels"
-        return finding(each.shape.pose, said)
+        message = f"{what} reaches {-clearance * 1e3:.3g} mm below the wheels"
+        return finding(piece.shape.pose, message)
     return finding(
-        each.shape.pose,
+        piece.shape.pose,
         f"{what} leaves {max(clearance, 0.0) * 1e3:.3g} mm to the ground under the wheels, "
         f"expected {expected * 1e3:.3g} mm or more",
         severity=Severity.WARNING,

@@ -48,13 +48,13 @@ def _shapes(robot: Robot) -> tuple[list[Placed], list[Collision | Visual]]:
     known: list[Placed] = []
     for link in robot.links:
         known += placed(robot, link, (*link.collisions, *link.visuals))
-    found = {each.shape for each in known}
-    given = (shape for shape in robot.shapes() if shape.geometry.shape not in ("", "empty"))
-    return known, [shape for shape in given if shape not in found]
+    placed_shapes = {piece.shape for piece in known}
+    shapes = (shape for shape in robot.shapes() if shape.geometry.shape not in ("", "empty"))
+    return known, [shape for shape in shapes if shape not in placed_shapes]
 
 
 def _diagonal(group: Sequence[Placed]) -> float:
-    box = union(each.box for each in group)
+    box = union(piece.box for piece in group)
     return box.diagonal if box is not None else 0.0
 
 

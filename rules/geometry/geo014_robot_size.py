@@ -34,9 +34,9 @@ def check(
         yield unchecked(robot.missing_parts)
         return
     shapes = (
-        each.box
+        piece.box
         for link in robot.links
-        for each in placed(robot, link, (*link.collisions, *link.visuals))
+        for piece in placed(robot, link, (*link.collisions, *link.visuals))
     )
     box = union(shapes)
     if box is not None:

@@ -69,7 +69,7 @@ def _moments(
 ) -> Iterator[Finding]:
     name = inertia.link.name.value
     if any(math.isnan(moment) for moment in inertia.principal):
-        wrong = next(each for each in inertial.moments if not math.isfinite(each.value))
+        wrong = next(moment for moment in inertial.moments if not math.isfinite(moment.value))
         yield finding(
             wrong,
             f"link {name!r} has a moment of inertia of {wrong.value:g} kg·m², expected a finite "
@@ -81,13 +81,13 @@ def _moments(
     if inertia.mass < 0.0 or not inertia.pseudo_eigenvalue < -tolerance:
         return
     first, second, third = inertia.principal
-    said = ", ".join(f"{moment:.4g}" for moment in inertia.principal)
+    moments = ", ".join(f"{moment:.4g}" for moment in inertia.principal)
     less = f"{first:.4g} + {second:.4g} is less than {third:.4g}"
     why = f"{first:.4g} is negative" if first < 0.0 else less
     yield finding(
         inertia.moments_span,
-        f"link {name!r} has principal moments of inertia of {said} kg·m², which no physical body "
-        f"can have: {why}",
+        f"link {name!r} has principal moments of inertia of {moments} kg·m², which no physical "
+        f"body can have: {why}",
     )
 
 

@@ -31,13 +31,13 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
             continue
         if not _zero(inertia, least, relative):
             continue
-        said = ", ".join(f"{abs(moment):.4g}" for moment in inertia.principal)
+        moments = ", ".join(f"{abs(moment):.4g}" for moment in inertia.principal)
         alone = body[name] not in sound
         tied = "" if alone else "; the link is fixed to links that have inertia"
         yield finding(
             inertia.moments_span,
-            f"link {inertia.link.name.value!r} has principal moments of inertia of {said} kg·m², "
-            f"expected all above zero{tied}",
+            f"link {inertia.link.name.value!r} has principal moments of inertia of {moments} kg·m²,"
+            f" expected all above zero{tied}",
             severity=Severity.ERROR if alone else Severity.INFO,
         )
 

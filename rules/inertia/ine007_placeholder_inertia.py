@@ -72,14 +72,14 @@ def _near(values: Sequence[float], tolerance: float) -> bool:
 
 
 def _repeated(group: Sequence[LinkInertia], tensor: Sequence[float]) -> Iterator[Finding]:
-    said = ", ".join(f"{tensor[i]:.4g}" for i in (0, 3, 5))
+    moments = ", ".join(f"{tensor[i]:.4g}" for i in (0, 3, 5))
     first = group[0].link.name.value
     for inertia in group:
         if inertia.link.inertial is not None:
             yield finding(
                 inertia.moments_span,
                 f"link {inertia.link.name.value!r} and {len(group) - 1} more links of other mass "
-                f"or size have the same inertia tensor (ixx, iyy, izz = {said} kg·m²)",
+                f"or size have the same inertia tensor (ixx, iyy, izz = {moments} kg·m²)",
                 key=f"copied {first}",
             )
 

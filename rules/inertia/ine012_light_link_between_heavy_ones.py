@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from checker.model.tree import WORLD, Tie, rigid_bodies
 from checker.physics.mass.mass_properties import MassProperties
-from checker.physics.mass.mechanism import Hanging, hang
+from checker.physics.mass.mechanism import SpanningTree, spanning_tree_of
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
@@ -26,25 +26,25 @@ def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -
         share: Share of the robot's mass; a joint is judged only if the parts on each side of it
             have more than that.
     """
-    hanging = hang(masses.robot)
+    spanning_tree = spanning_tree_of(masses.robot)
     body = rigid_bodies(masses.robot).of_link
     weight = dict.fromkeys(body.values(), 0.0)
     for name, inertia in masses.links.items():
         weight[body[name]] += max(inertia.mass, 0.0)
-    below = _below(masses, hanging)
+    below = _below(masses, spanning_tree)
     total = sum(weight.values())
-    for name, tie in hanging.by.items():
+    for name, tie in spanning_tree.by.items():
         if tie.parent == WORLD or body[tie.parent] == body[name]:
             continue
         if min(below[name], total - below[name]) > share * total:
             yield from _across(tie, weight[body[name]], weight[body[tie.parent]], ratio)
 
 
-def _below(masses: MassProperties, hanging: Hanging) -> dict[str, float]:
+def _below(masses: MassProperties, spanning_tree: SpanningTree) -> dict[str, float]:
     """Return the mass of each link with all parts that it carries, kg."""
-    below = {name: max(masses.links[name].mass, 0.0) for name in hanging.order}
-    for name in reversed(hanging.order):
-        tie = hanging.by.get(name)
+    below = {name: max(masses.links[name].mass, 0.0) for name in spanning_tree.order}
+    for name in reversed(spanning_tree.order):
+        tie = spanning_tree.by.get(name)
         if tie is not None and tie.parent != WORLD:
             below[tie.parent] += below[name]
     return below

@@ -84,17 +84,17 @@ def _differences(
     if size is None:
         return
     sizes = _sizes(robot, link)
-    if sizes and all(_any_off(each, sorted(size), tolerance) for each in sizes):
-        said = " × ".join(f"{1000 * length:.3g}" for length in sizes[0])
+    if sizes and all(_any_off(lengths, sorted(size), tolerance) for lengths in sizes):
+        measured = " × ".join(f"{1000 * length:.3g}" for length in sizes[0])
         expected = " × ".join(f"{1000 * length:.3g}" for length in sorted(size))
-        yield link.span, f"measures {said} mm, expected {expected} mm"
+        yield link.span, f"measures {measured} mm, expected {expected} mm"
     moments = _moments(device, mass, size) if mass is not None else None
     if moments is not None and _any_off(inertia.principal, moments, tolerance):
-        said = ", ".join(f"{moment:.3g}" for moment in inertia.principal)
+        measured = ", ".join(f"{moment:.3g}" for moment in inertia.principal)
         expected = ", ".join(f"{moment:.3g}" for moment in moments)
         yield (
             inertia.moments_span,
-            f"has the principal moments {said} kg·m², expected {expected} kg·m²",
+            f"has the principal moments {measured} kg·m², expected {expected} kg·m²",
         )
 
 

@@ -27,8 +27,8 @@ def check(robot: Robot) -> Findings:
             if _exists(joint, role, end, names) or _may_be_included(robot, end):
                 continue
             hint = suggestions.hint(end.value)
-            said = f"{role} {end.value!r}, which does not exist" if end.value else f"no {role}"
-            yield finding(end, f"joint {joint.name.value!r} has {said}{hint}")
+            phrase = f"{role} {end.value!r}, which does not exist" if end.value else f"no {role}"
+            yield finding(end, f"joint {joint.name.value!r} has {phrase}{hint}")
 
 
 def _exists(joint: Joint, role: str, end: Located[str], names: frozenset[str]) -> bool:

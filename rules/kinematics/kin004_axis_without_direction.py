@@ -44,12 +44,12 @@ def check(robot: Robot, context: Context, *, tolerance: float = 1e-3) -> Finding
 
 def _judged(joint: Joint, axis: Axis, tolerance: float) -> Iterator[Finding]:
     length = math.hypot(*(number.value for number in axis.xyz))
-    said = f"the axis of joint {joint.name.value!r}"
+    what = f"the axis of joint {joint.name.value!r}"
     written = " ".join(f"{number.value:g}" for number in axis.xyz)
     if length == 0.0 or not math.isfinite(length):
-        yield finding(axis.xyz[0], f"{said} is {written}, which has no direction")
+        yield finding(axis.xyz[0], f"{what} is {written}, which has no direction")
     elif abs(length - 1.0) > tolerance:
-        message = f"{said} is {written}, of length {length:.4g}, expected 1"
+        message = f"{what} is {written}, of length {length:.4g}, expected 1"
         yield finding(axis.xyz[0], message, severity=Severity.WARNING)
 
 

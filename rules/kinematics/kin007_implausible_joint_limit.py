@@ -54,12 +54,12 @@ def _missing(joint: Joint, axis: Axis) -> Iterator[Finding]:
     limits = {"effort": axis.effort, "velocity": axis.velocity}
     missing = [kind for kind, limit in limits.items() if math.isinf(limit.value)]
     if missing:
-        said = " and ".join(missing)
+        names = " and ".join(missing)
         yield finding(
             limits[missing[0]],
-            f"driven joint {joint.name.value!r} has no limit of {said}",
+            f"driven joint {joint.name.value!r} has no limit of {names}",
             severity=Severity.INFO,
-            key=said,
+            key=names,
         )
 
 

@@ -30,13 +30,15 @@ def check(robot: Robot, context: Context) -> Findings:
     for joint in robot.joints:
         # SDFormat reads the type in any case; a missing one is for SDF005.
         type = joint.type.value.lower()
-        said = f"joint {joint.name.value!r} has the type {joint.type.value!r}"
+        message = f"joint {joint.name.value!r} has the type {joint.type.value!r}"
         if joint.type.stated and type not in known:
             hint = suggestions.hint(type) or f"; expected one of {', '.join(known)}"
-            yield finding(joint.type, f"{said}, which does not exist{hint}")
+            yield finding(joint.type, f"{message}, which does not exist{hint}")
         elif type in lost:
             release = f"Gazebo {context.release.capitalize()}"
-            yield finding(joint.type, f"{said}, {_BECOMES[lost[type]].format(release)}", key=type)
+            yield finding(
+                joint.type, f"{message}, {_BECOMES[lost[type]].format(release)}", key=type
+            )
 
 
 def _joint(type: str) -> str:

@@ -24,13 +24,13 @@ def check(robot: Robot) -> Findings:
         plugin = robot.driven_joints.get(joint.scoped_name)
         if not why or (plugin is None and joint.type.value == "fixed"):
             continue
-        said = f"{joint.type.value} joint {joint.name.value!r} cannot move: {why}"
+        message = f"{joint.type.value} joint {joint.name.value!r} cannot move: {why}"
         if plugin is None:
-            yield finding(joint, said, key="equal limits")
+            yield finding(joint, message, key="equal limits")
             continue
         yield finding(
             joint,
-            f"{said}, but {plugin.class_name} drives it",
+            f"{message}, but {plugin.class_name} drives it",
             severity=Severity.ERROR,
             related=[(plugin, "drives it")],
         )

@@ -29,8 +29,8 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
         yield unchecked(robot.missing_parts)
         return
     top = next((link for link in robot.links if link.scoped_name not in robot.tree.above), None)
-    said = f"; the root of the others is {top.scoped_name!r}" if top is not None else ""
-    yield finding(robot.name, f"{robot.name.value!r} has no link {base!r}{said}")
+    hint = f"; the root of the others is {top.scoped_name!r}" if top is not None else ""
+    yield finding(robot.name, f"{robot.name.value!r} has no link {base!r}{hint}")
 
 
 def _canonical(robot: Robot) -> Findings:
@@ -43,8 +43,8 @@ def _canonical(robot: Robot) -> Findings:
             continue
         name = scope + canonical.value
         if name not in robot.links_by_name and not (robot.missing_parts and "::" in name):
-            said = f"canonical link {canonical.value!r} does not exist{names.hint(name)}"
-            yield finding(canonical, said, severity=Severity.ERROR)
+            message = f"canonical link {canonical.value!r} does not exist{names.hint(name)}"
+            yield finding(canonical, message, severity=Severity.ERROR)
 
 
 def _model(link: str, attribute: str = "", mark: str = "") -> str:

@@ -25,8 +25,8 @@ def check(robot: Robot) -> Findings:
         for leader in joint.mimics:
             if joint.scope + leader.value not in robot.joints_by_name:
                 hint = suggestions.hint(leader.value)
-                said = f"mimics {leader.value!r}, which does not exist{hint}"
-                yield finding(leader, f"joint {joint.name.value!r} {said}")
+                phrase = f"mimics {leader.value!r}, which does not exist{hint}"
+                yield finding(leader, f"joint {joint.name.value!r} {phrase}")
             else:
                 leaders.setdefault(joint.scoped_name, (joint, leader))
     yield from _circles(leaders)

@@ -23,8 +23,8 @@ def check(robot: Robot) -> Findings:
             }
             for kind, value in stated.items():
                 if value.value < 0.0:
-                    said = f"joint {joint.name.value!r} has the {kind} {value.value:g}"
-                    yield finding(value, f"{said}, expected 0 or more")
+                    message = f"joint {joint.name.value!r} has the {kind} {value.value:g}"
+                    yield finding(value, f"{message}, expected 0 or more")
 
 
 def _hinge(dynamics: str) -> str:

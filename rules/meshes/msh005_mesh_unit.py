@@ -99,7 +99,7 @@ def _unit(large: float, small: float, near: float) -> str:
     if not 0.0 < small < large < math.inf:
         return ""
     off = {unit: abs(math.log(large / small / factor)) for unit, factor in UNITS.items()}
-    unit = min(off, key=lambda each: off[each])
+    unit = min(off, key=lambda name: off[name])
     return unit if off[unit] < math.log(max(near, 1.0)) else ""
 
 
@@ -133,7 +133,7 @@ def _size(robot: Robot, link: Link, shapes: Shapes) -> float:
     """Return the diagonal of the box around shapes of a link, metres; 0 where it is not known."""
     posed = [shape for shape in shapes if robot.pose_of_part(link, shape.pose) is not None]
     known = list(placed(robot, link, posed))
-    box = union(each.box for each in known) if len(known) == len(posed) else None
+    box = union(piece.box for piece in known) if len(known) == len(posed) else None
     return box.diagonal if box is not None else 0.0
 
 
@@ -143,8 +143,8 @@ def _size_without_meshes(robot: Robot) -> float:
     for link in robot.links:
         pose = robot.pose_of(link.scoped_name)
         points += [pose.translation] if pose is not None else []
-        for each in placed(robot, link, filter(_is_simple, _shapes(link))):
-            points += [each.box.low, each.box.high]
+        for piece in placed(robot, link, filter(_is_simple, _shapes(link))):
+            points += [piece.box.low, piece.box.high]
     spans = [max(values) - min(values) for values in zip(*points, strict=True)]
     return math.hypot(*spans)
 

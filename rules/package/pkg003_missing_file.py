@@ -44,7 +44,7 @@ def check(package: Package) -> Findings:
     submission = package.kind in (PackageKind.ROBOT, PackageKind.CONFIGURATION)
     if submission or package.kind is PackageKind.BASE_MODEL:
         yield from _missing(package, {"model.config": "which names the model"}, Severity.ERROR)
-        yield from _said(
+        yield from _missing_part(
             package, package.model_path, "model.sdf", "which holds the model", Severity.ERROR
         )
     if submission:
@@ -57,10 +57,10 @@ def _missing(
     package: Package, paths: dict[str, str], severity: Severity
 ) -> Iterator[Finding | Unchecked]:
     for path, purpose in paths.items():
-        yield from _said(package, package.part(path), path, purpose, severity)
+        yield from _missing_part(package, package.part(path), path, purpose, severity)
 
 
-def _said(
+def _missing_part(
     package: Package, part: Found | Missing, path: str, purpose: str, severity: Severity
 ) -> Iterator[Finding | Unchecked]:
     if isinstance(part, Found):
@@ -78,7 +78,7 @@ def _topics(package: Package) -> Iterator[Finding | Unchecked]:
     started = [
         reference for reference in package.references if reference.kind is ReferenceKind.ROSLAUNCH
     ]
-    if not any(_may_bridge(package, each) for each in started):
+    if not any(_may_bridge(package, node) for node in started):
         yield from _missing(package, {TOPICS: "which bridges topics to ROS"}, Severity.ERROR)
 
 

@@ -59,8 +59,8 @@ def _lost(package: Package, config: ModelConfig) -> Iterator[Finding]:
     for entry in config.sdf:
         path = posixpath.normpath(entry.file.value)
         written = entry.file.value
-        found = package.resolve(path) if written else None
-        if found is not None and found.is_file:
+        file = package.resolve(path) if written else None
+        if file is not None and file.is_file:
             continue
         alike = [other for other in package.index.similar(path) if other != path]
         model = next(iter(alike), own_model(package))

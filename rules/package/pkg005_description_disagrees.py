@@ -46,11 +46,11 @@ def check(robot: Robot, paperwork: Paperwork) -> Findings:
         return
     present = Counter(sensor.type.value for sensor in robot.sensors)
     families: dict[frozenset[str], list[_Told]] = defaultdict(list)
-    for told in _told(config.description):
-        families[TYPES[told.kind]].append(told)
+    for mention in _told(config.description):
+        families[TYPES[mention.kind]].append(mention)
     for types, items in families.items():
         others = SUBSTITUTES.get(items[0].kind, frozenset())
-        mentioned = any(TYPES[told.kind] == others for told in families.get(others, ()))
+        mentioned = any(TYPES[mention.kind] == others for mention in families.get(others, ()))
         amounts = _amounts(present, types, frozenset() if mentioned else others)
         total = _total(items)
         name = items[0].kind.value.replace("_", " ")

@@ -76,7 +76,7 @@ def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix
 
 def _added(build: CMakeFile, kind: str, paths: Sequence[str]) -> Fix | None:
     """Return the fix that installs more; None if nothing goes to the package's share folder."""
-    fitting = [each for each in build.installs if _goes_to_share(each, build)]
+    fitting = [install for install in build.installs if _goes_to_share(install, build)]
     for install in fitting:
         last = install.items[-1]
         if install.kind == kind and not install.filtered and install.writes(last):

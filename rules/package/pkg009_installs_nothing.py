@@ -49,12 +49,12 @@ def _fix(
     """Return the fix that corrects the name or removes it, with `install()` if nothing is left."""
     if not install.writes(item):
         return None
-    same = [each for each in alike if each.lower() == posixpath.normpath(item.value).lower()]
+    same = [name for name in alike if name.lower() == posixpath.normpath(item.value).lower()]
     for meant in (same, alike):
         if len(meant) == 1:
             return replace_text(item, meant[0])
-    there = any(package.exists(posixpath.normpath(each.value or ".")) for each in install.items)
-    unsure = any(_MADE_ELSEWHERE.search(each.value) for each in install.items)
+    there = any(package.exists(posixpath.normpath(source.value or ".")) for source in install.items)
+    unsure = any(_MADE_ELSEWHERE.search(source.value) for source in install.items)
     return replace_text(with_blanks(item.span if there or unsure else install.span), "")
 
 

@@ -31,7 +31,7 @@ def check(package: Package, *, most_compared: int = 50) -> Findings:
     @cache
     def others(size: int) -> list[tuple[Package, str]]:
         alike = package.workspace.thumbnails_by_size.get(size, ())
-        return [each for each in alike if robot_of(each[0].name) != robot][:most_compared]
+        return [pair for pair in alike if robot_of(pair[0].name) != robot][:most_compared]
 
     for file in package.index.with_suffix(".png", ".jpg", ".jpeg"):
         if not file.path.startswith("thumbnails/") or not file.size:

@@ -21,7 +21,7 @@ def check(package: Package) -> Findings:
     if known is None:
         return
     number, numbers = known
-    before = max((each for each in numbers if each < number), default=0)
+    before = max((smaller for smaller in numbers if smaller < number), default=0)
     if len(numbers) > 1 and before + 1 < number:
         last = number - 1
         gap = f"{before + 1}" if before + 1 == last else f"{before + 1} to {last}"

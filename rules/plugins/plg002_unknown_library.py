@@ -56,7 +56,7 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
             plugin.filename,
             f"library {plugin.filename.value} is not in {release_label(context.release)}, and is "
             "neither shipped nor built by "
-            f"{' or '.join(each.name for each in lenders.at_hand)}{suggestions.hint(stem)}",
+            f"{' or '.join(package.name for package in lenders.at_hand)}{suggestions.hint(stem)}",
             key=stem,
         )
 

@@ -52,9 +52,9 @@ def _judge_version(place: Place, library: SharedLibrary, release: str) -> Iterat
     expected = release_major(release)
     majors = {int(match["major"]) for match in map(_SIMULATOR.match, library.needed) if match}
     if expected is not None and majors - {expected}:
-        found = " and ".join(map(str, sorted(majors - {expected})))
+        others = " and ".join(map(str, sorted(majors - {expected})))
         yield finding(
-            place, f"{place.file} is built for Gazebo {found}, but the target is {expected}"
+            place, f"{place.file} is built for Gazebo {others}, but the target is {expected}"
         )
 
 

@@ -68,8 +68,8 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     yield from _findings(missing, place, assuming)
     for topic in standard:
         shown = topic.replace("*", "<name>")
-        said = f"no bridge for {shown}, which every robot of the challenge has"
-        yield finding(place, said + assuming)
+        message = f"no bridge for {shown}, which every robot of the challenge has"
+        yield finding(place, message + assuming)
 
 
 def _missing(robot: Robot, bridged: Collection[str]) -> Iterator[Channel]:
@@ -121,7 +121,7 @@ def _findings(missing: Iterable[Channel], place: Place, assuming: str) -> Iterat
             by_owner[channel.owner, channel.need].append(channel)
         seen.add(channel.topics)
     for (owner, need), lacking in by_owner.items():
-        names = ", ".join(_GROUPS.get(each.group, each.what) for each in lacking)
+        names = ", ".join(_GROUPS.get(topic.group, topic.what) for topic in lacking)
         yield finding(
             place,
             f"no bridge for {names} of {lacking[0].owner_name}{assuming}",

@@ -38,8 +38,8 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         if bridge.node.assumed_from:
             continue
         if fault := _fault(robot, bridge, names):
-            said = _message(bridge, "is switched off, and if switched on listens", fault)
-            yield finding(bridge, said, severity=Severity.INFO, key="switched off")
+            message = _message(bridge, "is switched off, and if switched on listens", fault)
+            yield finding(bridge, message, severity=Severity.INFO, key="switched off")
 
 
 def _message(bridge: Bridge, listens: str, fault: str) -> str:

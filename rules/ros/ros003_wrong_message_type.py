@@ -59,21 +59,21 @@ def _named(bridge: Bridge) -> str:
 
 def _faults(bridge: Bridge, ends: Sequence[Channel]) -> Iterator[str]:
     ros, ign = _ros(bridge.ros_type), _ign(bridge.ign_type)
-    ros_types = list(dict.fromkeys(each for end in ends for each in end.ros_types))
+    ros_types = list(dict.fromkeys(name for end in ends for name in end.ros_types))
     if not ros_types:
         if ros == _RANGE:
             yield f"has the type {_RANGE}, which no sensor of Gazebo publishes; expected LaserScan"
         return
     whose = f"{ends[0].what} of {ends[0].owner_name}"
-    ign_types = list(dict.fromkeys(each for end in ends for each in _stated_types(end)))
+    ign_types = list(dict.fromkeys(name for end in ends for name in _stated_types(end)))
     if ign not in ign_types:
         yield f"reads {whose} as {bridge.ign_type}, expected {' or '.join(ign_types)}"
     elif ros not in ros_types:
         yield f"publishes {whose} as {bridge.ros_type}, expected {ros_types[0]}"
     ways = {end.direction for end in ends}
     if bridge.direction not in (*ways, Direction.BOTH):
-        found, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
-        yield f"bridges {whose} from {found}, expected {expected}"
+        stated, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
+        yield f"bridges {whose} from {stated}, expected {expected}"
 
 
 def _stated_types(channel: Channel) -> tuple[str, ...]:

@@ -31,31 +31,31 @@ def check(launch: LaunchGraph) -> Findings:
     for reason in launch.unread:
         yield unchecked(reason)
     frames = [frame for frame in optical_frames(launch.nodes) if not frame.node.assumed_from]
-    given: dict[str, list[Bridge]] = defaultdict(list)
+    by_topic: dict[str, list[Bridge]] = defaultdict(list)
     for bridge in (*launch.bridges, *(launch.dormant_bridges if launch.unread else ())):
         if bridge.direction is not Direction.TO_IGN:
-            given[bridge.ros_topic].append(bridge)
+            by_topic[bridge.ros_topic].append(bridge)
     complete = not launch.unseen_bridges and not (launch.unread and launch.dormant_includes)
     renamed = any(node.package == _RENAMES for node in launch.nodes)
     for frame in frames:
-        for fault in _faults(frame, given, sure=complete and not renamed):
+        for fault in _faults(frame, by_topic, sure=complete and not renamed):
             yield finding(frame.node, f"{_shown(frame.node.full_name)} {fault}")
     yield from _copies(frames)
-    if launch.unseen_bridges and any(_takes_unknown(frame, given) for frame in frames):
+    if launch.unseen_bridges and any(_takes_unknown(frame, by_topic) for frame in frames):
         yield unchecked(launch.unseen_bridges[0])
 
 
-def _takes_unknown(frame: OpticalFrame, given: _Given) -> bool:
+def _takes_unknown(frame: OpticalFrame, by_topic: _Given) -> bool:
     topics = (frame.remapped.get(name) for name in _TYPES)
-    return any(topic is not None and topic not in given for topic in topics)
+    return any(topic is not None and topic not in by_topic for topic in topics)
 
 
-def _faults(frame: OpticalFrame, given: _Given, *, sure: bool) -> Iterator[str]:
+def _faults(frame: OpticalFrame, by_topic: _Given, *, sure: bool) -> Iterator[str]:
     """Return what is wrong with one publisher.
 
     Args:
         frame: The publisher.
-        given: Bridges by the ROS topic that they publish.
+        by_topic: Bridges by the ROS topic that they publish.
         sure: Whether only the bridges publish topics.
     """
     missing = [name for name in frame.needed if name not in frame.remapped]
@@ -68,13 +68,13 @@ def _faults(frame: OpticalFrame, given: _Given, *, sure: bool) -> Iterator[str]:
         output = frame.remapped.get(name.replace("input", "output"), "")
         if output == topic:
             yield f"publishes {name} on the topic that it reads, {_shown(topic)}"
-        elif topic not in given and output in given:
+        elif topic not in by_topic and output in by_topic:
             yield f"has {name} and {name.replace('input', 'output')} swapped"
-        elif topic not in given and sure:
+        elif topic not in by_topic and sure:
             yield f"reads {name} from {_shown(topic)}, which no bridge publishes"
-        elif topic in given and not any(_is(bridge, message) for bridge in given[topic]):
+        elif topic in by_topic and not any(_is(bridge, message) for bridge in by_topic[topic]):
             yield f"reads {name} from {_shown(topic)}, which is not a {message}"
-    if _of_two_cameras(frame, given):
+    if _of_two_cameras(frame, by_topic):
         yield "reads image and camera_info of different sensors"
 
 
@@ -86,11 +86,11 @@ def _is(bridge: Bridge, message: str) -> bool:
     return bridge.ros_type.rsplit("/", 1)[-1] == message
 
 
-def _of_two_cameras(frame: OpticalFrame, given: _Given) -> bool:
+def _of_two_cameras(frame: OpticalFrame, by_topic: _Given) -> bool:
     images, infos = (
         {
             (topic.link, topic.sensor)
-            for bridge in given.get(frame.remapped.get(name, ""), ())
+            for bridge in by_topic.get(frame.remapped.get(name, ""), ())
             if (topic := bridge.sensor) is not None and topic.suffix
         }
         for name in _TYPES

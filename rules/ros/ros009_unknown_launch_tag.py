@@ -82,7 +82,7 @@ def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterato
         near = names.near(name)
         if near is None and len(missing) == 1:
             near = missing[0]
-        missing = [each for each in missing if each != near]
+        missing = [attribute for attribute in missing if attribute != near]
         span = element.attribute_name_span(name)
         yield finding(
             span,

@@ -43,7 +43,9 @@ def check(package: Package, launch: LaunchGraph) -> Findings:
     """Report faults that stop roslaunch, in the files that are started."""
     if launch.unknown_commands:
         yield unchecked(launch.unknown_commands)
-    absent = [each.message for each in launch.faults if each.kind is LaunchFaultKind.MISSING_FILE]
+    absent = [
+        fault.message for fault in launch.faults if fault.kind is LaunchFaultKind.MISSING_FILE
+    ]
     for reason in launch.unread:
         if reason != launch.unknown_commands and not reason.endswith(tuple(absent)):
             yield unchecked(reason)

@@ -59,12 +59,12 @@ def _names_in(element: Element) -> Iterator[Located[str]]:
     for attribute, value in element.attributes.items():
         if "$(find" not in value or (written := element.attribute(attribute)) is None:
             continue
-        for found in _FIND.finditer(value):
+        for match in _FIND.finditer(value):
             span = written.span
             if span.text == value:
-                start, end = found.span(1)
+                start, end = match.span(1)
                 span = Span(span.source, span.start + start, span.start + end, span.holder)
-            yield Located(found.group(1), span)
+            yield Located(match.group(1), span)
 
 
 _TOPICS = "launch/vehicle_topics.launch"

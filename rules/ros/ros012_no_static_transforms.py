@@ -75,7 +75,7 @@ def check(
 
 
 def _static_poses(robot: Robot, where: Place) -> Findings:
-    publishers = [each for each in robot.all_plugins if each.class_name == "PosePublisher"]
+    publishers = [plugin for plugin in robot.all_plugins if plugin.class_name == "PosePublisher"]
     apart = [
         value
         for plugin in publishers

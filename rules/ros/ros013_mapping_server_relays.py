@@ -36,15 +36,15 @@ def check(
     includes = [include for include in started if posixpath.basename(include.file) == relays]
     named = launch.arguments.get("name")
     for include in includes:
-        given = include.arguments.get("name")
-        if given is None:
+        name = include.arguments.get("name")
+        if name is None:
             yield finding(
                 include, f"{relays} is included without the arg 'name', expected $(arg name)"
             )
-        elif named is not None and is_known(given) and given != named.value:
+        elif named is not None and is_known(name) and name != named.value:
             yield finding(
                 include,
-                f"{relays} gets the name {given!r}, expected the robot's name: $(arg name)",
+                f"{relays} gets the name {name!r}, expected the robot's name: $(arg name)",
             )
     if includes:
         return
@@ -54,12 +54,16 @@ def check(
     if not reasons:
         part = package.part(_TOPICS)
         place = package.place(part.path) if isinstance(part, Found) else package.folder_place()
-        off = [each for each in launch.dormant_includes if posixpath.basename(each.file) == relays]
+        off = [
+            include
+            for include in launch.dormant_includes
+            if posixpath.basename(include.file) == relays
+        ]
         yield finding(
             place,
             f"nothing includes {relays} of subt_ros: expected it in the group of the robot, "
             "with its name",
-            related=[(each, "switched off") for each in off],
+            related=[(include, "switched off") for include in off],
         )
 
 

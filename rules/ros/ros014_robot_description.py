@@ -80,14 +80,14 @@ def _file(
 
 def _argument(package: Package, description: RobotDescription, robot: str) -> Iterator[Finding]:
     """Report a xacro file that needs the robot's name, but does not get it."""
-    given = description.arguments.get("name")
-    if given == robot or (given is not None and not is_known(given)):
+    name = description.arguments.get("name")
+    if name == robot or (name is not None and not is_known(name)):
         return
     for file in description.files:
         prefix = f"../{file.package}/" if file.package not in ("", package.name) else ""
         source = package.read(f"{prefix}{file.path}")
         if isinstance(source, SourceText) and "$(arg name)" in source.text:
-            what = "no name:=" if given is None else f"name:={given}"
+            what = "no name:=" if name is None else f"name:={name}"
             yield finding(
                 description,
                 f"{file.path} needs the robot's name, but gets {what}: expected name:=$(arg name)",

@@ -50,18 +50,20 @@ def check(sdf: SdfDocument, paperwork: Paperwork, context: Context) -> Findings:
 
 
 def _of_model(version: Located[str], context: Context) -> Iterator[Finding]:
-    asked = context.sdf_version
+    expected = context.sdf_version
     if not version.value.strip():
-        yield finding(version, f"<sdf> states no version{f', expected {asked}' if asked else ''}")
+        yield finding(
+            version, f"<sdf> states no version{f', expected {expected}' if expected else ''}"
+        )
     elif version.value.strip() not in (*VERSIONS, *OLDER):
         yield finding(
             version,
-            f"SDF version {version.value!r} does not exist, expected {asked or '1.4 to 1.12'}",
+            f"SDF version {version.value!r} does not exist, expected {expected or '1.4 to 1.12'}",
         )
-    elif asked and version.value.strip() != asked:
+    elif expected and version.value.strip() != expected:
         yield finding(
             version,
-            f"the model is written in SDF {version.value.strip()}, expected {asked}",
+            f"the model is written in SDF {version.value.strip()}, expected {expected}",
             severity=None if _refused(version.value, context) else Severity.INFO,
         )
 

@@ -52,15 +52,15 @@ def _children(element: Element, kind: ElementType) -> Iterator[Finding]:
         if name in ends:
             continue
         stated = element.all(name)
-        if not stated and _has_to_be_said(child):
+        if not stated and _has_to_be_stated(child):
             yield finding(element, f"{_named(element)} lacks <{name}>", key=f"{element.tag}/{name}")
-        for each in stated:
-            if child.value_type and not each.text.stated:
+        for part in stated:
+            if child.value_type and not part.text.stated:
                 message = f"<{name}> of {_named(element)} is empty"
-                yield finding(each, message, key=f"{element.tag}/{name} empty")
+                yield finding(part, message, key=f"{element.tag}/{name} empty")
 
 
-def _has_to_be_said(child: ElementType) -> bool:
+def _has_to_be_stated(child: ElementType) -> bool:
     return child.default is None if child.value_type else child.name in CHOICES
 
 

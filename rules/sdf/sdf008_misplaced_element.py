@@ -38,7 +38,7 @@ def check(sdf: SdfDocument) -> Findings:
         if path not in belonging:
             belonging[path] = _places(*path, parents_of(sdf.version))
         listed = belonging[path]
-        named = (_named(sdf.version, each, *path) for each in listed)
+        named = (_named(sdf.version, tag, *path) for tag in listed)
         belongs = "; it belongs in " + " or ".join(named) if listed else ""
         is_set = len(listed) == 1 and _is_set(element, listed[0])
         belongs += ", where it is set" if is_set else ""

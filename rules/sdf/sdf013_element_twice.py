@@ -29,8 +29,8 @@ def check(sdf: SdfDocument) -> Findings:
             earlier = first.setdefault(child.tag, child)
             if earlier is child or not _once(element, kind, child.tag):
                 continue
-            said = contents.get(child.tag) or contents.setdefault(child.tag, _content(earlier))
-            same = _content(child) == said
+            content = contents.get(child.tag) or contents.setdefault(child.tag, _content(earlier))
+            same = _content(child) == content
             yield finding(
                 child,
                 f"<{element.tag}> contains a second <{child.tag}>, "
@@ -52,8 +52,8 @@ def _once(parent: Element, kind: ElementType, tag: str) -> bool:
 def _content(element: Element) -> list[tuple[object, ...]]:
     """Return the content of an element, without spaces and the order of attributes."""
     return [
-        (each.tag, tuple(sorted(each.attributes.items())), " ".join(each.raw_text.split()))
-        for each in (element, *element.descendants())
+        (node.tag, tuple(sorted(node.attributes.items())), " ".join(node.raw_text.split()))
+        for node in (element, *element.descendants())
     ]
 
 

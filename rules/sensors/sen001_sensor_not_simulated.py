@@ -23,17 +23,17 @@ def check(robot: Robot, context: Context) -> Findings:
     suggestions = Suggestions(sorted(types.known - types.lost))
     for sensor in robot.sensors:
         type = sensor.type.value
-        said = f"sensor {sensor.name.value!r} has the type {type!r}"
+        message = f"sensor {sensor.name.value!r} has the type {type!r}"
         if not sensor.type.stated:
             continue  # the required attribute is for SDF005
         if type not in types.known:
             hint = suggestions.hint(type)
             yield finding(
-                sensor.type, f"{said}, which {target} does not know{hint}", key=f"unknown {type}"
+                sensor.type, f"{message}, which {target} does not know{hint}", key=f"unknown {type}"
             )
         elif type in types.lost:
             yield finding(
-                sensor.type, f"{said}, which {target} does not simulate", key=f"lost {type}"
+                sensor.type, f"{message}, which {target} does not simulate", key=f"lost {type}"
             )
 
 

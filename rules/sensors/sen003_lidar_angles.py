@@ -35,28 +35,29 @@ def check(robot: Robot, *, tolerance: float = 1e-3, near: float = _NEAR) -> Find
         lidar = sensor.lidar
         if lidar is None or not sensor.kind.is_lidar:
             continue
-        said = f"lidar {sensor.name.value!r}"
-        yield from _one_way(f"{said} scans", lidar.horizontal, tolerance, near)
-        yield from _one_way(f"{said} scans vertically", lidar.vertical, tolerance, near)
+        name = f"lidar {sensor.name.value!r}"
+        yield from _one_way(f"{name} scans", lidar.horizontal, tolerance, near)
+        yield from _one_way(f"{name} scans vertically", lidar.vertical, tolerance, near)
 
 
-def _one_way(said: str, scan: Scan, tolerance: float, near: float) -> Iterator[Finding]:
+def _one_way(phrase: str, scan: Scan, tolerance: float, near: float) -> Iterator[Finding]:
     lower, upper = scan.lower.value, scan.upper.value
     if not math.isfinite(lower) or not math.isfinite(upper):
         return
-    said = f"{said} from {lower:.6g} to {upper:.6g} rad"
+    phrase = f"{phrase} from {lower:.6g} to {upper:.6g} rad"
     full_turn = _written(scan, -math.pi, math.pi) if abs(scan.angle - _TURN) < near else None
     if scan.angle > _TURN + tolerance:
-        over = f"{said}, {scan.angle - _TURN:.2g} rad more than a full turn"
+        over = f"{phrase}, {scan.angle - _TURN:.2g} rad more than a full turn"
         expected = ": expected -π to π" if full_turn is not None else ""
         yield finding(scan.lower, over + expected, key=f"over {scan.angle:.6g}", fix=full_turn)
     elif abs(lower) < near and abs(upper - _TURN) < near:
-        yield finding(scan.lower, f"{said}: expected -π to π", key="from 0", fix=full_turn)
+        yield finding(scan.lower, f"{phrase}: expected -π to π", key="from 0", fix=full_turn)
     elif scan.angle <= 0 and scan.samples.value > 1:
         swapped = _written(scan, upper, lower) if scan.angle < 0 else None
         yield finding(
             scan.upper,
-            f"{said} with {scan.samples.value:g} samples: expected the first angle below the last",
+            f"{phrase} with {scan.samples.value:g} samples: expected the first angle below "
+            "the last",
             key=f"no width {lower:.6g} {upper:.6g}",
             fix=swapped,
         )

@@ -70,9 +70,9 @@ def _expected(sensor: Sensor, lidar: Lidar, device: Device) -> list[float]:
     at_rate = by_rate.get(sensor.update_rate.value)
     listed = at_rate or [sample for samples in by_rate.values() for sample in samples]
     share = _share_of_turn(lidar, device)
-    expected = [float(each) for each in listed]
+    expected = [float(number) for number in listed]
     if share < 1 and any(samples > 1 for samples in expected):
-        expected += [float(round(each * share)) for each in listed]
+        expected += [float(round(number * share)) for number in listed]
     defaults = device.values.get("seed_defaults", {})
     if expected and "samples" in defaults and sensor.update_rate.value == defaults.get("rate"):
         expected.append(float(defaults["samples"]))
@@ -89,7 +89,7 @@ def _share_of_turn(lidar: Lidar, device: Device) -> float:
 
 
 def _fits(samples: float, expected: list[float], tolerance: float) -> bool:
-    return any(abs(samples - each) <= max(1.0, tolerance * each) for each in expected)
+    return any(abs(samples - number) <= max(1.0, tolerance * number) for number in expected)
 
 
 def _finding(
@@ -100,21 +100,21 @@ def _finding(
     too_many: bool,
 ) -> Finding:
     samples, rate = lidar.horizontal.samples, sensor.update_rate.value
-    said = f"lidar {sensor.name.value!r} has {samples.value:g} samples per row"
-    said += f" at {rate:g} Hz" if rate > 0 else ""
+    message = f"lidar {sensor.name.value!r} has {samples.value:g} samples per row"
+    message += f" at {rate:g} Hz" if rate > 0 else ""
     if known is None or not expected:
         return finding(
             samples,
-            f"{said}, a number copied from an old template: expected the number of the device",
+            f"{message}, a number copied from an old template: expected the number of the device",
             key="copied",
         )
     from_memory = known.device.is_from_memory("samples_by_rate") and not too_many
     return finding(
         samples,
-        f"{said}, expected {either(expected)} ({known.device.name})",
+        f"{message}, expected {either(expected)} ({known.device.name})",
         severity=Severity.INFO if from_memory else None,
         key=f"{known.device.id} {samples.value:g} {rate:g}",
-        related=[(known.said, "names the device")],
+        related=[(known.words, "names the device")],
     )
 
 

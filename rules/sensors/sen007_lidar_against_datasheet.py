@@ -37,7 +37,7 @@ class _Difference(Record, eq=False):
 
     where: HasSpan
     figure: str
-    said: str
+    stated: str
     expected: str
 
 
@@ -84,8 +84,8 @@ def _rows(lidar: Lidar, device: Device) -> Iterator[_Difference]:
         return
     variants = rows if isinstance(rows, list) else [rows]
     if lidar.rows not in variants:
-        said = f"has {lidar.rows:g} rows"
-        yield _Difference(lidar.vertical.samples, "rows", said, either(variants))
+        stated = f"has {lidar.rows:g} rows"
+        yield _Difference(lidar.vertical.samples, "rows", stated, either(variants))
 
 
 def _vertical(lidar: Lidar, device: Device, tolerance: float) -> Iterator[_Difference]:
@@ -116,9 +116,9 @@ def _ranges(
         )
     nearest = _known_values(named, "range_min")
     value = lidar.range_min
-    if value.stated and nearest and min(abs(value.value - each) for each in nearest) > near:
-        said = f"has a minimum range of {value.value:g} m"
-        yield _Difference(value, "range_min", said, f"{either(nearest)} m")
+    if value.stated and nearest and min(abs(value.value - figure) for figure in nearest) > near:
+        stated = f"has a minimum range of {value.value:g} m"
+        yield _Difference(value, "range_min", stated, f"{either(nearest)} m")
 
 
 def _known_values(named: SensorDevice, figure: str) -> list[float]:
@@ -126,12 +126,12 @@ def _known_values(named: SensorDevice, figure: str) -> list[float]:
     values = named.device.values
     if figure not in values:
         return []
-    words = "".join(letter for letter in named.said.value.upper() if letter.isalnum())
+    words = "".join(letter for letter in named.words.value.upper() if letter.isalnum())
     by_model = values.get(f"{figure}_by_model", {})
     of_model = [value for model, value in by_model.items() if model.upper() in words]
     defaults = values.get("seed_defaults", {})
     others = [*values.get(f"{figure}_seen", []), *(defaults[k] for k in (figure,) if k in defaults)]
-    return sorted({float(each) for each in (*(of_model or [values[figure]]), *others)})
+    return sorted({float(number) for number in (*(of_model or [values[figure]]), *others)})
 
 
 def _rate(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Difference]:
@@ -143,18 +143,18 @@ def _rate(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Differe
 
 def _near(value: float, expected: Sequence[float], tolerance: float) -> bool:
     """Whether a value is close to an expected one; always, if none is known."""
-    return not expected or any(abs(value - each) <= tolerance * each for each in expected)
+    return not expected or any(abs(value - number) <= tolerance * number for number in expected)
 
 
 def _finding(sensor: Sensor, named: SensorDevice, difference: _Difference) -> Finding:
     device = named.device
     return finding(
         difference.where,
-        f"lidar {sensor.name.value!r} {difference.said}, "
+        f"lidar {sensor.name.value!r} {difference.stated}, "
         f"expected {difference.expected} ({device.name})",
         severity=Severity.INFO if device.is_from_memory(difference.figure) else None,
-        key=f"{device.id} {difference.said}",
-        related=[(named.said, "names the device")],
+        key=f"{device.id} {difference.stated}",
+        related=[(named.words, "names the device")],
     )
 
 
@@ -162,8 +162,10 @@ def _by_shape(
     sensor: Sensor, lidar: Lidar, known: KnownDevices, tolerance: float, angle: float
 ) -> Iterator[Finding]:
     """Compare the range of a lidar without a named device with that of devices of its shape."""
-    alike = [each for each in devices_of_shape(lidar, known, angle) if "range_max" in each.values]
-    ranges = sorted({float(each.values["range_max"]) for each in alike})
+    alike = [
+        device for device in devices_of_shape(lidar, known, angle) if "range_max" in device.values
+    ]
+    ranges = sorted({float(device.values["range_max"]) for device in alike})
     reach = lidar.range_max
     if reach.stated and not _near(reach.value, ranges, tolerance):
         yield finding(

@@ -49,48 +49,56 @@ def check(robot: Robot, *, tolerance: float = 0.01, centre_tolerance: float = 1.
             continue
         if sensor.kind is SensorType.WIDE_ANGLE_CAMERA or camera.pinhole is None:
             continue
-        given, picture = camera.intrinsics, camera.pinhole
-        lengths = list(_wrong_lengths(given, picture, tolerance))
-        others = list(_wrong_centre(given, picture, centre_tolerance))
+        intrinsics, picture = camera.intrinsics, camera.pinhole
+        lengths = list(_wrong_lengths(intrinsics, picture, tolerance))
+        others = list(_wrong_centre(intrinsics, picture, centre_tolerance))
         wrong = [*lengths, *others]
         if not wrong:
             continue
-        said = ", ".join(f"{each.tag} = {each.value.value:.6g}" for each in wrong)
-        expected = ", ".join(f"{each.tag} = {each.expected:.6g}" for each in wrong)
-        calibrated = given.are_measured and not lengths
+        stated = ", ".join(f"{entry.tag} = {entry.value.value:.6g}" for entry in wrong)
+        expected = ", ".join(f"{entry.tag} = {entry.expected:.6g}" for entry in wrong)
+        calibrated = intrinsics.are_measured and not lengths
         yield finding(
-            given,
-            f"camera {sensor.name.value!r} has the intrinsics {said}, but an image of "
+            intrinsics,
+            f"camera {sensor.name.value!r} has the intrinsics {stated}, but an image of "
             f"{camera.width.value:g} × {camera.height.value:g} px with a field of view of "
             f"{camera.horizontal_fov.value:g} rad has {expected} px",
             severity=Severity.INFO if calibrated else None,
-            key="calibrated" if calibrated else f"{said}; {expected}",
-            fix=_fix(given, wrong),
+            key="calibrated" if calibrated else f"{stated}; {expected}",
+            fix=_fix(intrinsics, wrong),
         )
 
 
-def _wrong_lengths(given: Intrinsics, picture: Pinhole, tolerance: float) -> Iterator[_Wrong]:
-    for tag, value, expected in (("fx", given.fx, picture.fx), ("fy", given.fy, picture.fy)):
+def _wrong_lengths(intrinsics: Intrinsics, picture: Pinhole, tolerance: float) -> Iterator[_Wrong]:
+    for tag, value, expected in (
+        ("fx", intrinsics.fx, picture.fx),
+        ("fy", intrinsics.fy, picture.fy),
+    ):
         if not math.isclose(value.value, expected, rel_tol=tolerance):
             yield _Wrong(tag, value, expected)
 
 
-def _wrong_centre(given: Intrinsics, picture: Pinhole, tolerance: float) -> Iterator[_Wrong]:
+def _wrong_centre(intrinsics: Intrinsics, picture: Pinhole, tolerance: float) -> Iterator[_Wrong]:
     """Yield wrong centres; a centre may include half a pixel and count from 0 or 1."""
-    for tag, value, expected in (("cx", given.cx, picture.cx), ("cy", given.cy, picture.cy)):
+    for tag, value, expected in (
+        ("cx", intrinsics.cx, picture.cx),
+        ("cy", intrinsics.cy, picture.cy),
+    ):
         if not abs(value.value - (expected + 0.5)) <= tolerance:
             yield _Wrong(tag, value, expected)
-    if given.skew.value != 0.0:
-        yield _Wrong("s", given.skew, 0.0)
+    if intrinsics.skew.value != 0.0:
+        yield _Wrong("s", intrinsics.skew, 0.0)
 
 
-def _fix(given: Intrinsics, wrong: Sequence[_Wrong]) -> Fix:
+def _fix(intrinsics: Intrinsics, wrong: Sequence[_Wrong]) -> Fix:
     edits = [
-        each.value.span.replaced_by(f"{each.expected:.6g}") for each in wrong if each.value.stated
+        entry.value.span.replaced_by(f"{entry.expected:.6g}")
+        for entry in wrong
+        if entry.value.stated
     ]
     missing = [f"<{w.tag}>{w.expected:.6g}</{w.tag}>" for w in wrong if not w.value.stated]
     if missing:
-        edits.append(append_to(given.element, missing))
+        edits.append(append_to(intrinsics.element, missing))
     return Fix(Safety.UNSAFE, tuple(edits))
 
 

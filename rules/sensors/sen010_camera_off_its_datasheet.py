@@ -83,10 +83,10 @@ def check(
             ]
             for gap in gaps:
                 explained = devices.are_diverted(known.device, gap.words)
-                yield _said(sensor, known, gap, explained)
+                yield _finding(sensor, known, gap, explained)
 
 
-def _said(sensor: Sensor, known: SensorDevice, gap: _Gap, explained: bool) -> Finding:
+def _finding(sensor: Sensor, known: SensorDevice, gap: _Gap, explained: bool) -> Finding:
     device = known.device
     slight = explained or device.is_from_memory(gap.field)
     return finding(
@@ -94,7 +94,7 @@ def _said(sensor: Sensor, known: SensorDevice, gap: _Gap, explained: bool) -> Fi
         f"camera {sensor.name.value!r} has {gap.has}, but {device.name} has {gap.expected}",
         severity=Severity.INFO if slight else None,
         key=f"{device.id} {gap.has}",
-        related=[(known.said, "names the device")],
+        related=[(known.words, "names the device")],
     )
 
 
@@ -105,8 +105,8 @@ def _size(camera: Camera) -> str:
 def _size_gap(camera: Camera, device: Device) -> Iterator[_Gap]:
     """Yield the size if the device does not have it; a camera may be mounted on its side."""
     sizes = [tuple(size) for size in device.values.get("image_sizes", ())]
-    given = (camera.width.value, camera.height.value)
-    if sizes and given not in sizes and given[::-1] not in sizes:
+    stated = (camera.width.value, camera.height.value)
+    if sizes and stated not in sizes and stated[::-1] not in sizes:
         expected = " or ".join(f"{width:g} × {height:g}" for width, height in sizes)
         yield _Gap(camera.width, "image_sizes", _SIZE, _size(camera), f"{expected} px")
 
@@ -133,11 +133,11 @@ def _view_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap
     if not angles or values.get("fisheye"):
         return
     accepted = [*angles, *values.get("hfov_rad_seen", ())]
-    if not any(math.isclose(view.value, each, rel_tol=tolerance) for each in accepted):
+    if not any(math.isclose(view.value, width, rel_tol=tolerance) for width in accepted):
         expected = " or ".join(dict.fromkeys(f"{angle:.4g}" for angle in sorted(angles)))
-        said = f"a horizontal_fov of {view.value:.4g} rad"
-        said = said if view.stated else f"no <horizontal_fov> (default {view.value:.4g} rad)"
-        yield _Gap(view, fields[0], _VIEW, said, f"{expected} rad")
+        stated = f"a horizontal_fov of {view.value:.4g} rad"
+        stated = stated if view.stated else f"no <horizontal_fov> (default {view.value:.4g} rad)"
+        yield _Gap(view, fields[0], _VIEW, stated, f"{expected} rad")
 
 
 def _model(width: int, height: int, rate: float = 25, fov: float = 1.658, mark: int = 0) -> str:

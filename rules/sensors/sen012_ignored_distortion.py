@@ -27,10 +27,10 @@ def check(robot: Robot, context: Context, *, releases: tuple[str, ...] = ("dome"
             continue
         bent = {name: k for name, k in sensor.camera.distortion.items() if k.value != 0.0}
         if bent:
-            said = ", ".join(f"{name} = {k.value:g}" for name, k in bent.items())
+            figures = ", ".join(f"{name} = {k.value:g}" for name, k in bent.items())
             yield finding(
                 next(iter(bent.values())),
-                f"camera {sensor.name.value!r} has distortion {said}, which Gazebo "
+                f"camera {sensor.name.value!r} has distortion {figures}, which Gazebo "
                 f"{context.release.capitalize()} publishes but does not render; expected 0",
                 key="distortion",
             )

@@ -66,15 +66,15 @@ def _differing(
     sensor: Sensor, imu: Imu, quantity: str, standard: _Figures, tolerance: float
 ) -> Iterator[Finding]:
     """Yield the differences; axes with the same difference are one finding."""
-    said: dict[str, str] = {}
+    differences: dict[str, str] = {}
     for axis in "xyz":
         noise = imu.noises.get((quantity, axis))
-        said[axis] = _said(noise, standard, tolerance)
-    for axis, difference in said.items():
+        differences[axis] = _difference(noise, standard, tolerance)
+    for axis, difference in differences.items():
         if not difference:
             continue
         noise = imu.noises.get((quantity, axis))
-        axes = ", ".join(each for each in "xyz" if said[each] == difference)
+        axes = ", ".join(letter for letter in "xyz" if differences[letter] == difference)
         yield finding(
             noise or imu,
             f"IMU {sensor.name.value!r} has {quantity} ({_UNITS[quantity]}) on {axes} with "
@@ -84,14 +84,14 @@ def _differing(
         )
 
 
-def _said(noise: Noise | None, standard: _Figures, tolerance: float) -> str:
+def _difference(noise: Noise | None, standard: _Figures, tolerance: float) -> str:
     """Return how noise differs from the standard; empty if it does not."""
     if noise is None:
         return "no noise, expected the SubT standard"
     if noise.type.value not in _GAUSSIAN:
         return f"noise of type {noise.type.value!r}, expected 'gaussian'"
-    given, wrong = noise.figures, _wrong(noise, standard, tolerance)
-    return ", ".join(f"{tag} {given[tag].value:g} (expected {wrong[tag]:g})" for tag in wrong)
+    figures, wrong = noise.figures, _wrong(noise, standard, tolerance)
+    return ", ".join(f"{tag} {figures[tag].value:g} (expected {wrong[tag]:g})" for tag in wrong)
 
 
 def _wrong(noise: Noise, standard: _Figures, tolerance: float) -> _Figures:

@@ -54,7 +54,7 @@ def _fix(sensor: Sensor) -> Fix:
         edit = within.text.span.replaced_by("0")
     else:
         edit = within.whole_span.replaced_by(_OFF)
-    misplaced = (removal(each) for each in sensor.element.all("enable_orientation"))
+    misplaced = (removal(element) for element in sensor.element.all("enable_orientation"))
     return Fix(Safety.SAFE, (edit, *misplaced))
 
 

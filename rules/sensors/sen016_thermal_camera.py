@@ -40,7 +40,9 @@ def check(robot: Robot, context: Context, *, tolerance: float = 0.01) -> Finding
         if sensor.kind is not SensorType.THERMAL_CAMERA:
             continue
         yield from _format(sensor)
-        plugin = next((each for each in sensor.plugins if each.class_name == _CLASS), None)
+        plugin = next(
+            (candidate for candidate in sensor.plugins if candidate.class_name == _CLASS), None
+        )
         if plugin is None:
             yield finding(
                 sensor,
@@ -55,11 +57,11 @@ def check(robot: Robot, context: Context, *, tolerance: float = 0.01) -> Finding
 def _format(sensor: Sensor) -> Iterator[Finding]:
     camera = sensor.camera
     if camera is not None and camera.format.value not in _EIGHT_BITS:
-        said = f"format {camera.format.value!r}" if camera.format.stated else "no <format>"
+        stated = f"format {camera.format.value!r}" if camera.format.stated else "no <format>"
         yield finding(
             camera.format,
-            f"thermal camera {sensor.name.value!r} has {said}, expected 'L8'",
-            key=said,
+            f"thermal camera {sensor.name.value!r} has {stated}, expected 'L8'",
+            key=stated,
         )
 
 
@@ -68,17 +70,17 @@ def _figures(
 ) -> Iterator[Finding]:
     for tag, unit in _UNITS.items():
         expected = standard[tag]
-        given = plugin.number(tag)
-        if given is None:
-            said = f"no {tag}"
-        elif math.isclose(given.value, expected, rel_tol=tolerance):
+        value = plugin.number(tag)
+        if value is None:
+            stated = f"no {tag}"
+        elif math.isclose(value.value, expected, rel_tol=tolerance):
             continue
         else:
-            said = f"{tag} {given.value:g}{unit}"
+            stated = f"{tag} {value.value:g}{unit}"
         yield finding(
-            given or plugin,
-            f"thermal camera {sensor.name.value!r} has {said}, expected {expected:g}{unit}",
-            key=said,
+            value or plugin,
+            f"thermal camera {sensor.name.value!r} has {stated}, expected {expected:g}{unit}",
+            key=stated,
         )
 
 

@@ -42,19 +42,19 @@ def check(robot: Robot, *, sizes: float = 0.5) -> Findings:
         # A mesh that is missing will stand there again once its path is mended.
         yield unchecked(f"the size of {unknown.uri.value} is not known")
         return
-    for each, gap in far:
+    for mounted, gap in far:
         yield finding(
-            each.sensor.pose,
-            f"sensor {each.sensor.name.value!r} is {gap:.3g} m outside the robot, whose box is "
+            mounted.sensor.pose,
+            f"sensor {mounted.sensor.name.value!r} is {gap:.3g} m outside the robot, whose box is "
             f"{box.diagonal:.3g} m from corner to corner; expected at or in the robot",
         )
 
 
 def _box_around(robot: Robot, *, meshes_too: bool) -> Box | None:
     return union(
-        each.box
+        piece.box
         for link in robot.links
-        for each in placed(robot, link, _shapes(link, meshes_too=meshes_too))
+        for piece in placed(robot, link, _shapes(link, meshes_too=meshes_too))
     )
 
 
@@ -69,7 +69,7 @@ def _far(sensors: list[Mounted], box: Box, sizes: float) -> list[tuple[Mounted, 
         (sensor, box.gap(Box(sensor.pose.translation, sensor.pose.translation)))
         for sensor in sensors
     )
-    return [(each, gap) for each, gap in gaps if gap > sizes * box.diagonal]
+    return [(mounted, gap) for mounted, gap in gaps if gap > sizes * box.diagonal]
 
 
 def _robot(pose: str, visual: str = "<box><size>0.6 0.4 0.2</size></box>") -> str:

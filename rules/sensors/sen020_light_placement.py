@@ -61,7 +61,7 @@ def check(
             related=[(light, "another light") for _, light in lights[most + 1 :]],
         )
     yield from _without_range(light for _, light in lights)
-    visuals = [each for link in robot.links for each in placed(robot, link, link.visuals)]
+    visuals = [piece for link in robot.links for piece in placed(robot, link, link.visuals)]
     for link, light in islice(lights, _PLACED):
         pose = robot.pose_of_part(link, light.pose)
         if pose is None or light.type == "directional":
@@ -105,7 +105,7 @@ def _is_inside(robot: Robot, visual: Placed, place: Vector, limit: float) -> boo
 
 
 def _inside(light: Light, visual: Placed, limit: float) -> Finding:
-    said = (
+    position = (
         "which blocks its light, because it casts shadows"
         if light.casts_shadows
         else "where nobody sees it"
@@ -113,7 +113,7 @@ def _inside(light: Light, visual: Placed, limit: float) -> Finding:
     return finding(
         light,
         f"light {light.name.value!r} is more than {limit:g} m inside visual "
-        f"{visual.shape.name.value!r}, {said}; expected it in front of its lamp",
+        f"{visual.shape.name.value!r}, {position}; expected it in front of its lamp",
         related=[(visual.shape, "the visual around it")],
     )
 

@@ -39,7 +39,9 @@ def check(robot: Robot, *, distance: float = 0.02, angle: float = 0.05) -> Findi
     colours = [sensor for sensor in sensors if _sees_colours(sensor)]
     depths = [sensor for sensor in sensors if sensor.sensor.kind.measures_depth]
     for colour in colours[:_COMPARED]:
-        beside = (each for each in depths[:_COMPARED] if _together(colour, each, distance, angle))
+        beside = (
+            depth for depth in depths[:_COMPARED] if _together(colour, depth, distance, angle)
+        )
         depth = next(beside, None)
         if depth is None:
             continue

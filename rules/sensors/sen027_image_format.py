@@ -31,22 +31,22 @@ def check(robot: Robot, context: Context) -> Findings:
         camera = sensor.camera
         if camera is None or not sensor.kind.takes_pictures or not camera.format.stated:
             continue
-        given = camera.format.value
-        if given not in names:
-            fault = f", which SDFormat does not know{suggestions.hint(given)}"
-        elif sensor.kind is SensorType.CAMERA and names[given] not in rendered:
+        format_name = camera.format.value
+        if format_name not in names:
+            fault = f", which SDFormat does not know{suggestions.hint(format_name)}"
+        elif sensor.kind is SensorType.CAMERA and names[format_name] not in rendered:
             release = f"Gazebo {context.release.capitalize()}"
             fault = f"; cameras of {release} support {_listed(rendered, names)}"
         else:
             continue
-        said = f"camera {sensor.name.value!r} has format {given[:_SHOWN]!r}{fault}"
-        yield finding(camera.format, said, key=given)
+        message = f"camera {sensor.name.value!r} has format {format_name[:_SHOWN]!r}{fault}"
+        yield finding(camera.format, message, key=format_name)
 
 
 def _listed(formats: Sequence[str], names: Mapping[str, str]) -> str:
     """Return the formats by the names that people write: `R8G8B8` for `RGB_INT8`."""
     usual = {meant: name for name, meant in reversed(list(names.items()))}
-    return ", ".join(usual[each] for each in formats)
+    return ", ".join(usual[key] for key in formats)
 
 
 def _camera(format_: str, kind: str = "camera") -> str:

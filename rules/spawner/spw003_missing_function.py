@@ -36,12 +36,12 @@ def check(spawner: Spawner) -> Findings:
 
 
 def _judge(function: Function, expected: list[str]) -> Iterator[Finding]:
-    takes, given = function.most, len(expected)
-    call = f"the launcher calls {function.name!r} with {given} arguments"
-    if takes is not None and takes < given:
+    takes, passed = function.most, len(expected)
+    call = f"the launcher calls {function.name!r} with {passed} arguments"
+    if takes is not None and takes < passed:
         missing = ", ".join(expected[takes:])
         yield finding(function, f"{call}, but it takes {takes}: {missing} is missing")
-    elif function.required > given:
+    elif function.required > passed:
         yield finding(
             function, f"{call}, but it requires {function.required}: the last ones need defaults"
         )

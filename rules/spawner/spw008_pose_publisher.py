@@ -59,8 +59,8 @@ def _true_pose(publishers: Sequence[Plugin], spawned: SpawnedXml) -> Iterator[Fi
     for plugin in publishers:
         for element in plugin.element.all(TRUE_POSE):
             emitted = element.document is spawned.document
-            asked = emitted and GROUND_TRUTH in spawned.parameters_of(element.text_span)
-            if not asked and element.text.value.lower() in _YES:
+            wanted = emitted and GROUND_TRUTH in spawned.parameters_of(element.text_span)
+            if not wanted and element.text.value.lower() in _YES:
                 yield finding(
                     element,
                     f"<{TRUE_POSE}> is always {element.text.value}, expected the value of "

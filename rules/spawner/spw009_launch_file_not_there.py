@@ -77,7 +77,7 @@ def _is_meant(package: Package, name: str) -> bool:
     declared = (
         reference for reference in package.references if reference.kind is ReferenceKind.DEPENDENCY
     )
-    return name in (each.package_name for each in declared)
+    return name in (item.package_name for item in declared)
 
 
 def _spawner(first: str, second: str = "", mark: str = "") -> str:

@@ -71,7 +71,7 @@ def _unused(method: RubyNode, assigned: list[RubyNode], read: set[str]) -> Itera
     last = method.fields["body"].parts[-1:] if "body" in method.fields else []
     for node in assigned:
         name = _target(node)
-        returned = any(each.start <= node.start < each.end for each in last)
+        returned = any(block.start <= node.start < block.end for block in last)
         if name not in read and not name.startswith("_") and not returned:
             yield finding(node, f"variable {name!r} is never used", key=f"unused {name}")
 

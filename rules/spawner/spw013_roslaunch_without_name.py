@@ -35,10 +35,10 @@ def check(spawner: Spawner, started: StartedXml) -> Findings:
         for (argument, usual, severity), sample, wanted in zip_longest(
             ARGUMENTS, EXECUTABLES_ARGUMENTS, parameters[: len(ARGUMENTS)]
         ):
-            given = command.arguments.get(argument)
-            if given is not None and str(sample) in given:
+            value = command.arguments.get(argument)
+            if value is not None and str(sample) in value:
                 continue
-            had = "has no" if given is None else f"has {argument}:={given}, expected"
+            had = "has no" if value is None else f"has {argument}:={value}, expected"
             yield finding(
                 element.text,
                 f"{what} {had} {argument}:=#{{{wanted or usual}}}",

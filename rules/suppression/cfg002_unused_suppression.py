@@ -17,9 +17,9 @@ from checker.rulebook.suppression.parts import Suppressions, UnusedEntries
 @rule("CFG002", "unused-suppression", Severity.WARNING, Concern.PAPERWORK)
 def check(suppressions: Suppressions) -> Findings:
     """Report comments and entries of the settings without a finding."""
-    for each in suppressions.unused:
-        message = f"ignore[{each.rule}] is unused: {each.rule} has no finding on its line"
-        yield finding(each.comment.place, message)
+    for entry in suppressions.unused:
+        message = f"ignore[{entry.rule}] is unused: {entry.rule} has no finding on its line"
+        yield finding(entry.comment.place, message)
     yield from _entries(suppressions.unused_entries)
 
 

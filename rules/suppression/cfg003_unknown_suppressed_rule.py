@@ -19,10 +19,10 @@ _NAMED = 5
 @rule("CFG003", "unknown-suppressed-rule", Severity.WARNING, Concern.PAPERWORK)
 def check(suppressions: Suppressions) -> Findings:
     """Report comments with words that are not rules, or without any."""
-    names = dict.fromkeys(f"{each.name!r}{each.hint}" for each in suppressions.unknown)
+    names = dict.fromkeys(f"{entry.name!r}{entry.hint}" for entry in suppressions.unknown)
     more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
     message = f"there is no rule {', nor '.join(islice(names, _NAMED))}{more}"
-    for comment in dict.fromkeys(each.comment for each in suppressions.unknown):
+    for comment in dict.fromkeys(entry.comment for entry in suppressions.unknown):
         yield finding(comment.place, message, key="unknown names")
     for comment in suppressions.comments:
         if comment.fault:

@@ -17,12 +17,12 @@ from checker.rulebook.suppression.parts import BaselineUse
 @rule("CFG004", "stale-baseline-entry", Severity.INFO, Concern.PAPERWORK)
 def check(baseline: BaselineUse) -> Findings:
     """Report entries without a finding, one finding per rule."""
-    for each in baseline.stale:
-        if each.known:
-            said = f"findings of {each.rules[0]} that no longer occur: {_some(each.messages)}"
+    for entry in baseline.stale:
+        if entry.known:
+            phrase = f"findings of {entry.rules[0]} that no longer occur: {_some(entry.messages)}"
         else:
-            said = f"findings of rules that do not exist: {_some(each.rules)}"
-        yield finding(Place(""), f"{each.file} contains {said}")
+            phrase = f"findings of rules that do not exist: {_some(entry.rules)}"
+        yield finding(Place(""), f"{entry.file} contains {phrase}")
 
 
 def _some(texts: Sequence[str]) -> str:

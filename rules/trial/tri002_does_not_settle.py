@@ -51,12 +51,13 @@ def check(
         "settle_speed": settle_speed_above,
         "rest_penetration": rest_penetration_above,
     }
-    said = dict(_symptoms(driven.trial, limits))
-    if said:
+    symptoms = dict(_symptoms(driven.trial, limits))
+    if symptoms:
         yield finding(
             driven.robot,
-            f"without a command, from 10 mm above the ground, the robot {', '.join(said.values())}",
-            key=" ".join(said),
+            f"without a command, from 10 mm above the ground, the robot "
+            f"{', '.join(symptoms.values())}",
+            key=" ".join(symptoms),
         )
 
 
@@ -66,12 +67,12 @@ def _symptoms(trial: Trial, limits: dict[str, float]) -> Iterator[tuple[str, str
         if value is None or value <= limit:
             continue
         if name == "settle_tilt":
-            said = f"tilts by {math.degrees(value):.0f}° (at most {math.degrees(limit):.0f}°)"
+            symptom = f"tilts by {math.degrees(value):.0f}° (at most {math.degrees(limit):.0f}°)"
         elif name == "settle_speed":
-            said = f"still moves at {value:.2g} m/s (at most {limit:g} m/s)"
+            symptom = f"still moves at {value:.2g} m/s (at most {limit:g} m/s)"
         else:
-            said = f"{_VERBS[name]} {value:.3g} m (at most {limit:g} m)"
-        yield name, said
+            symptom = f"{_VERBS[name]} {value:.3g} m (at most {limit:g} m)"
+        yield name, symptom
 
 
 _VERBS = {

@@ -40,24 +40,24 @@ def check(
     sideways = abs(driven.trial.value("path_sideways") or 0.0)
     if speed is None or abs(speed) < moved:
         sideways = 0.0
-    said = {}
+    symptoms = {}
     if sideways > path_sideways_warning:
-        said["path_sideways"] = (
+        symptoms["path_sideways"] = (
             f"moves {sideways:.2g} m sideways for each metre forward, "
             f"expected at most {path_sideways_warning:g} m"
         )
     if heading > path_heading_warning:
-        said["path_heading"] = (
+        symptoms["path_heading"] = (
             f"turns by {math.degrees(heading):.1f}° on the straight drive, expected at most "
             f"{math.degrees(path_heading_warning):.0f}°"
         )
-    if said:
+    if symptoms:
         grave = sideways > path_sideways_error or heading > path_heading_error
         yield finding(
             driven.drive,
-            f"commanded to drive straight, the robot {'; it '.join(said.values())}",
+            f"commanded to drive straight, the robot {'; it '.join(symptoms.values())}",
             severity=Severity.ERROR if grave else Severity.WARNING,
-            key=" ".join(said),
+            key=" ".join(symptoms),
         )
 
 

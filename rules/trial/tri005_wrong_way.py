@@ -19,21 +19,21 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 @rule("TRI005", "moves-the-wrong-way", Severity.ERROR, Concern.ROBOT)
 def check(driven: RobotTrial) -> Findings:
     """Report motion against the command."""
-    said = {}
+    symptoms = {}
     if driven.drives_backwards:
         ratio, leg = driven.trial.value("speed_ratio") or 0.0, driven.leg("drive")
-        told = f" at {leg.linear:.3g} m/s" if leg else ""
-        said["speed_ratio"] = (
-            f"commanded to drive forward{told}, the robot drives backward ({ratio:.0%})"
+        speed = f" at {leg.linear:.3g} m/s" if leg else ""
+        symptoms["speed_ratio"] = (
+            f"commanded to drive forward{speed}, the robot drives backward ({ratio:.0%})"
         )
     if driven.turns_backwards:
         ratio = driven.trial.value("yaw_ratio") or 0.0
-        said["yaw_rate"] = f"commanded to turn left, the robot turns right ({ratio:.0%})"
-    if said:
+        symptoms["yaw_rate"] = f"commanded to turn left, the robot turns right ({ratio:.0%})"
+    if symptoms:
         yield finding(
             driven.drive,
-            "; ".join(said.values()) + _CAUSES[driven.drives_backwards, driven.turns_backwards],
-            key=" ".join(said),
+            "; ".join(symptoms.values()) + _CAUSES[driven.drives_backwards, driven.turns_backwards],
+            key=" ".join(symptoms),
             related=_suspects(driven),
         )
 

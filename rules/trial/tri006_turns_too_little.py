@@ -29,11 +29,11 @@ def check(
     rate, ratio = trial.value("yaw_rate"), trial.value("yaw_ratio")
     if rate is None or ratio is None or driven.turns_backwards:
         return
-    told = f"commanded to turn at {rate / ratio:.3g} rad/s" if ratio else "told to turn"
+    command = f"commanded to turn at {rate / ratio:.3g} rad/s" if ratio else "told to turn"
     if ratio < error_below_command:
         yield finding(
             driven.drive,
-            f"{told}, the robot hardly moves: {round(rate, 3) + 0.0:g} rad/s",
+            f"{command}, the robot hardly moves: {round(rate, 3) + 0.0:g} rad/s",
             severity=Severity.ERROR,
             key="yaw_of_predicted",
         )
@@ -42,8 +42,8 @@ def check(
     if share is not None and predicted is not None and share < warning_below:
         yield finding(
             driven.drive,
-            f"{told}, the robot turns at {rate:.2g} rad/s, but the places and loads of its wheels "
-            f"predict {predicted:.2g} rad/s",
+            f"{command}, the robot turns at {rate:.2g} rad/s, but the places and loads of its "
+            f"wheels predict {predicted:.2g} rad/s",
             key="yaw_of_predicted",
         )
 

@@ -20,7 +20,7 @@ def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
         warning_above: Multiple of a joint's effort limit; a joint that needs more torque or force
             is reported.
     """
-    limits = {each.part: each.value for each in driven.trial.all("torque_limit")}
+    limits = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
     for torque in driven.trial.all("torque"):
         limit = limits.get(torque.part)
         if limit is not None and abs(torque.value) > warning_above * limit:

@@ -36,23 +36,29 @@ def check(
         climbed_below: Share of the commanded climb of 1 m; less is an error.
     """
     value = driven.trial.value
-    said = {}
+    symptoms = {}
     if (effort := value("hover_effort")) is not None and effort > hover_effort_above:
-        said["hover_effort"] = f"needs {effort:.0%} of the thrust of its most loaded rotor to hover"
+        symptoms["hover_effort"] = (
+            f"needs {effort:.0%} of the thrust of its most loaded rotor to hover"
+        )
     if (sink := value("hover_sink")) is not None and sink > hover_sink_above:
-        said["hover_sink"] = f"sinks by {sink:.2g} m in hover (at most {hover_sink_above:g} m)"
+        symptoms["hover_sink"] = f"sinks by {sink:.2g} m in hover (at most {hover_sink_above:g} m)"
     if (tilt := value("hover_tilt")) is not None and tilt > hover_tilt_above:
         limit = math.degrees(hover_tilt_above)
-        said["hover_tilt"] = f"tilts by {math.degrees(tilt):.0f}° in hover (at most {limit:.0f}°)"
+        symptoms["hover_tilt"] = (
+            f"tilts by {math.degrees(tilt):.0f}° in hover (at most {limit:.0f}°)"
+        )
     if (climbed := value("climbed")) is not None and climbed < climbed_below:
-        said["climbed"] = (
+        symptoms["climbed"] = (
             f"climbs {climbed:.0%} of the commanded height (at least {climbed_below:.0%})"
         )
-    if said:
+    if symptoms:
         ratio = value("thrust_to_weight")
         strength = f"; all rotors together lift {ratio:.2f} times its weight" if ratio else ""
         yield finding(
-            driven.drive, f"the robot {', '.join(said.values())}{strength}", key=" ".join(said)
+            driven.drive,
+            f"the robot {', '.join(symptoms.values())}{strength}",
+            key=" ".join(symptoms),
         )
 
 

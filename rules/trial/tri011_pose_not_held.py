@@ -40,19 +40,19 @@ def check(
                 "robot holds its pose",
                 key="hold_sag",
             )
-    said = {}
+    symptoms = {}
     sink, tilt = driven.trial.value("hold_sink"), driven.trial.value("hold_tilt")
     if sink is not None and sink > hold_sink_above:
-        said["hold_sink"] = f"sinks by {sink:.2g} m (at most {hold_sink_above:g} m)"
+        symptoms["hold_sink"] = f"sinks by {sink:.2g} m (at most {hold_sink_above:g} m)"
     if tilt is not None and tilt > hold_tilt_above:
         limit = math.degrees(hold_tilt_above)
-        said["hold_tilt"] = f"tilts by {math.degrees(tilt):.0f}° (at most {limit:.0f}°)"
-    if said:
+        symptoms["hold_tilt"] = f"tilts by {math.degrees(tilt):.0f}° (at most {limit:.0f}°)"
+    if symptoms:
         yield finding(
             driven.robot,
             "with its joints held in their initial position, the robot "
-            f"{' and '.join(said.values())}",
-            key=" ".join(said),
+            f"{' and '.join(symptoms.values())}",
+            key=" ".join(symptoms),
         )
 
 

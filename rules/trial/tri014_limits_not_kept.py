@@ -26,20 +26,22 @@ def check(
             over 0.2 s, is reported.
     """
     value = driven.trial.value
-    said = {}
+    symptoms = {}
     speed, limit = value("full_speed"), value("full_speed_limit")
     if speed is not None and limit and abs(speed) > full_speed_above * limit:
-        said["full_speed"] = (
+        symptoms["full_speed"] = (
             f"the robot drives at {abs(speed):.3g} m/s, but its limit is {limit:g} m/s"
         )
     gain, most = value("full_acceleration"), value("full_acceleration_limit")
     if gain is not None and most and abs(gain) > full_acceleration_above * most:
-        said["full_acceleration"] = (
+        symptoms["full_acceleration"] = (
             f"the robot accelerates at {abs(gain):.3g} m/s², but its limit is {most:g} m/s²"
         )
-    if said:
+    if symptoms:
         yield finding(
-            driven.drive, f"at full command {' and '.join(said.values())}", key=" ".join(said)
+            driven.drive,
+            f"at full command {' and '.join(symptoms.values())}",
+            key=" ".join(symptoms),
         )
 
 

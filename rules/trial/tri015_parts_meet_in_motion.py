@@ -23,14 +23,14 @@ def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
         yield unchecked(
             f"{unswept:g} joints with too many shapes were not moved through their range"
         )
-    for each in driven.trial.all("sweep_overlap"):
-        if each.value > warning_above:
+    for overlap in driven.trial.all("sweep_overlap"):
+        if overlap.value > warning_above:
             yield finding(
-                driven.part(each.part),
-                f"{each.part!r} enters {each.other!r} by {each.value * 1000:.0f} mm when their "
-                "joints move through their ranges",
+                driven.part(overlap.part),
+                f"{overlap.part!r} enters {overlap.other!r} by {overlap.value * 1000:.0f} mm when "
+                "their joints move through their ranges",
                 key="sweep_overlap",
-                related=[(driven.part(each.other), f"{each.other!r}")],
+                related=[(driven.part(overlap.other), f"{overlap.other!r}")],
             )
 
 

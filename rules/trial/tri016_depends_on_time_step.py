@@ -38,20 +38,20 @@ def check(driven: RepeatedTrial, *, factor: float = 1.0) -> Findings:
         factor: Multiple of the allowed change of each figure at half the time step, such as 0.02 m
             of drop or 0.05 rad of tilt; more is reported.
     """
-    said = []
+    symptoms = []
     for name, matters in _MATTERS.items():
         once, again = driven.trial.value(name), driven.again.value(name)
         if once is not None and again is not None and abs(once - again) > factor * matters:
             measure = MEASURES[name]
             unit = f" {measure.unit}" if measure.unit else ""
-            said.append(
+            symptoms.append(
                 f"{measure.label} changes from {round(once, 3):g}{unit} to "
                 f"{round(again, 3):g}{unit}"
             )
     if driven.trial.trouble != driven.again.trouble:
-        said.append("the solver fails at only one of the two time steps")
-    if said:
-        yield finding(driven.robot, f"at half the time step: {'; '.join(said)}", key="again")
+        symptoms.append("the solver fails at only one of the two time steps")
+    if symptoms:
+        yield finding(driven.robot, f"at half the time step: {'; '.join(symptoms)}", key="again")
 
 
 def _sprung(stiffness: float, reference: float, mark: str = "") -> dict[str, object]:

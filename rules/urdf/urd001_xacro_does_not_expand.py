@@ -46,8 +46,8 @@ def _refused(fault: XacroFault) -> Finding:
         return finding(fault, f"{fault.file} is empty, expected a robot")
     hint = f": {fault.hint}" if fault.hint else ""
     severity = Severity.WARNING if fault.kind is XacroFaultKind.ENVIRONMENT else None
-    said = f"{fault.file} does not expand: {fault.message}{hint}"
-    return finding(fault, said, severity=severity)
+    message = f"{fault.file} does not expand: {fault.message}{hint}"
+    return finding(fault, message, severity=severity)
 
 
 def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
@@ -67,17 +67,17 @@ def _left_behind(description: UrdfDescription) -> Iterator[Finding]:
 
 def _unexpanded(element: Element) -> Iterator[Finding]:
     for name, value in element.attributes.items():
-        if found := _EXPRESSION.search(value):
+        if match := _EXPRESSION.search(value):
             yield finding(
                 element.attribute(name) or element,
-                f"{found.group()} is not expanded: the file is loaded without xacro",
+                f"{match.group()} is not expanded: the file is loaded without xacro",
                 key="without xacro",
             )
-        elif found := _BRACES.search(value):
+        elif match := _BRACES.search(value):
             yield finding(
                 element.attribute(name) or element,
-                f"{name} is {value[:80]!r}; did you mean ${{{found[1]}}}?",
-                key=found.group(),
+                f"{name} is {value[:80]!r}; did you mean ${{{match[1]}}}?",
+                key=match.group(),
             )
 
 

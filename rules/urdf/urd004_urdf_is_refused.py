@@ -40,8 +40,8 @@ def check(description: UrdfDescription) -> Findings:
 def _type_and_limit(joint: Joint) -> Iterator[Finding]:
     name, kind = joint.name.value, joint.type.value
     if kind not in TYPES:
-        said = f"has the type {kind!r}" if kind else "has no type"
-        yield finding(joint.type, f"joint {name!r} {said}, expected one of {', '.join(TYPES)}")
+        phrase = f"has the type {kind!r}" if kind else "has no type"
+        yield finding(joint.type, f"joint {name!r} {phrase}, expected one of {', '.join(TYPES)}")
     if kind not in LIMITED:
         return
     limit = joint.element.child("limit")
@@ -49,7 +49,7 @@ def _type_and_limit(joint: Joint) -> Iterator[Finding]:
         message = f"{kind} joint {name!r} has no <limit>, expected one with effort and velocity"
         yield finding(joint, message)
         return
-    missing = [each for each in ("effort", "velocity") if limit.get(each) is None]
+    missing = [name for name in ("effort", "velocity") if limit.get(name) is None]
     if missing:
         yield finding(limit.span, f"<limit> of joint {name!r} has no {' and no '.join(missing)}")
 
@@ -74,11 +74,11 @@ def _ends(robot: Robot) -> Iterator[Finding]:
     for joint in robot.joints:
         for role, end in (("parent", joint.parent), ("child", joint.child)):
             if end.value not in robot.links_by_name:
-                said = (
+                phrase = (
                     f"the {role} {end.value!r}, which is not a link" if end.value else f"no {role}"
                 )
                 hint = names.hint(end.value)
-                yield finding(end, f"joint {joint.name.value!r} has {said}{hint}")
+                yield finding(end, f"joint {joint.name.value!r} has {phrase}{hint}")
 
 
 def _tree(robot: Robot) -> Iterator[Finding]:

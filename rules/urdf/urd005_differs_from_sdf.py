@@ -86,15 +86,15 @@ def _plain(name: str) -> str:
 def _lacking(simulated: _Bodies, shown: _Bodies, description: UrdfDescription) -> Iterator[Finding]:
     lacking = [name for name in simulated.links if name not in shown.links]
     if lacking:
-        said = f"{len(lacking)} of {len(simulated.links)} links of the model are missing: "
+        message = f"{len(lacking)} of {len(simulated.links)} links of the model are missing: "
         if len(lacking) == len(simulated.links) and shown.links:
             other = next(iter(shown.links))
-            said = (
+            message = (
                 f"no link has the name that it has in the model, for example {other!r}; expected "
             )
         yield finding(
             description.document.root,
-            said + ", ".join(lacking[:_SHOWN]) + (" …" if len(lacking) > _SHOWN else ""),
+            message + ", ".join(lacking[:_SHOWN]) + (" …" if len(lacking) > _SHOWN else ""),
             key="missing",
             related=[(simulated.links[name], f"link {name!r}") for name in lacking[:_SHOWN]],
         )

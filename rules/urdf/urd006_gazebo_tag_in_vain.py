@@ -58,14 +58,14 @@ def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
     for child in tag.element.children:
         if not tag.reference.stated and child.tag in OF_LINKS | OF_JOINTS:
             what = "a link" if child.tag in OF_LINKS else "a joint"
-            said = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"
+            message = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"
         elif child.tag in OF_JOINTS and name and name not in robot.joints_by_name:
-            said = f"<{child.tag}> is for a joint, but {name!r} is a link"
+            message = f"<{child.tag}> is for a joint, but {name!r} is a link"
         elif child.tag in OF_LINKS and name and name not in robot.links_by_name:
-            said = f"<{child.tag}> is for a link, but {name!r} is a joint"
+            message = f"<{child.tag}> is for a link, but {name!r} is a joint"
         else:
             continue
-        yield finding(child, said, severity=Severity.WARNING)
+        yield finding(child, message, severity=Severity.WARNING)
 
 
 def _tag(inside: str, reference: str = "") -> dict[str, str]:

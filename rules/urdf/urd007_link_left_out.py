@@ -49,7 +49,7 @@ def _left_out(description: UrdfDescription, link: Link, links: list[Link]) -> Fi
     lost = [f"sensor {sensors[0]!r}"] if sensors else []
     lost += [f"link {below[0]!r} below it"] if below else []
     with_it = f", with {' and '.join(lost)}" if lost else ""
-    missed = lost or any(each.collisions or each.visuals for each in links)
+    missed = lost or any(link.collisions or link.visuals for link in links)
     return finding(
         link,
         f"link {link.name.value!r} has no <inertial>, so Gazebo drops it{with_it}",
@@ -58,9 +58,9 @@ def _left_out(description: UrdfDescription, link: Link, links: list[Link]) -> Fi
 
 
 def _without_shapes(link: Link, links: list[Link]) -> Iterator[Finding]:
-    mass = sum(each.mass for each in links)
-    collides = any(each.collisions for each in links)
-    is_seen = any(each.visuals for each in links)
+    mass = sum(link.mass for link in links)
+    collides = any(link.collisions for link in links)
+    is_seen = any(link.visuals for link in links)
     missing = [*(() if collides else ("collision",)), *(() if is_seen else ("visual",))]
     if missing:
         yield finding(

@@ -60,11 +60,11 @@ def _joint(
     name, own = end.name.value, transmission.name.value
     joint = robot.joints_by_name.get(name)
     if joint is None:
-        said = f"moves joint {name!r}, which does not exist{names.hint(name)}"
-        yield finding(end.name, f"transmission {own!r} {said}")
+        phrase = f"moves joint {name!r}, which does not exist{names.hint(name)}"
+        yield finding(end.name, f"transmission {own!r} {phrase}")
     elif joint.type.value not in _MOVING:
-        said = f"moves joint {name!r}, which is {joint.type.value}"
-        yield finding(end.name, f"transmission {own!r} {said}", severity=Severity.WARNING)
+        phrase = f"moves joint {name!r}, which is {joint.type.value}"
+        yield finding(end.name, f"transmission {own!r} {phrase}", severity=Severity.WARNING)
     if not end.interfaces:
         yield finding(end, f"joint {name!r} of transmission {own!r} has no <hardwareInterface>")
         return

@@ -26,7 +26,7 @@ def check(description: UrdfDescription) -> Findings:
         for material in visual.all("material")
     ]
     everywhere = (*root.all("material"), *used)
-    defined = {each.get("name") or "" for each in everywhere if _defines(each)}
+    defined = {material.get("name") or "" for material in everywhere if _defines(material)}
     names = Suggestions(sorted(defined - {""}))
     for material in used:
         name = material.attribute("name")

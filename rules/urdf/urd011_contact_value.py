@@ -27,14 +27,14 @@ def check(description: UrdfDescription) -> Findings:
             if child.tag not in UNITS:
                 continue
             where = f"<{child.tag}> of {tag.reference.value!r}"
-            said = extension_text(child)
-            value = parse_number(said.value.strip())
+            text = extension_text(child)
+            value = parse_number(text.value.strip())
             if value is None:
-                yield finding(said, f"{where} is {said.value[:40]!r}, expected a number")
+                yield finding(text, f"{where} is {text.value[:40]!r}, expected a number")
             elif value <= 0:
                 harmless = value == 0 and child.tag in MAY_BE_ZERO
                 yield finding(
-                    said,
+                    text,
                     f"{where} is {value:g}{UNITS[child.tag]}, expected a positive number",
                     severity=Severity.INFO if harmless else None,
                 )

@@ -1,4 +1,4 @@
-"""The first configuration of a robot that is at hand."""
+"""The first configuration of a robot that is available."""
 
 from __future__ import annotations
 

@@ -70,10 +70,10 @@ def _blocked(path: Path) -> str:
     """Return the folder on the way to a path, or the path, that is closed to others; or nothing."""
     for place in (path, *path.absolute().parents):
         try:
-            found = place.stat()
+            status = place.stat()
         except OSError:
             continue
-        wanted = 0o005 if place == path and stat.S_ISDIR(found.st_mode) else 0o001
-        if stat.S_ISDIR(found.st_mode) and found.st_mode & wanted != wanted:
+        wanted = 0o005 if place == path and stat.S_ISDIR(status.st_mode) else 0o001
+        if stat.S_ISDIR(status.st_mode) and status.st_mode & wanted != wanted:
             return str(place)
     return ""

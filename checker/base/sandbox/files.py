@@ -52,8 +52,8 @@ class Files:
 
     def size(self, name: str) -> int:
         """Return the bytes of a file; 0 where it could not be read."""
-        found = self._table.get(name)
-        return found[1] if isinstance(found, list) else 0
+        entry = self._table.get(name)
+        return entry[1] if isinstance(entry, list) else 0
 
     def read(self, name: str) -> Content:
         """Return what is in a file, or why it is not known."""
@@ -98,9 +98,9 @@ def write(file: BinaryIO, message: bytes, contents: Iterable[tuple[str, Content]
             table[name] = [at, len(content)]
             at += len(content)
             file.write(content)
-    said = json.dumps(table).encode()
-    file.write(message + said)
-    file.write(len(message).to_bytes(_LENGTH, "big") + len(said).to_bytes(_LENGTH, "big"))
+    data = json.dumps(table).encode()
+    file.write(message + data)
+    file.write(len(message).to_bytes(_LENGTH, "big") + len(data).to_bytes(_LENGTH, "big"))
     file.flush()
 
 
@@ -130,21 +130,21 @@ def read(
     """
     size = (os.fstat(descriptor).st_size if end is None else end) - start
     tail = os.pread(descriptor, _TAIL, start + max(0, size - _TAIL))
-    message, table = (int.from_bytes(each, "big") for each in (tail[:_LENGTH], tail[_LENGTH:]))
+    message, table = (int.from_bytes(field, "big") for field in (tail[:_LENGTH], tail[_LENGTH:]))
     at = size - _TAIL - table - message
     if len(tail) < _TAIL or at < 0:
         raise Damaged("is cut off")
     if message > limit or table > TABLE_LIMIT or at > FILES_LIMIT:
         raise Damaged(f"has {size / 1e6:.1f} MB, which is more than the limit")
-    said = os.pread(descriptor, message, start + at)
+    data = os.pread(descriptor, message, start + at)
     entries = _checked(os.pread(descriptor, table, start + at + message), at)
-    return said, Files(entries, descriptor, start)
+    return data, Files(entries, descriptor, start)
 
 
-def _checked(said: bytes, end: int) -> dict[str, Any]:
+def _checked(data: bytes, end: int) -> dict[str, Any]:
     """Return a table whose files lie where they can."""
     try:
-        table = json.loads(said)
+        table = json.loads(data)
     except (ValueError, RecursionError):
         raise Damaged("has no table of its files") from None
     if not isinstance(table, dict) or not all(_is_entry(entry, end) for entry in table.values()):

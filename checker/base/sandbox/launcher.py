@@ -161,19 +161,19 @@ class OwnLauncher(Launcher):
     @cached_property
     def layers(self) -> tuple[Layer, ...]:
         """Which layers hold; the first call waits for them. None where its process has died."""
-        said = b""
+        data = b""
         self._control.settimeout(_HELLO_SECONDS)
         try:
-            while not said.endswith(b"\n"):
+            while not data.endswith(b"\n"):
                 piece = self._control.recv(_HELLO_LIMIT)
                 if not piece:
                     return ()
-                said += piece
+                data += piece
         except TimeoutError:
             return ()
         finally:
             self._control.settimeout(None)
-        return tuple(Layer(*load) for load in json.loads(said))
+        return tuple(Layer(*load) for load in json.loads(data))
 
     def close(self) -> None:
         """End all that was started, and wait until it has ended."""
@@ -189,12 +189,12 @@ class OwnLauncher(Launcher):
 def launcher() -> Launcher:
     """Return what starts processes for this one; without any, it is started now."""
     with _LOCK:
-        found = _launchers(os.getpid())
-        if found and isinstance(found[0], OwnLauncher) and not found[0].alive:
-            found.clear()
-        if not found:
-            found.append(OwnLauncher())
-        return found[0]
+        launchers = _launchers(os.getpid())
+        if launchers and isinstance(launchers[0], OwnLauncher) and not launchers[0].alive:
+            launchers.clear()
+        if not launchers:
+            launchers.append(OwnLauncher())
+        return launchers[0]
 
 
 def inherit(descriptor: int) -> None:
@@ -216,11 +216,11 @@ def _launchers(_: int) -> list[Launcher]:
 
 
 def _command(
-    sandbox: Sandbox, given: tuple[str, str], control: int, work: Path | None
+    sandbox: Sandbox, paths: tuple[str, str], control: int, work: Path | None
 ) -> list[str]:
     # `-P` keeps the folder that it runs in out of the search for modules.
     module = "checker.base.sandbox.launcher_process"
-    arguments = (str(control), json.dumps(to_builtins(sandbox)), *given)
+    arguments = (str(control), json.dumps(to_builtins(sandbox)), *paths)
     own = [sys.executable, "-P", "-m", module, *arguments]
     folder = "" if work is None else str(work)
     return namespaces.wrapped(own, sandbox.read, folder) if sandbox.wrapped else own

@@ -116,8 +116,8 @@ class LauncherProcess:
         self._orphans = Orphans()
         layers = enter(sandbox)
         _limit_processes(layers, sandbox)
-        said = json.dumps([[layer.name, layer.held, layer.words, layer.hides] for layer in layers])
-        control.sendall(said.encode() + b"\n")
+        data = json.dumps([[layer.name, layer.held, layer.words, layer.hides] for layer in layers])
+        control.sendall(data.encode() + b"\n")
         for descriptor in (*self._controls, self._woken):
             self._poll.register(descriptor, select.POLLIN)
 
@@ -158,8 +158,8 @@ class LauncherProcess:
         id = os.fork()
         if id == 0:
             os._exit(self._be(order, input, request, answer, *more))
-        for each in (request, answer, *more):
-            os.close(each)
+        for descriptor in (request, answer, *more):
+            os.close(descriptor)
         self._processes[id] = _Process(id, input, code)
         # What is written into it is for the process; here only its end counts.
         self._poll.register(input, 0)
@@ -169,8 +169,8 @@ class LauncherProcess:
     ) -> int:
         """Be the new process; return its exit code."""
         signal.set_wakeup_fd(-1)
-        for each in (signal.SIGCHLD, signal.SIGALRM):
-            signal.signal(each, signal.SIG_DFL)
+        for number in (signal.SIGCHLD, signal.SIGALRM):
+            signal.signal(number, signal.SIG_DFL)
         os.setpgid(0, 0)
         inner = self._inner_client.fileno() if order["works"] else -1
         _close_all_but({input, request, answer, inner, done})
@@ -234,7 +234,7 @@ def _code_of(id: int) -> int | None:
 def _close_all_but(kept: set[int]) -> None:
     """Close what the launcher has open, so that a process has nothing but its own."""
     last = 2
-    for descriptor in sorted(each for each in kept if each > last):
+    for descriptor in sorted(number for number in kept if number > last):
         os.closerange(last + 1, descriptor)
         last = descriptor
     os.closerange(last + 1, min(max(os.sysconf("SC_OPEN_MAX"), last + 1), _MOST_DESCRIPTORS))

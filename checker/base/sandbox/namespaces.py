@@ -96,8 +96,8 @@ def end(wrapper: int) -> None:
     """
     with suppress(OSError):
         started = Path(f"/proc/{wrapper}/task/{wrapper}/children").read_text("ascii")
-        for each in started.split():
-            os.kill(int(each), signal.SIGKILL)
+        for word in started.split():
+            os.kill(int(word), signal.SIGKILL)
 
 
 def leave_network() -> None:
@@ -125,7 +125,7 @@ def leave_network() -> None:
 
 
 def _be_known_as(user: int, group: int) -> None:
-    for name, said in (
+    for name, text in (
         ("setgroups", "deny"),
         ("uid_map", f"{user} {user} 1"),
         ("gid_map", f"{group} {group} 1"),
@@ -133,6 +133,6 @@ def _be_known_as(user: int, group: int) -> None:
         # In one write, as the system wants it.
         descriptor = os.open(f"/proc/self/{name}", os.O_WRONLY)
         try:
-            os.write(descriptor, said.encode())
+            os.write(descriptor, text.encode())
         finally:
             os.close(descriptor)

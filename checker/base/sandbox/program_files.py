@@ -29,8 +29,8 @@ def program_paths() -> list[str]:
 
     They are absolute. Folders that hold the home of the user are left out.
     """
-    found = [path for path in _candidates() if path.startswith("/") and os.path.lexists(path)]
-    paths = dict.fromkeys((*found, *map(os.path.realpath, found)))
+    present = [path for path in _candidates() if path.startswith("/") and os.path.lexists(path)]
+    paths = dict.fromkeys((*present, *map(os.path.realpath, present)))
     return [path for path in paths if not _private(path) and not _private(os.path.realpath(path))]
 
 
@@ -45,8 +45,8 @@ def _candidates() -> Iterator[str]:
     named = [os.environ.get(name, "") for name in ("PYTHONPATH", "LD_LIBRARY_PATH")]
     # The first is the folder that this program was started in: that of somebody's data, perhaps.
     known = sys.path if sys.flags.safe_path else sys.path[1:]
-    found = (*known, *os.pathsep.join(named).split(os.pathsep))
-    yield from (path for path in found if path and Path(path) != root)
+    folders = (*known, *os.pathsep.join(named).split(os.pathsep))
+    yield from (path for path in folders if path and Path(path) != root)
 
 
 def _private(path: str) -> bool:
@@ -57,5 +57,5 @@ def _private(path: str) -> bool:
         return False
     # A service may have none but the root of the system.
     return home != Path(home.anchor) and any(
-        each.is_relative_to(path) for each in (home, home.resolve())
+        folder.is_relative_to(path) for folder in (home, home.resolve())
     )

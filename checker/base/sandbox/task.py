@@ -67,9 +67,9 @@ def run(order: dict[str, Any], sandbox: Sandbox, descriptors: tuple[int, ...]) -
         elif order.get("lasts"):
             _answer_all(module, request, answer, done)
         elif os.read(INPUT, 1):
-            said, files = read(request, _REQUEST_LIMIT)
+            message, files = read(request, _REQUEST_LIMIT)
             with os.fdopen(os.dup(answer), "wb") as file:
-                _write(file, module.answer(said, files))
+                _write(file, module.answer(message, files))
     except MemoryError:
         return OUT_OF_MEMORY
     except BaseException:  # noqa: BLE001 - who waits for the answer is told that there is none
@@ -82,9 +82,9 @@ def _answer_all(module: ModuleType, request: int, answer: int, done: int) -> Non
     """Answer one request after the other (see `checker.base.child_server`)."""
     with os.fdopen(os.dup(answer), "wb") as file:
         while len(place := os.read(INPUT, PLACE.size)) == PLACE.size:
-            said, files = read(request, _REQUEST_LIMIT, *PLACE.unpack(place))
+            message, files = read(request, _REQUEST_LIMIT, *PLACE.unpack(place))
             start = file.tell()
-            _write(file, module.answer(said, files))
+            _write(file, module.answer(message, files))
             os.write(done, PLACE.pack(start, file.tell()))
 
 
@@ -155,15 +155,15 @@ def tighten(kind: int, soft: int, hard: int) -> None:
     resource.setrlimit(kind, tightened(resource.getrlimit(kind), soft, hard))
 
 
-def tightened(given: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
+def tightened(limits: tuple[int, int], soft: int, hard: int) -> tuple[int, int]:
     """Return the soft and the hard limit to set where others are set already: the tighter of each.
 
     Args:
-        given: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
+        limits: The soft and the hard limit that there are, as `resource.getrlimit` returns them.
         soft: The soft limit that is wanted.
         hard: The hard limit that is wanted, not below `soft`.
     """
-    return tighter(given[0], soft), tighter(given[1], hard)
+    return tighter(limits[0], soft), tighter(limits[1], hard)
 
 
 def tighter(limit: int, wanted: int) -> int:

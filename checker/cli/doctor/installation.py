@@ -135,11 +135,13 @@ def _size(path: Path) -> int:
 
 
 def _drawing() -> Result:
-    said = ask("checker.cli.doctor.opengl_frame", b"", _LIMITS)
-    if not isinstance(said, WorkerFailed) and said != b"none":
-        return Result(State.OK, f"pictures: MuJoCo draws with {said.decode()}")
+    answer = ask("checker.cli.doctor.opengl_frame", b"", _LIMITS)
+    if not isinstance(answer, WorkerFailed) and answer != b"none":
+        return Result(State.OK, f"pictures: MuJoCo draws with {answer.decode()}")
     reason = (
-        f"the process that draws {said.reason}" if isinstance(said, WorkerFailed) else "no OpenGL"
+        f"the process that draws {answer.reason}"
+        if isinstance(answer, WorkerFailed)
+        else "no OpenGL"
     )
     packages = "libegl1, libopengl0 and libgl1-mesa-dri, or libosmesa6"
     advice = f"install EGL or OSMesa (Debian: {packages}) for reports with pictures"
@@ -176,7 +178,7 @@ def _python() -> Result:
 
 def _libraries() -> Iterator[Result]:
     try:
-        needed = [_NEEDED.fullmatch(each) for each in requires("subt-check") or ()]
+        needed = [_NEEDED.fullmatch(requirement) for requirement in requires("subt-check") or ()]
     except PackageNotFoundError:
         yield Result(State.NOTE, "subt-check runs without being installed", "see README.md")
         return
@@ -193,15 +195,15 @@ def _libraries() -> Iterator[Result]:
             fitting[name] = version
     troubles = import_troubles(fitting)
     for name, trouble in troubles.items():
-        said = plain(shortened(trouble, 300))
-        yield Result(State.PROBLEM, f"{name} cannot be imported ({said})", INSTALL_AGAIN)
+        reason = plain(shortened(trouble, 300))
+        yield Result(State.PROBLEM, f"{name} cannot be imported ({reason})", INSTALL_AGAIN)
     well = [f"{name} {version}" for name, version in fitting.items() if name not in troubles]
     yield Result(State.OK, f"libraries: {', '.join(well)}")
 
 
 def numbers(version: str) -> tuple[int, ...]:
     """Return the leading numbers of a version, without zeros at the end, to be compared."""
-    found = [int(number) for number in re.findall(r"\d+", (re.match(r"[\d.]*", version) or "")[0])]
-    while found and found[-1] == 0:
-        found.pop()
-    return tuple(found)
+    parts = [int(number) for number in re.findall(r"\d+", (re.match(r"[\d.]*", version) or "")[0])]
+    while parts and parts[-1] == 0:
+        parts.pop()
+    return tuple(parts)

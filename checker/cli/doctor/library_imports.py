@@ -30,10 +30,10 @@ def import_troubles(distributions: Iterable[str]) -> dict[str, str]:
         Why a library cannot be imported, by its name; where the child dies, `libraries` stands
         for the one that it died of.
     """
-    said = ask(__name__, json.dumps(list(distributions)).encode(), _LIMITS)
-    if isinstance(said, WorkerFailed):
-        return {"libraries": f"the process that imports them {said.reason}"}
-    troubles: dict[str, str] = json.loads(said)
+    reply = ask(__name__, json.dumps(list(distributions)).encode(), _LIMITS)
+    if isinstance(reply, WorkerFailed):
+        return {"libraries": f"the process that imports them {reply.reason}"}
+    troubles: dict[str, str] = json.loads(reply)
     return troubles
 
 

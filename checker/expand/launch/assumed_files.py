@@ -28,7 +28,7 @@ def assumed_nodes(
     """Return the nodes that an included template starts; None when it is not known.
 
     Args:
-        include: Of a file that is not at hand.
+        include: Of a file that is not available.
         remaps: Those in force where it is included, in order of the file.
     """
     folder, file = posixpath.split(include.file)

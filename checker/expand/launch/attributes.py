@@ -60,14 +60,16 @@ def left_outside(element: Element) -> dict[str, Located[str]]:
     if element.node.attrib or element.tag not in ("node", "include") or "=" not in element.raw_text:
         return {}
     start, text = element.position.start_end, element.raw_text
-    found: dict[str, Located[str]] = {}
+    attributes: dict[str, Located[str]] = {}
     at = 0
     while match := _LEFT_OUTSIDE.match(text, at):
         span = Span(element.source, start + match.start(3), start + match.end(3), element)
         exact = span.text == match.group(3)
-        found.setdefault(match.group(1), Located(match.group(3), span if exact else element.span))
+        attributes.setdefault(
+            match.group(1), Located(match.group(3), span if exact else element.span)
+        )
         at = match.end()
-    return found
+    return attributes
 
 
 MAX_STEPS = 100_000
@@ -127,8 +129,8 @@ class Reader:
 
     def value(self, element: Element, attribute: str, scope: Scope, default: str = "") -> str:
         """Return the text of an attribute without its place."""
-        found = self.text(element, attribute, scope)
-        return default if found is None else found.value
+        text = self.text(element, attribute, scope)
+        return default if text is None else text.value
 
     def enabled(self, element: Element, scope: Scope) -> bool:
         """Whether `if` and `unless` let an element count; what is not known does not."""

@@ -133,10 +133,10 @@ def _image_bridge(node: Node, word: Located[str]) -> Bridge:
 
 
 def _parameter_bridge(node: Node, word: Located[str]) -> Bridge | None:
-    found = _PARAMETER.match(word.value)
-    if found is None:
+    match = _PARAMETER.match(word.value)
+    if match is None:
         return None
-    topic, ros_type, mark, ign_type = found.groups()
+    topic, ros_type, mark, ign_type = match.groups()
     written = word.span.text.find("@")
     span = word.span
     if written > 0:

@@ -48,9 +48,9 @@ def expand_launch(
         arguments: Args of the command line.
         read_launch: Finds included files.
     """
-    given = MappingProxyType(dict(arguments))
-    chain = ((document.source.file, frozenset(given.items())),)
-    file = LaunchFile(document, given, None, overrides_constants=False, chain=chain)
+    arguments_given = MappingProxyType(dict(arguments))
+    chain = ((document.source.file, frozenset(arguments_given.items())),)
+    file = LaunchFile(document, arguments_given, None, overrides_constants=False, chain=chain)
     expansion = _Expansion(read_launch)
     expansion.expand(document.root, Scope(file, args_of(file)))
     return expansion.graph(file)
@@ -128,7 +128,9 @@ class _Expansion:
         self._dormant_bridges += dormant._bridges
         self._dormant_nodes += dormant._nodes
         assumed = set(dormant._assumed)
-        self._dormant_includes += [each for each in dormant._unresolved if each not in assumed]
+        self._dormant_includes += [
+            include for include in dormant._unresolved if include not in assumed
+        ]
 
     def _arg(self, element: Element, scope: Scope) -> None:
         name = element.get("name") or ""
@@ -142,17 +144,17 @@ class _Expansion:
 
     def _arg_value(self, element: Element, name: str, scope: Scope) -> str:
         file = scope.file
-        given = file.given.get(name)
+        value = file.given.get(name)
         constant = self._reader.text(element, "value", scope)
         if constant is not None:
-            if given is not None and not file.overrides_constants:
+            if value is not None and not file.overrides_constants:
                 message = f"the arg {name!r} is given, but {file.name} sets it to a constant"
                 where = file.included_at or element
                 self._reader.fault(LaunchFaultKind.CONSTANT_ARG, where, message)
             return constant.value
         default = self._reader.text(element, "default", scope)
-        if given is not None:
-            return given
+        if value is not None:
+            return value
         if default is not None:
             return default.value
         message = f"{file.name} requires the arg {name!r}, which is not given"
@@ -179,9 +181,9 @@ class _Expansion:
         name = self._reader.value(element, "name", scope)
         full = resolve_name(f"~{name}" if node else name, scope.namespace, node)
         for kind in _PARAM_KINDS:
-            found = self._reader.text(element, kind, scope)
-            if found is not None:
-                self._params.append(Param(full, found.value, kind, element.span))
+            text = self._reader.text(element, kind, scope)
+            if text is not None:
+                self._params.append(Param(full, text.value, kind, element.span))
                 return
 
     def _rosparam(self, element: Element, scope: Scope, node: str = "") -> None:
@@ -238,9 +240,9 @@ class _Expansion:
         written = element.attribute("args") or left_outside(element).get("args")
         if written is None or not self._reader.charge(element, len(written.value) // 100):
             return ()
-        found = tuple(words(written, scope))
-        self._reader.charge(element, len(found))
-        return found
+        result = tuple(words(written, scope))
+        self._reader.charge(element, len(result))
+        return result
 
     def _read_bridges(self, node: Node) -> None:
         for read in read_bridges(node, node.words):

@@ -163,14 +163,14 @@ class Include(Record, eq=False):
 
 
 class UnresolvedInclude(Record, eq=False):
-    """An `<include>` of a file that is not at hand.
+    """An `<include>` of a file that is not available.
 
     Attributes:
         package: Package of `$(find …)`; empty when the file is named otherwise.
         file: Path within the package, or what the attribute says.
         arguments: What is handed over, by name.
         namespace: Where the nodes of the file would stand.
-        reason: Why it is not at hand.
+        reason: Why it is not available.
         span: The start tag.
     """
 
@@ -193,7 +193,7 @@ class LaunchGraph(Record, eq=False, dict=True):
         params: Parameters set.
         environment: Environment variables set.
         includes: Files followed.
-        unresolved_includes: Files not at hand.
+        unresolved_includes: Files not available.
         assumed_includes: Those of them whose nodes and bridges are here all the same, as they are
             assumed to be.
         dormant_includes: Files that a condition leaves out, and that were not read for it.
@@ -232,7 +232,7 @@ class LaunchGraph(Record, eq=False, dict=True):
             and include.package != _SIMULATOR
             and posixpath.basename(include.file) != _DESCRIPTION
         )
-        reasons = [f"{each.file} is not read: {each.reason}" for each in missing]
+        reasons = [f"{file.file} is not read: {file.reason}" for file in missing]
         reasons += [
             f"the condition {condition.value!r} is not known before the launch"
             for condition in self.undecided

@@ -64,7 +64,9 @@ def read_command(command: str) -> Iterator[Load]:
         return
     pairs = (word.partition(":=") for word in words)
     args = {name: value for name, assigned, value in pairs if assigned and is_known(value)}
-    tools = {each.rpartition("/")[2].removesuffix(".py") for each in (program, *words)}
+    tools = {
+        program_word.rpartition("/")[2].removesuffix(".py") for program_word in (program, *words)
+    }
     yield Load(file, args, by_xacro="xacro" in tools)
 
 
@@ -86,7 +88,7 @@ def _words(command: str) -> list[str]:
 
 
 def _placed(text: str) -> str:
-    return _FIND.sub(lambda found: f"{ROOT}/{found[1]}", text)
+    return _FIND.sub(lambda match: f"{ROOT}/{match[1]}", text)
 
 
 # The command line that starts a launch file, as a spawner writes it.
@@ -141,7 +143,7 @@ _FOUND = re.compile(r"\$\(find\s+([^\s()]+)\s*\)/*(.*)\Z", re.DOTALL)
 
 
 class MissingLaunchFile(str):
-    """The reason of a resolver that has the package at hand, but no such file in it."""
+    """The reason of a resolver that has the package, but no such file in it."""
 
     __slots__ = ()
 
@@ -150,7 +152,7 @@ class ReadLaunch(Protocol):
     """Finds an included launch file."""
 
     def __call__(self, package: str, path: str, from_file: str) -> XmlDocument | str:
-        """Return the document, or the reason why it is not at hand.
+        """Return the document, or the reason why it is not available.
 
         A reason that is a `MissingLaunchFile` makes a fault of it. The same file should be
         returned as the same document, so that it is parsed once.
@@ -186,7 +188,7 @@ class Inclusion(Record, eq=False):
     span: Span
 
     def unresolved(self, namespace: str, reason: str) -> UnresolvedInclude:
-        """Return the record of a file that is not at hand."""
+        """Return the record of a file that is not available."""
         path = self.path or self.file.value
         arguments = self.arguments
         return UnresolvedInclude(self.package, path, arguments, namespace, str(reason), self.span)
@@ -201,10 +203,10 @@ def read_inclusion(reader: Reader, element: Element, scope: Scope) -> Inclusion:
     for child in element.all("arg"):
         if not reader.enabled(child, scope):
             continue
-        given = reader.text(child, "value", scope) or reader.text(child, "default", scope)
-        if given is not None:
+        value = reader.text(child, "value", scope) or reader.text(child, "default", scope)
+        if value is not None:
             name = child.get("name") or ""
-            arguments[name], places[name] = given.value, child.span
+            arguments[name], places[name] = value.value, child.span
     package, path = target_of(file.value)
     given_arguments = MappingProxyType(arguments)
     return Inclusion(package, path, file, given_arguments, places, passes_all, element.span)
@@ -212,9 +214,9 @@ def read_inclusion(reader: Reader, element: Element, scope: Scope) -> Inclusion:
 
 def target_of(file: str) -> tuple[str, str]:
     """Return package and path of an included file; an empty path when they are not known."""
-    found = _FOUND.match(file)
-    if found:
-        package, path = found.groups()
+    match = _FOUND.match(file)
+    if match:
+        package, path = match.groups()
     elif file.startswith(HERE):
         package, path = "", file
     else:

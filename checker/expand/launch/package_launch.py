@@ -145,7 +145,9 @@ class LaunchFiles(Record):
             return f"package {package} is not available"
         holder = self.package if not prefix else self.package.workspace.package(package)
         files = holder.index.files if holder else ()
-        named = (each.path for each in files if posixpath.basename(each.path) == file)
+        named = (
+            candidate.path for candidate in files if posixpath.basename(candidate.path) == file
+        )
         path = next(named, f"launch/{file}")
         return self._read(posixpath.join(prefix, path))
 
@@ -153,10 +155,10 @@ class LaunchFiles(Record):
         """Return the way from the package to another one."""
         if name == self.package.name:
             return ""
-        found = self.package.workspace.package(name)
-        if found is None:
+        package = self.package.workspace.package(name)
+        if package is None:
             return None
-        return "" if found is self.package else f"../{found.name}"
+        return "" if package is self.package else f"../{package.name}"
 
     def _read(self, path: str) -> XmlDocument | str:
         document = self.package.xml(posixpath.normpath(path))
@@ -224,11 +226,11 @@ def launch_entries(package: Package) -> LaunchEntries:
 
 def _launch_files(package: Package) -> list[XmlDocument]:
     """Return `*.launch` anywhere, and the files of launch/ that hold a `<launch>`."""
-    found = []
+    documents = []
     for entry in package.index.with_suffix(".launch", ".xml"):
         if not entry.path.endswith(".launch") and not entry.path.startswith("launch/"):
             continue
         document = package.xml(entry.path)
         if isinstance(document, XmlDocument) and document.root.tag == "launch":
-            found.append(document)
-    return found
+            documents.append(document)
+    return documents

@@ -223,13 +223,13 @@ def substitute(text: str, args: Mapping[str, str], directory: str) -> Substitute
     parts: list[str] = []
     faults: list[SubstitutionFault] = []
     length = last = 0
-    for found in _SUBSTITUTION.finditer(text):
-        value = _value(found.group(1), args, directory)
+    for match in _SUBSTITUTION.finditer(text):
+        value = _value(match.group(1), args, directory)
         if isinstance(value, SubstitutionFault):
-            faults.append(SubstitutionFault(value.kind, *found.span(), value.message))
+            faults.append(SubstitutionFault(value.kind, *match.span(), value.message))
             value = None
-        parts += [text[last : found.start()], found.group() if value is None else value]
-        last = found.end()
+        parts += [text[last : match.start()], match.group() if value is None else value]
+        last = match.end()
         length += len(parts[-2]) + len(parts[-1])
         if length > MAX_LENGTH:
             return _too_long(text)

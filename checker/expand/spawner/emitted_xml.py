@@ -46,9 +46,9 @@ class WorkspaceFiles(Record):
         return self.package.exists(self._local(path))
 
     def package_folder(self, name: str) -> str | None:
-        """Return the folder of a package, None when it is not at hand."""
-        found = self.package.workspace.package(name)
-        return found.root.name if found is not None else None
+        """Return the folder of a package, None when it is not available."""
+        package = self.package.workspace.package(name)
+        return package.root.name if package is not None else None
 
 
 class EmittedXml(Record, eq=False):
@@ -108,7 +108,7 @@ Emitted = TypeVar("Emitted", bound=EmittedXml)
 def emitted_xml(
     kind: type[Emitted], function: str, emitted: EmittedText | Unread
 ) -> Emitted | NotAvailable:
-    """Parse what a function of the spawner emits; what cannot be read is not at hand."""
+    """Parse what a function of the spawner emits; what cannot be read is not available."""
     if isinstance(emitted, Unread):
         place = emitted.span.place()
         return NotAvailable(

@@ -38,7 +38,7 @@ class SpawnerFiles(Protocol):
         ...
 
     def package_folder(self, name: str) -> str | None:
-        """Return the folder of a package, or None when the package is not at hand."""
+        """Return the folder of a package, or None when the package is not available."""
         ...
 
 
@@ -70,11 +70,11 @@ def resolve(call: Call, path: Value) -> str:
     text = call.text(path)
     if len(text) > MAX_PATH_LENGTH:
         raise call.refuse(f"with a path of more than {MAX_PATH_LENGTH} characters")
-    found = workspace_path(text)
-    if found is None:
+    name = workspace_path(text)
+    if name is None:
         where = "outside the workspace" if text.startswith("/") else "relative to where Ruby runs"
         raise call.refuse(f"with a path {where}: {text[:80]}")
-    return found
+    return name
 
 
 def _join(call: Call, first: Value, *others: Value) -> Value:

@@ -90,7 +90,7 @@ class TracedString(Record, eq=False, dict=True):
 
     def cut_many(self, ranges: Iterable[tuple[int, int]]) -> list[TracedString]:
         """Return several parts, given in ascending order, in one pass."""
-        found: list[TracedString] = []
+        parts: list[TracedString] = []
         index = at = 0
         for start, end in ranges:
             while index < len(self.pieces) and at + len(self.pieces[index].text) <= start:
@@ -101,8 +101,8 @@ class TracedString(Record, eq=False, dict=True):
                 kept.append(self.pieces[here].cut(start - place, end - place))
                 place += len(self.pieces[here].text)
                 here += 1
-            found.append(TracedString(tuple(kept) if end > start else ()))
-        return found
+            parts.append(TracedString(tuple(kept) if end > start else ()))
+        return parts
 
     def influenced(self, parameters: frozenset[str]) -> TracedString:
         """Return the text as also influenced by `parameters`."""
@@ -176,20 +176,20 @@ def _stretches(
 ) -> Iterator[tuple[str, int, int]]:
     """Yield plain stretches and escapes, each with its range in the source."""
     at = start
-    for found in pattern.finditer(source.text, start, end):
-        yield source.text[at : found.start()], at, found.start()
-        yield _unescaped(source, found), found.start(), found.end()
-        at = found.end()
+    for match in pattern.finditer(source.text, start, end):
+        yield source.text[at : match.start()], at, match.start()
+        yield _unescaped(source, match), match.start(), match.end()
+        at = match.end()
     yield source.text[at:end], at, end
 
 
-def _unescaped(source: SourceText, found: re.Match[str]) -> str:
-    whole = found.group()
+def _unescaped(source: SourceText, match: re.Match[str]) -> str:
+    whole = match.group()
     if whole == "\r\n":
         return "\n"
     body = whole[1:]
     if body in _NOT_READ:
-        span = Span(source, found.start(), found.end())
+        span = Span(source, match.start(), match.end())
         raise Unreadable(span, f"uses the escape {whole}, which is not supported")
     return _ESCAPES.get(body, body)
 
@@ -255,15 +255,15 @@ def _lines(
     The first line of a stretch behind `#{}` continues a line; a `#{}` in the first column
     (`hole`) is a line of its own without indentation.
     """
-    found = []
+    lines = []
     while start < end:
         line_end = text.find("\n", start, end) + 1 or end
         indent = _INDENT.match(text, start, line_end)
-        found.append((start, indent.end() if indent else start, line_end, begins))
+        lines.append((start, indent.end() if indent else start, line_end, begins))
         start, begins = line_end, text[line_end - 1] == "\n"
     if hole and begins:
-        found.append((end, end, end, True))
-    return found
+        lines.append((end, end, end, True))
+    return lines
 
 
 def _blank(text: str, indent_end: int, end: int, last: bool) -> bool:

@@ -193,8 +193,8 @@ class _Program:
         span = function.span
         run.scope = Scope(self.path)
         # With a parameter too few, the rest of what it emits is still worth a look.
-        given = [_ruby(argument) for argument in arguments[: function.most]]
-        result = entry_call(run, function, given, span)
+        values = [_ruby(argument) for argument in arguments[: function.most]]
+        result = entry_call(run, function, values, span)
         if not isinstance(result.data, RubyString):
             return Unread(span, f"returns {class_name(result.data)} instead of a string")
         return EmittedText.of(run.traced(result, span), span)

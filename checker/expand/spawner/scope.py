@@ -103,7 +103,7 @@ def parameters_of(node: RubyNode | None) -> tuple[Parameter, ...]:
     """Read the parameter list of a function or block."""
     if node is None:
         return ()
-    found = []
+    parameters = []
     for part in node.parts:
         kind = _KINDS.get(part.type, "unknown")
         default = part.fields.get("value")
@@ -111,8 +111,8 @@ def parameters_of(node: RubyNode | None) -> tuple[Parameter, ...]:
             kind = "required_keyword"
         name = part.fields.get("name")
         text = part.text if part.type == "identifier" else name.text if name else ""
-        found.append(Parameter(text, kind, default, part.span))
-    return tuple(found)
+        parameters.append(Parameter(text, kind, default, part.span))
+    return tuple(parameters)
 
 
 _POSITIONAL = ("required", "optional")

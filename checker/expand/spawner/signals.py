@@ -34,7 +34,7 @@ ERROR_CLASSES = frozenset(_PARENTS) | {"Exception"}
 
 
 class Unread(Record, eq=False):
-    """A construct that cannot be read without running Ruby, or that is not at hand.
+    """A construct that cannot be read without running Ruby, or that is not available.
 
     Attributes:
         span: The construct.

@@ -100,10 +100,10 @@ def formatted(call: Call, template: Value, values: list[Value]) -> Value:
         RubyError: There are too few values.
     """
     text, waiting, parts, at = call.text(template), iter(values), [], 0
-    for found in _DIRECTIVE.finditer(text):
-        call.run.budget.spend_text(_width(found))
-        parts += [text[at : found.start()], _directive(call, found, waiting)]
-        at = found.end()
+    for match in _DIRECTIVE.finditer(text):
+        call.run.budget.spend_text(_width(match))
+        parts += [text[at : match.start()], _directive(call, match, waiting)]
+        at = match.end()
         call.run.budget.spend()
     parts.append(text[at:])
     return call.run.computed("".join(parts), call.span, template, *values)
@@ -114,12 +114,12 @@ def _width(directive: re.Match[str]) -> int:
     return int(directive.group(2) or 0) + 10 * int(directive.group(3) or 0)
 
 
-def _directive(call: Call, found: re.Match[str], waiting: Iterator[Value]) -> str:
-    flags, width, precision, kind = found.groups()
-    if found.group() == "%%":
+def _directive(call: Call, match: re.Match[str], waiting: Iterator[Value]) -> str:
+    flags, width, precision, kind = match.groups()
+    if match.group() == "%%":
         return "%"
     if kind is None or kind not in "difegs":
-        raise call.refuse(f"with the directive {found.group()[:20]}")
+        raise call.refuse(f"with the directive {match.group()[:20]}")
     value = next(waiting, None)
     if value is None:
         raise RubyError("ArgumentError", "too few arguments", call.span)
@@ -128,12 +128,12 @@ def _directive(call: Call, found: re.Match[str], waiting: Iterator[Value]) -> st
         return f"%{flags.replace('0', '')}{width}{dot}s" % _text(call, value)
     number = call.number(value)
     if not math.isfinite(number):
-        raise call.refuse(f"with {number} for {found.group()}")
+        raise call.refuse(f"with {number} for {match.group()}")
     if kind in "di":
         flags = flags.replace("0", "") if dot else flags
         return f"%{flags}{width}{dot}d" % math.trunc(number)
     if _on_limit(float(number), kind, 6 if precision is None else int(precision)):
-        raise call.refuse(f"with {number}, which {found.group()} may round up or down")
+        raise call.refuse(f"with {number}, which {match.group()} may round up or down")
     return f"%{flags}{width}{dot}{kind}" % float(number)
 
 

@@ -70,12 +70,12 @@ def expanded_document(
 def _origins(answer: Mapping[str, Any], gathered: Gathered) -> list[Element | None]:
     """Return the element that each expanded one is a copy of."""
     documents = [gathered.documents.get(path) for path in answer["files"]]
-    found: list[Element | None] = []
+    elements: list[Element | None] = []
     for number, index in answer["origins"]:
         document = documents[number] if 0 <= number < len(documents) else None
         known = document is not None and 0 <= index < len(document.elements)
-        found.append(document.elements[index] if document is not None and known else None)
-    return found
+        elements.append(document.elements[index] if document is not None and known else None)
+    return elements
 
 
 def _pieces(
@@ -120,11 +120,11 @@ def _start_tag(element: Element, origin: Element | None, root: SourceText) -> It
     text, at, end = element.source.text, element.position.start, element.position.start_end
     tag = origin.span if origin is not None else root.whole()
     for name in element.attributes:
-        made = element.attribute(name)
+        expanded = element.attribute(name)
         written = origin.attribute(name) if origin is not None else None
-        if made is None or written is None or not made.value:
+        if expanded is None or written is None or not expanded.value:
             continue
-        start, stop = made.span.start, made.span.end
+        start, stop = expanded.span.start, expanded.span.end
         yield Piece(text[at:start], tag)
         yield Piece(text[start:stop], written.span, literal=written.span.text == text[start:stop])
         at = stop

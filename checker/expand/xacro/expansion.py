@@ -25,22 +25,22 @@ from checker.source.xml import XmlDocument
 _KINDS = frozenset(kind.value for kind in XacroFaultKind)
 
 
-def is_answer(said: Any) -> bool:
+def is_answer(data: Any) -> bool:
     """Say whether something has the form of what became of one file (`processor.expand`)."""
-    match said:
+    match data:
         case {"xml": str(), "origins": list(origins), "files": list(files)}:
             return all(map(_is_place, origins)) and all(isinstance(file, str) for file in files)
         case {"kind": str(kind), "message": str()}:
-            return kind in _KINDS and _is_told(said.get("at"), said.get("through"))
+            return kind in _KINDS and _is_told(data.get("at"), data.get("through"))
         case {"refused": str(), "expression": str()}:
-            return _is_told(said.get("at"), None)
+            return _is_told(data.get("at"), None)
         case {"missing": str()} | {"unread": str()}:
             return True
     return False
 
 
-def _is_place(said: Any) -> bool:
-    match said:
+def _is_place(data: Any) -> bool:
+    match data:
         case [int(), int()]:
             return True
     return False
@@ -90,7 +90,7 @@ class Expansions:
         self._cache = cache
         self._gathered = Gathered(package)
         self._jobs: list[dict[str, Any]] = [
-            {"file": path_of(package, each.path), "args": dict(each.args)} for each in wanted
+            {"file": path_of(package, wish.path), "args": dict(wish.args)} for wish in wanted
         ]
         self._gathered.follow(job["file"] for job in self._jobs)
         self._begun = self._begin()
@@ -168,12 +168,12 @@ class Expansions:
 
     def _refusal(self, answer: Mapping[str, Any]) -> str:
         """Say what an expression uses that is not evaluated, and where it stands."""
-        said = f"expression uses {answer['refused']}: '{answer['expression']}'"
+        message = f"expression uses {answer['refused']}: '{answer['expression']}'"
         span = self._element(*answer["at"]) if answer.get("at") else None
         if span is None:
-            return said
+            return message
         place = span.place()
-        return f"{said} at {place.file}:{place.line}"
+        return f"{message} at {place.file}:{place.line}"
 
     def _element(self, path: str, number: int) -> Span | None:
         document = self._gathered.documents.get(path)
@@ -182,15 +182,15 @@ class Expansions:
         return document.elements[number].span
 
 
-def _answer(said: Any) -> dict[str, Any]:
+def _answer(data: Any) -> dict[str, Any]:
     """Return what became of one file.
 
     Raises:
         ValueError: It is something else.
     """
-    if not is_answer(said):
+    if not is_answer(data):
         raise ValueError("no answer")
-    return dict(said)
+    return dict(data)
 
 
 def _lasts(answer: Mapping[str, Any]) -> bool:

@@ -40,17 +40,17 @@ def package_in(path: str) -> str:
 
 
 def local_path(package: Package, path: str) -> str | None:
-    """Return a path that xacro sees as the package lists it; None if no package at hand has it."""
+    """Return a path that xacro sees as the package lists it; None if no package has it."""
     name = package_in(path)
     rest = posixpath.normpath(path).removeprefix(f"{ROOT}/{name}").lstrip("/")
     if not name:
         return None
     if name == package.root.name:
         return rest
-    found = package.workspace.package(name)
-    if found is None:
+    other = package.workspace.package(name)
+    if other is None:
         return None
-    return rest if found is package else f"../{found.name}/{rest}"
+    return rest if other is package else f"../{other.name}/{rest}"
 
 
 FILES_LIMIT = 400
@@ -72,7 +72,7 @@ class Gathered:
         documents: Those that are XML.
         faults: Those that are no well-formed XML.
         absent: Paths at which there is no file.
-        beyond: Names of packages that are not at hand.
+        beyond: Names of packages that are not available.
     """
 
     package: Package
@@ -133,14 +133,14 @@ class Gathered:
         folder = posixpath.dirname(path)
         if "load_yaml" not in document.source.text and "include" not in document.source.text:
             return
-        yaml = ("".join(filter(None, found)) for found in _YAML.findall(document.source.text))
+        yaml = ("".join(filter(None, groups)) for groups in _YAML.findall(document.source.text))
         included = (
             element.get("filename") or ""
             for element in document.elements
             if element.tag == "xacro:include"
         )
         for name in (*yaml, *included):
-            spelled = _FIND.sub(lambda found: f"{ROOT}/{found[1]}", name)
+            spelled = _FIND.sub(lambda match: f"{ROOT}/{match[1]}", name)
             if _COMPUTED.search(spelled) or not spelled or "." not in spelled:
                 yield from self._all_candidates()
             else:

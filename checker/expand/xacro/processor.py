@@ -57,7 +57,7 @@ class _Stopped(BaseException):
         self.outcome = outcome
 
 
-def expand(given: Mapping[str, Any], file: str, args: Mapping[str, str]) -> dict[str, Any]:
+def expand(request: Mapping[str, Any], file: str, args: Mapping[str, str]) -> dict[str, Any]:
     """Expand one file.
 
     Returns:
@@ -66,7 +66,7 @@ def expand(given: Mapping[str, Any], file: str, args: Mapping[str, str]) -> dict
         well; or `unread`, why it cannot be known; or `refused`, what an expression uses that is
         outside of the language, with the `expression` and `at`.
     """
-    expansion = _Expansion(given)
+    expansion = _Expansion(request)
     try:
         return expansion.run(file, dict(args))
     except _Stopped as stopped:
@@ -103,24 +103,24 @@ def _message(error: BaseException) -> str:
     expression = next(filter(None, suffixes), "")
     inner = causes[-1]
     if isinstance(inner, MemoryError):
-        said = "needs more memory than allowed"
+        message = "needs more memory than allowed"
     elif isinstance(inner, RecursionError):
-        said = _TOO_DEEP
+        message = _TOO_DEEP
     elif isinstance(inner, substitution_args.ArgException):
-        said = f"arg {inner} is neither given nor has a default"
+        message = f"arg {inner} is neither given nor has a default"
     else:
         outer = causes[-2] if isinstance(inner, FileNotFoundError) and causes[1:] else inner
-        said = str(outer.args[0] if outer.args and outer is not inner else outer)
-        said = said or type(inner).__name__
-    return " ".join(f"{said} {expression}".split())[:_MESSAGE_LIMIT]
+        message = str(outer.args[0] if outer.args and outer is not inner else outer)
+        message = message or type(inner).__name__
+    return " ".join(f"{message} {expression}".split())[:_MESSAGE_LIMIT]
 
 
 class _Expansion:
     """xacro, led to the given texts."""
 
-    def __init__(self, given: Mapping[str, Any]) -> None:
-        self._given = given
-        self._files: list[str] = sorted(given["texts"])
+    def __init__(self, request: Mapping[str, Any]) -> None:
+        self._request = request
+        self._files: list[str] = sorted(request["texts"])
         self._numbers = {path: number for number, path in enumerate(self._files)}
         self._nodes = 0
         self._at: tuple[int, int] | None = None
@@ -172,24 +172,24 @@ class _Expansion:
 
     def _text(self, path: str) -> str:
         path = posixpath.normpath(path)
-        if path in self._given["texts"]:
-            return str(self._given["texts"][path])
-        if path in self._given["faulty"]:
+        if path in self._request["texts"]:
+            return str(self._request["texts"][path])
+        if path in self._request["faulty"]:
             raise _Stopped(
-                {"kind": "malformed", "message": self._given["faulty"][path], "at": [path, -1]}
+                {"kind": "malformed", "message": self._request["faulty"][path], "at": [path, -1]}
             )
         package = path.removeprefix(f"{ROOT}/").partition("/")[0]
-        if package in self._given["beyond"]:
+        if package in self._request["beyond"]:
             raise _Stopped({"unread": f"{package} is not available"})
-        if path in self._given["absent"] or not path.startswith(f"{ROOT}/"):
+        if path in self._request["absent"] or not path.startswith(f"{ROOT}/"):
             raise FileNotFoundError(path)
         raise _Stopped({"missing": path})
 
-    def _parse(self, given: Any, path: str | None = None) -> Any:
+    def _parse(self, source: Any, path: str | None = None) -> Any:
         """Return a text as a document whose elements know where they stand."""
         if path is None:
             raise ValueError("only files of the package are read")
-        del given
+        del source
         try:
             # Our own reader has been through the text: no document types, no entities, no depth.
             document = minidom.parseString(self._text(path))  # noqa: S318
@@ -298,13 +298,13 @@ def _is_name(name: str) -> bool:
 
 def _elements(root: Any) -> list[Any]:
     """Return an element and all elements below it, in document order."""
-    found, waiting = [], [root]
+    nodes, waiting = [], [root]
     while waiting:
         node = waiting.pop()
         if node.nodeType == node.ELEMENT_NODE:
-            found.append(node)
+            nodes.append(node)
             waiting.extend(reversed(node.childNodes))
-    return found
+    return nodes
 
 
 def _folder_of_package(name: str) -> str:

@@ -70,25 +70,25 @@ def _bits(name: str, *numbers: int) -> int:
 
 
 def _sum(budget: Budget, items: Any, /) -> float:
-    found = listed(budget, items)
-    weigh(found, budget)
-    return math.fsum(found)
+    values = listed(budget, items)
+    weigh(values, budget)
+    return math.fsum(values)
 
 
 def _distance(budget: Budget, *points: Any) -> float:
-    found = [listed(budget, point) for point in points]
-    for each in found:
-        weigh(each, budget)
-    return math.dist(*found)
+    values = [listed(budget, point) for point in points]
+    for value in values:
+        weigh(value, budget)
+    return math.dist(*values)
 
 
 def _product(budget: Budget, items: Any, /, *, start: Any = 1) -> Any:
-    found = listed(budget, items)
-    if not all(type(each) in NUMBERS for each in (*found, start)):
-        weigh(found, budget)
+    values = listed(budget, items)
+    if not all(type(value) in NUMBERS for value in (*values, start)):
+        weigh(values, budget)
     result = start
-    for each in found:
-        result = multiply(result, each, budget)
+    for value in values:
+        result = multiply(result, value, budget)
     return result
 
 
@@ -200,7 +200,7 @@ def global_symbols(load_yaml: LoadYaml) -> dict[str, Any]:
         [("arg", _arg), ("fatal", _fatal), ("tokenize", _tokens)]
         + [(f"xacro.{name}", _silent) for name in _SILENT]
     )
-    own = {each.rpartition(".")[2]: work for each, work in (named | others).items()}
+    own = {dotted.rpartition(".")[2]: work for dotted, work in (named | others).items()}
     return {
         **{name: FUNCTIONS[name] for name in _DIRECT},
         **_TRUTH,
@@ -219,9 +219,9 @@ def python_symbols() -> dict[str, Any]:
 
 
 def _namespace(names: Mapping[str, Any]) -> Any:
-    made = xacro.NameSpace()
-    made.update(names)
-    return made
+    namespace = xacro.NameSpace()
+    namespace.update(names)
+    return namespace
 
 
 def _arg(budget: Budget, name: Any) -> Any:
@@ -229,14 +229,14 @@ def _arg(budget: Budget, name: Any) -> Any:
     return xacro.substitution_args_context["arg"][name]
 
 
-def _silent(budget: Budget, *said: Any, **how: Any) -> str:
-    for value in (*said, *how.values()):
+def _silent(budget: Budget, *values: Any, **how: Any) -> str:
+    for value in (*values, *how.values()):
         weigh(value, budget)
     return ""
 
 
-def _fatal(budget: Budget, *said: Any) -> Any:
-    raise xacro.XacroException(" ".join(text_of(each, budget) for each in said))
+def _fatal(budget: Budget, *values: Any) -> Any:
+    raise xacro.XacroException(" ".join(text_of(value, budget) for value in values))
 
 
 def _tokens(budget: Budget, s: Any, sep: Any = ",; ", skip_empty: Any = True) -> list[str]:
@@ -244,8 +244,8 @@ def _tokens(budget: Budget, s: Any, sep: Any = ",; ", skip_empty: Any = True) ->
         raise RefusedExpression("xacro.tokenize() with a pattern as separator")
     weigh(s, budget)
     budget.spend(len(s) // 2 + len(sep))
-    found = re.split(f"[{sep}]", s)
-    return [item for item in found if item] if skip_empty else found
+    parts = re.split(f"[{sep}]", s)
+    return [item for item in parts if item] if skip_empty else parts
 
 
 class EvalNames:

@@ -62,22 +62,22 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
     Args:
         request: JSON: `texts` by path, `absent` paths, `faulty` paths with what is wrong there,
-            `beyond` names of packages that are not at hand, and `items`: each a `file` and `args`.
+            `beyond` names of unavailable packages, and `items`: each a `file` and `args`.
 
     Returns:
         JSON: what became of each job (see `checker.expand.xacro.processor`), in the same order.
     """
     from checker.expand.xacro import processor
 
-    given = json.loads(request)
+    data = json.loads(request)
     until = monotonic() + SECONDS_FOR_ALL
 
     def work(job: Any) -> bytes:
         put_up()
-        return json.dumps(processor.expand(given, job["file"], job["args"])).encode()
+        return json.dumps(processor.expand(data, job["file"], job["args"])).encode()
 
     done = []
-    for job in given["items"]:
+    for job in data["items"]:
         seconds = min(SECONDS_FOR_ONE, int(until - monotonic()))
         if seconds < _SHORTEST:
             done.append({"unread": f"the other files took {SECONDS_FOR_ALL:g} s"})

@@ -44,10 +44,10 @@ class _Loader(yaml.SafeLoader):
         for key, value in node.value:
             if key.tag == _MERGE:
                 merged = value.value if isinstance(value, yaml.SequenceNode) else [value]
-                for each in merged:
-                    if isinstance(each, yaml.MappingNode):
-                        self.flatten_mapping(each)
-                        self._count(len(each.value))
+                for part in merged:
+                    if isinstance(part, yaml.MappingNode):
+                        self.flatten_mapping(part)
+                        self._count(len(part.value))
         super().flatten_mapping(node)
 
     def _count(self, nodes: int) -> None:

@@ -71,8 +71,8 @@ def _other_versions(robot: Robot) -> Iterator[str]:
         version = sdf_version(model.definition.document)
         newer = version > own >= _MEANINGS[-1]
         if newer or any((version < change) is not (own < change) for change in _MEANINGS):
-            said = ".".join(map(str, version)), ".".join(map(str, own))
-            yield f"{model.definition.source.file} is written in SDF {said[0]}, not in {said[1]}"
+            theirs, ours = ".".join(map(str, version)), ".".join(map(str, own))
+            yield f"{model.definition.source.file} is written in SDF {theirs}, not in {ours}"
 
 
 # From SDF 1.7 on: what was written in a nested model's frame names a frame that stands for it.

@@ -103,31 +103,31 @@ def mentions(source: SourceText, names: FlatNames) -> Iterator[tuple[str, Edit]]
 
     A part is named `arm::wrist`, or `model/arm/link/wrist` as in the topics of its sensors.
     """
-    for found in _SCOPED.finditer(source.text):
-        for scoped, start in _suffixes(found.group()):
+    for match in _SCOPED.finditer(source.text):
+        for scoped, start in _suffixes(match.group()):
             if scoped in names.changed:
-                span = Span(source, found.start() + start, found.end())
+                span = Span(source, match.start() + start, match.end())
                 yield scoped, span.replaced_by(names.flat(scoped))
                 break
-    for found in _TOPIC.finditer(source.text):
-        steps = found.group(1).removesuffix("/").split("/")[1::2]
+    for match in _TOPIC.finditer(source.text):
+        steps = match.group(1).removesuffix("/").split("/")[1::2]
         for number in range(len(steps)):
-            scoped = "::".join((*steps[number:], found.group(3)))
+            scoped = "::".join((*steps[number:], match.group(3)))
             if scoped in names.changed:
                 before = sum(len(f"model/{step}/") for step in steps[:number])
-                span = Span(source, found.start() + before, found.end())
-                yield scoped, span.replaced_by(f"{found.group(2)}/{names.flat(scoped)}")
+                span = Span(source, match.start() + before, match.end())
+                yield scoped, span.replaced_by(f"{match.group(2)}/{names.flat(scoped)}")
                 break
 
 
 def topic_mentions(source: SourceText, names: FlatNames) -> Iterator[Edit]:
     """Yield edits of topics that name a part directly, such as `link/X1/base_link/sensor/imu`."""
-    for found in _STEPS.finditer(source.text):
-        steps = found.group(1).split("/")
+    for match in _STEPS.finditer(source.text):
+        steps = match.group(1).split("/")
         for number in range(min(len(steps), _DEPTH), 0, -1):
             named = "/".join(steps[:number])
             if named in names.changed:
-                span = Span(source, found.start(1), found.start(1) + len(named))
+                span = Span(source, match.start(1), match.start(1) + len(named))
                 yield span.replaced_by(names.flat(named))
                 break
 

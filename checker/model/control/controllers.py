@@ -169,12 +169,12 @@ class ControlSystem(Record, eq=False, dict=True):
     @cached_property
     def spawned(self) -> tuple[Spawned, ...]:
         """Controllers that launch files start; each place once."""
-        found = {
-            (each.full_name, each.span.source.file, each.span.start): each
+        distinct = {
+            (controller.full_name, controller.span.source.file, controller.span.start): controller
             for launch in self.launches
-            for each in launch.spawned
+            for controller in launch.spawned
         }
-        return tuple(found.values())
+        return tuple(distinct.values())
 
     @cached_property
     def configured(self) -> Mapping[str, Controller]:
@@ -188,7 +188,7 @@ class ControlSystem(Record, eq=False, dict=True):
     @cached_property
     def namespaces(self) -> frozenset[str]:
         """Namespaces in which launch files start controllers."""
-        return frozenset(each.namespace for each in self.spawned)
+        return frozenset(controller.namespace for controller in self.spawned)
 
     @cached_property
     def plugin_namespaces(self) -> Mapping[str, Span]:
@@ -196,24 +196,24 @@ class ControlSystem(Record, eq=False, dict=True):
 
         A plugin that states none gets that of the node which spawns the model.
         """
-        found: dict[str, Span] = {}
+        namespaces: dict[str, Span] = {}
         for plugin in self.plugins:
             if plugin.namespace is not None:
-                found.setdefault(plugin.namespace.value, plugin.namespace.span)
+                namespaces.setdefault(plugin.namespace.value, plugin.namespace.span)
                 continue
             for model in self.models:
-                found.setdefault(model.namespace, model.span)
-        return found
+                namespaces.setdefault(model.namespace, model.span)
+        return namespaces
 
     @cached_property
     def models(self) -> tuple[SpawnedModel, ...]:
         """Models that launch files spawn; each place once."""
-        found = {
+        distinct = {
             (model.node.span.source.file, model.node.span.start, model.model): model
             for launch in self.launches
             for model in launch.models
         }
-        return tuple(found.values())
+        return tuple(distinct.values())
 
     def moves(self, name: str) -> bool:
         """Whether a joint is known to be one that a motor can move."""
@@ -223,14 +223,14 @@ class ControlSystem(Record, eq=False, dict=True):
     @cached_property
     def namesakes(self) -> Mapping[str, Controller]:
         """Controllers that launch files load, by name, whatever their namespace."""
-        return {each.name: each for each in self.configured.values()}
+        return {controller.name: controller for controller in self.configured.values()}
 
     def publishers(self, launch: ControlLaunch) -> Iterator[Spawned]:
         """Yield the controllers of a launch file that publish joint states."""
-        for each in launch.spawned:
-            controller = self.configured.get(each.full_name) or self.namesakes.get(each.name)
+        for spawned in launch.spawned:
+            controller = self.configured.get(spawned.full_name) or self.namesakes.get(spawned.name)
             if controller is not None and controller.kind == STATE_CONTROLLER:
-                yield each
+                yield spawned
 
     @cached_property
     def interfaces(self) -> Mapping[str, Located[str]]:
@@ -238,7 +238,7 @@ class ControlSystem(Record, eq=False, dict=True):
 
         Like Gazebo, it takes the joint's first, and the actuator's where the joint has none.
         """
-        found: dict[str, Located[str]] = {}
+        joints: dict[str, Located[str]] = {}
         for transmission in self.transmissions:
             ends = (*transmission.joints, *transmission.actuators)
             first = next((name for end in ends for name in end.interfaces), None)
@@ -246,5 +246,5 @@ class ControlSystem(Record, eq=False, dict=True):
                 named = next(iter(joint.interfaces), first)
                 if named is not None:
                     plain = Located(named.value.removeprefix(_PREFIX), named.span)
-                    found.setdefault(joint.name.value, plain)
-        return found
+                    joints.setdefault(joint.name.value, plain)
+        return joints

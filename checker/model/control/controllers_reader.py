@@ -89,23 +89,23 @@ def _joints(node: YamlNode) -> Iterator[Located[str]]:
         named = node.get(key)
         if named is None:
             continue
-        for each in named.items if named.kind == "sequence" else (named,):
-            if isinstance(each.scalar, str) and "$(" not in each.scalar:
-                yield Located(each.scalar, each.span)
+        for item in named.items if named.kind == "sequence" else (named,):
+            if isinstance(item.scalar, str) and "$(" not in item.scalar:
+                yield Located(item.scalar, item.span)
 
 
 def _gains(node: YamlNode, joints: tuple[Located[str], ...]) -> dict[str, Mapping[str, Gain]]:
     """Return gains by joint: below `pid`, `gains/<joint>` or `<joint>/pid`."""
     own, by_joint = node.get(_OWN), node.get("gains")
-    found: dict[str, Mapping[str, Gain]] = {}
+    gains: dict[str, Mapping[str, Gain]] = {}
     for joint in joints:
         name = joint.value
         part = node.get(name)
         places = (by_joint.get(name) if by_joint else None, part.get(_OWN) if part else None, own)
         stated = next((place for place in places if place is not None), None)
         if stated is not None:
-            found[name] = read_gains(stated)
-    return found
+            gains[name] = read_gains(stated)
+    return gains
 
 
 def _simulator_gains(plugin: YamlNode) -> Iterator[SimulatorGains]:
@@ -118,12 +118,12 @@ def _simulator_gains(plugin: YamlNode) -> Iterator[SimulatorGains]:
 
 def read_gains(node: YamlNode) -> dict[str, Gain]:
     """Return the gains of a mapping, by `p`, `i`, `d`."""
-    found = {}
+    gains = {}
     for name in GAINS:
         value = node.get(name)
         if value is not None:
-            found[name] = Gain(_number(value), value.span.text[:80], value.span)
-    return found
+            gains[name] = Gain(_number(value), value.span.text[:80], value.span)
+    return gains
 
 
 def _number(node: YamlNode) -> float | None:

@@ -107,8 +107,8 @@ class SpawnedModel(Record, eq=False):
         return is_known(_FIND.sub("", self.node.args))
 
     def _word(self, option: str) -> str:
-        found = self.options.get(option)
-        return found.value if found is not None else ""
+        value = self.options.get(option)
+        return value.value if value is not None else ""
 
 
 def read_spawned(node: Node) -> Iterator[Spawned | str]:

@@ -102,8 +102,8 @@ class Parameters:
         elif self.package.exists(path):
             self.unread.append(f"{path} {source.reason}")
         else:
-            said = f"{path} is loaded as parameters, but does not exist"
-            self.faults.append(ParameterFault(param.span, said))
+            message = f"{path} is loaded as parameters, but does not exist"
+            self.faults.append(ParameterFault(param.span, message))
 
     def _document(self, source: SourceText) -> YamlDocument:
         """Return a text as YAML; a file is parsed once, however often it is loaded."""
@@ -129,11 +129,11 @@ class Parameters:
             )
         if document.root is None or not self._affordable(document.root.size, source.file):
             return
-        for found in read_controllers(document.root, namespace, loaded_by):
-            if isinstance(found, Controller):
-                self.controllers.append(found)
+        for item in read_controllers(document.root, namespace, loaded_by):
+            if isinstance(item, Controller):
+                self.controllers.append(item)
             else:
-                self.gains.append(found)
+                self.gains.append(item)
 
     def _affordable(self, values: int, file: str) -> bool:
         """Count values, and say whether there are not too many by now."""
@@ -199,9 +199,9 @@ def control_system(
         transmissions=tuple(
             transmission for one in described for transmission in one.transmissions
         ),
-        plugins=tuple(_plugin(each) for each in _called(plugins, MANAGER_PLUGIN)),
+        plugins=tuple(_plugin(plugin) for plugin in _called(plugins, MANAGER_PLUGIN)),
         publishes_states=bool(_called(plugins, _STATE_PLUGIN)),
-        has_manager=any(_MANAGER in library_stem(each.filename.value) for each in plugins),
+        has_manager=any(_MANAGER in library_stem(plugin.filename.value) for plugin in plugins),
         otherwise_moved=frozenset(_mentioned(plugins)),
         controllers=tuple(parameters.controllers),
         simulator_gains=tuple(parameters.gains),
@@ -247,7 +247,10 @@ def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlL
     listeners = (read_listener(node) for node in graph.nodes)
     models = (read_model(node) for node in graph.nodes)
     topics = (published_states(node) for node in graph.nodes)
-    unread += (f"whether {each.value} is true is known only at launch" for each in graph.undecided)
+    unread += (
+        f"whether {condition.value} is true is known only at launch"
+        for condition in graph.undecided
+    )
     return ControlLaunch(
         entry.file,
         tuple(_spawned(graph.nodes, unread)),
@@ -261,11 +264,11 @@ def _launch(package: Package, entry: LaunchEntry, unread: list[str]) -> ControlL
 
 def _spawned(nodes: Iterable[Node], unread: list[str]) -> Iterable[Spawned]:
     for node in nodes:
-        for found in read_spawned(node):
-            if isinstance(found, Spawned):
-                yield found
+        for item in read_spawned(node):
+            if isinstance(item, Spawned):
+                yield item
             else:
-                unread.append(found)
+                unread.append(item)
 
 
 def _dormant(entries: LaunchEntries) -> Iterable[Spawned]:
@@ -274,7 +277,7 @@ def _dormant(entries: LaunchEntries) -> Iterable[Spawned]:
 
 
 def _missing(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
-    """Yield the descriptions that a launch file reads and that no package at hand holds."""
+    """Yield the descriptions that a launch file reads and that no available package holds."""
     named = [(param.value, param.span) for param in graph.params if param.kind in _READING]
     named += [
         (word.value, word.span)
@@ -283,7 +286,7 @@ def _missing(package: Package, graph: LaunchGraph) -> Iterable[ParameterFault]:
     ]
     files = LaunchFiles(package)
     for text, span in named:
-        for found in _DESCRIPTION.finditer(text[:_LONGEST]):
-            path = files.path_of(found.group())
+        for match in _DESCRIPTION.finditer(text[:_LONGEST]):
+            path = files.path_of(match.group())
             if path is not None and not package.exists(path):
                 yield ParameterFault(span, f"{path} is read as a description, but does not exist")

@@ -69,20 +69,20 @@ class SensorDevice(Record, eq=False):
     Attributes:
         sensor: Of the robot.
         device: What it is.
-        said: The words that say so: an item of the specification sheet, else the name of the
+        words: The words that say so: an item of the specification sheet, else the name of the
             sensor, its link or its topic.
         from_sheet: Whether the sheet says so.
     """
 
     sensor: Sensor
     device: Device
-    said: Located[str]
+    words: Located[str]
     from_sheet: bool
 
     @property
     def names_the_model(self) -> bool:
         """Whether what names the device leaves no other of its family: some part of the sheet."""
-        text = self.said.span.source.text if self.from_sheet else self.said.value
+        text = self.words.span.source.text if self.from_sheet else self.words.value
         return self.device.model in text
 
 
@@ -99,7 +99,7 @@ class SensorDevices(Record, eq=False, dict=True):
 
     @cached_property
     def _by_sensor(self) -> dict[Sensor, SensorDevice]:
-        return {each.sensor: each for each in self.known}
+        return {device.sensor: device for device in self.known}
 
     def of(self, sensor: Sensor) -> SensorDevice | None:
         """Return the device that a sensor stands for; None when nothing tells."""

@@ -136,7 +136,7 @@ def _shown(value: object) -> str:
 
 
 def _is_texts(value: object) -> bool:
-    return isinstance(value, list) and all(isinstance(each, str) for each in value)
+    return isinstance(value, list) and all(isinstance(item, str) for item in value)
 
 
 def _problem_of_table(name: str, table: Any, forms: Mapping[str, _Form]) -> str:

@@ -36,7 +36,7 @@ class KnownDevices(Record, eq=False):
             types: Types of `<sensor>`; devices that none of them may stand for do not count.
         """
         wanted = None if types is None else frozenset(types)
-        found: list[tuple[Device, int, int]] = []
+        named: list[tuple[Device, int, int]] = []
         for device in self.devices:
             if wanted is not None and not wanted & device.sdf_types:
                 continue
@@ -45,9 +45,9 @@ class KnownDevices(Record, eq=False):
                 continue
             start, end = match.span()
             # What overlaps is another reading of the same words, and the first one counts.
-            if not any(start < other_end and first < end for _, first, other_end in found):
-                found.append((device, start, end))
-        return found[0][0] if len(found) == 1 else None
+            if not any(start < other_end and first < end for _, first, other_end in named):
+                named.append((device, start, end))
+        return named[0][0] if len(named) == 1 else None
 
     def named(self, name: str, types: Iterable[str] | None = None) -> Device | None:
         """Return the device in a name such as `front_vlp16_link`; see `named_in`."""

@@ -46,7 +46,7 @@ _KINDS = {
 
 def class_of_device(device: Device) -> LidarClass | None:
     """Return how a device scans; None when it is no lidar."""
-    return next((each for each in LidarClass if each.value == device.kind), None)
+    return next((kind for kind in LidarClass if kind.value == device.kind), None)
 
 
 def class_of_kind(kind: SensorKind) -> LidarClass | None:
@@ -93,7 +93,7 @@ class _Named(Record, eq=False):
 
     sensor: Sensor
     device: Device | None
-    said: Located[str]
+    words: Located[str]
     lidar_class: LidarClass | None
     places: frozenset[str]
 
@@ -106,7 +106,7 @@ def find_sensor_devices(
     Args:
         robot: Its sensors beyond the first 500 are left out.
         known: Devices to choose from.
-        sheet: None when it is not at hand: then the model's own words are all there is.
+        sheet: None when it is not available: then the model's own words are all there is.
         configurations: Numbers of sensor configurations of which the sheet may speak.
     """
     sensors = [_read_sensor(sensor, known) for sensor in robot.sensors[:SENSORS_LIMIT]]
@@ -138,14 +138,14 @@ def _read_sensor(sensor: Sensor, known: KnownDevices) -> _Named:
     comment = sensor.element.comment_in_front
     texts = [sensor.name, Located(sensor.link, sensor.span), sensor.topic]
     texts += [comment] if comment is not None else []
-    device, said = None, sensor.name
+    device, words = None, sensor.name
     for text in texts:
         device = known.named(text.value, (sensor.type.value,))
         if device is not None:
-            said = text
+            words = text
             break
     places = _places([sensor.name.value]) or _places([sensor.link, sensor.topic.value])
-    return _Named(sensor, device, said, class_of_sensor(sensor), places)
+    return _Named(sensor, device, words, class_of_sensor(sensor), places)
 
 
 def _places(texts: Iterable[str]) -> frozenset[str]:
@@ -162,10 +162,10 @@ def _decided(sensors: Sequence[_Named], items: Sequence[_Item]) -> Iterator[Sens
         if item is None:
             listed = any(_may_be(item, named) for item in items)
             if named.device is not None and not listed:
-                yield SensorDevice(named.sensor, named.device, named.said, from_sheet=False)
+                yield SensorDevice(named.sensor, named.device, named.words, from_sheet=False)
         elif item.device is not None and (item in agreed or item.device is named.device):
-            said = Located(item.listed.text, item.listed.span)
-            yield SensorDevice(named.sensor, item.device, said, from_sheet=True)
+            words = Located(item.listed.text, item.listed.span)
+            yield SensorDevice(named.sensor, item.device, words, from_sheet=True)
 
 
 def _chosen(sensors: Sequence[_Named], items: Sequence[_Item]) -> dict[_Named, _Item]:
@@ -222,8 +222,8 @@ def _fits(item: _Item, group: Sequence[_Named]) -> bool:
     if count is None:
         return len({_settings(named.sensor) for named in group}) == 1
     values = device.values if device is not None else {}
-    each = values.get("cameras", values.get("cameras_per_device", 1))
-    return len(group) in (count, count * each)
+    cameras = values.get("cameras", values.get("cameras_per_device", 1))
+    return len(group) in (count, count * cameras)
 
 
 def _settings(sensor: Sensor) -> tuple[float, ...]:

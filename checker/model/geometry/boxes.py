@@ -131,7 +131,7 @@ def clusters(boxes: Sequence[Box], gap: float) -> list[list[int]]:
 
     for one, other in close_pairs(boxes, gap):
         leader[lead(other)] = lead(one)
-    found: dict[int, list[int]] = {}
+    groups: dict[int, list[int]] = {}
     for number in range(len(boxes)):
-        found.setdefault(lead(number), []).append(number)
-    return list(found.values())
+        groups.setdefault(lead(number), []).append(number)
+    return list(groups.values())

@@ -137,7 +137,7 @@ def overlap_depth(
         tried.append((along(direction), direction))
         if tried[-1][0] <= enough:
             return tried[-1][0]
-    tried.sort(key=lambda each: each[0])
+    tried.sort(key=lambda direction: direction[0])
     least = math.inf
     for overlap, direction in tried[:_BEST]:
         least = min(least, _downhill(along, direction, overlap, enough))
@@ -163,8 +163,8 @@ def _downhill(along: Support, direction: Vector, overlap: float, enough: float) 
     """Return the least overlap near a direction: step to the best of eight, else step shorter."""
     step = _FIRST_STEP
     while step > _LAST_STEP and overlap > enough:
-        near = [(along(each), each) for each in _ring(direction, step)]
-        best, towards = min(near, key=lambda each: each[0])
+        near = [(along(other), other) for other in _ring(direction, step)]
+        best, towards = min(near, key=lambda pair: pair[0])
         if best < overlap:
             overlap, direction = best, towards
         else:

@@ -49,30 +49,30 @@ def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
         TooManyPairs: More collisions lie side by side than are compared.
     """
     shapes = [
-        each
+        piece
         for link in robot.tree.links.values()
-        for each in placed(robot, link, link.collisions)
-        if is_convex(robot, each)
+        for piece in placed(robot, link, link.collisions)
+        if is_convex(robot, piece)
     ]
     bodies = rigid_bodies(robot)
     tied = _tied(robot, bodies)
     wheels = {link.scoped_name for link in robot.wheels}
-    found: set[tuple[str, str]] = set()
+    pairs: set[tuple[str, str]] = set()
     for first, second in close_pairs([shape.box for shape in shapes], -depth):
         one, other = shapes[first], shapes[second]
         a, b = one.link.scoped_name, other.link.scoped_name
         pair = (min(a, b), max(a, b))
         body, beside = bodies.of_link[a], bodies.of_link[b]
-        if pair in found or body == beside or beside in tied.get(body, ()):
+        if pair in pairs or body == beside or beside in tied.get(body, ()):
             continue
         if a in wheels and b in wheels:
             continue
         deep = _depth(robot, one, other, depth)
         if deep > depth:
-            found.add(pair)
+            pairs.add(pair)
             larger, smaller = sorted((one, other), key=_bulk, reverse=True)
             yield Inside(larger, smaller, deep)
-            if len(found) >= DEEP_PAIRS:
+            if len(pairs) >= DEEP_PAIRS:
                 return
 
 

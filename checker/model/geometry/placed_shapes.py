@@ -48,10 +48,10 @@ def placed(robot: Robot, link: Link, shapes: Iterable[Collision | Visual]) -> It
 
 def union(boxes: Iterable[Box]) -> Box | None:
     """Return the box around boxes; None without any."""
-    given = list(boxes)
-    if not given:
+    known = list(boxes)
+    if not known:
         return None
-    lows = zip(*(box.low for box in given), strict=True)
-    highs = zip(*(box.high for box in given), strict=True)
+    lows = zip(*(box.low for box in known), strict=True)
+    highs = zip(*(box.high for box in known), strict=True)
     (x, y, z), (u, v, w) = map(min, lows), map(max, highs)
     return Box((x, y, z), (u, v, w))

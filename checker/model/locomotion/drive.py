@@ -35,8 +35,8 @@ _WHEEL_JOINT_TAGS = ("left_joint", "right_joint")
 
 def drive_name(plugins: Iterable[Plugin]) -> str:
     """Return what moves the robot, `none found` without a drive plugin."""
-    found = {DRIVE_CLASSES[p.class_name] for p in plugins if p.class_name in DRIVE_CLASSES}
-    return " and ".join(sorted(found)) or "none found"
+    kinds = {DRIVE_CLASSES[p.class_name] for p in plugins if p.class_name in DRIVE_CLASSES}
+    return " and ".join(sorted(kinds)) or "none found"
 
 
 def driven_joints(plugins: Iterable[Plugin], joints: Iterable[Joint]) -> dict[str, Plugin]:

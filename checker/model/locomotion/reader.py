@@ -48,15 +48,15 @@ class TrackReader:
     @cached_property
     def tracks(self) -> dict[str, Track]:
         """All tracks by the scoped name of their link; of two controllers, the first counts."""
-        found: dict[str, Track] = {}
+        tracks: dict[str, Track] = {}
         for controller in self.controllers:
             named = next((link.value for link in controller.at("link")), "")
             name = _scoped(controller, named)
             link = self.robot.links_by_name.get(name)
-            if link is not None and name not in found:
+            if link is not None and name not in tracks:
                 limits = read_limits(controller.element)
-                found[name] = Track(controller, link, self._sides.get(name), limits)
-        return found
+                tracks[name] = Track(controller, link, self._sides.get(name), limits)
+        return tracks
 
     def drives(self) -> Iterator[TrackedDrive]:
         """Yield the plugins that command tracks."""

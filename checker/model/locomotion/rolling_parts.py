@@ -54,16 +54,16 @@ def rolling_parts(robot: Robot) -> list[RollingPart]:
     }
     giving = _links_that_give(robot, passive)
     tracks = {track.link.scoped_name for track in robot.locomotion.tracks}
-    found = []
+    parts = []
     for links, wheel in _parts(robot):
-        shapes = [each.box for link in links for each in placed(robot, link, link.collisions)]
+        shapes = [piece.box for link in links for piece in placed(robot, link, link.collisions)]
         box = union(shapes)
         above = robot.tree.above.get(links[0].scoped_name, ())
         suspended = any(giving.get(tie.parent, False) for tie in above)
         if box is not None:
             is_track = links[0].scoped_name in tracks
-            found.append(RollingPart(links, wheel, is_track, box, suspended))
-    return found
+            parts.append(RollingPart(links, wheel, is_track, box, suspended))
+    return parts
 
 
 def _parts(robot: Robot) -> Iterator[tuple[tuple[Link, ...], Wheel | None]]:

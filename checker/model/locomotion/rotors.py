@@ -103,8 +103,8 @@ def _rank(rows: list[list[float]]) -> int:
         pivot = rows[rank]
         for row in rows[rank + 1 :]:
             factor = row[column] / pivot[column]
-            for each in range(column, 4):
-                row[each] -= factor * pivot[each]
+            for index in range(column, 4):
+                row[index] -= factor * pivot[index]
         rank += 1
     return rank
 

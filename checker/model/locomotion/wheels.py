@@ -29,12 +29,12 @@ ASKEW = math.radians(1)
 
 def wheel_shapes(robot: Robot, wheel: Wheel) -> list[Placed]:
     """Return the collisions of a wheel whose extent is known."""
-    return [each for link in wheel.body for each in placed(robot, link, link.collisions)]
+    return [piece for link in wheel.body for piece in placed(robot, link, link.collisions)]
 
 
 def tread(robot: Robot, wheel: Wheel) -> Placed | None:
     """Return the collision that a wheel rolls on: the largest; None when none is known."""
-    return max(wheel_shapes(robot, wheel), key=lambda each: each.box.diagonal, default=None)
+    return max(wheel_shapes(robot, wheel), key=lambda piece: piece.box.diagonal, default=None)
 
 
 def askew(robot: Robot, wheel: Wheel) -> float | None:
@@ -145,15 +145,15 @@ class WheelReader:
     def _body(self, link: Link) -> tuple[Link, ...]:
         """Return a link and those that fixed joints tie below it, unless another wheel has them."""
         top = link.scoped_name
-        found, waiting = [link], list(self.fixed.get(top, ()))
+        links, waiting = [link], list(self.fixed.get(top, ()))
         self.body_of.setdefault(top, top)
         while waiting:
             name = waiting.pop()
             if name not in self.body_of:
                 self.body_of[name] = top
-                found.append(self.robot.links_by_name[name])
+                links.append(self.robot.links_by_name[name])
                 waiting += self.fixed.get(name, ())
-        return tuple(found)
+        return tuple(links)
 
     def _size(
         self, body: Iterable[Link], centre: Vector, axis: Vector
@@ -168,7 +168,7 @@ class WheelReader:
                 if pose is None:
                     continue
                 known = [self._reach(shape.geometry, pose, d, centre) for d in directions]
-                reach = [each for each in known if each is not None]
+                reach = [distance for distance in known if distance is not None]
                 if len(reach) == len(directions):
                     reaches.append(reach)
         if not reaches:

@@ -71,7 +71,7 @@ def _read(param: Param) -> RobotDescription:
     if param.kind != "command":
         files = _files([param.value]) if param.kind in ("textfile", "load") else ()
         return RobotDescription(param, tuple(files), {}, uses_xacro=False)
-    words = [next(filter(None, found.groups()), "") for found in _WORD.finditer(param.value)]
+    words = [next(filter(None, match.groups()), "") for match in _WORD.finditer(param.value)]
     arguments: dict[str, str] = {}
     named = []
     for word in words:
@@ -113,7 +113,7 @@ def fixed_frames(document: XmlDocument) -> dict[str, Element]:
 def _plain(name: str) -> str:
     """Return a name without the prefix that xacro works out; empty when more is computed."""
     at = 0
-    while found := _COMPUTED.match(name, at):
-        at = found.end()
+    while match := _COMPUTED.match(name, at):
+        at = match.end()
     rest = name[at:]
     return "" if "$" in rest else rest.rpartition("/")[2]

@@ -81,10 +81,10 @@ def comparable(topic: str) -> str:
 
 def by_topic(bridges: Iterable[Bridge]) -> Mapping[str, Sequence[Bridge]]:
     """Return bridges by what they bridge, made comparable."""
-    found: dict[str, list[Bridge]] = defaultdict(list)
+    bridges_by_topic: dict[str, list[Bridge]] = defaultdict(list)
     for bridge in bridges:
-        found[comparable(bridge.ign_topic)].append(bridge)
-    return found
+        bridges_by_topic[comparable(bridge.ign_topic)].append(bridge)
+    return bridges_by_topic
 
 
 def channels(robot: Robot) -> tuple[Channel, ...]:
@@ -113,7 +113,7 @@ def sensor_channels(sensor: Sensor) -> Iterator[Channel]:
             topics = [stated]
         else:
             prefix = _prefix(sensor)
-            topics = [posixpath.normpath(f"{prefix}/{each}") for each in entry["topics"]]
+            topics = [posixpath.normpath(f"{prefix}/{suffix}") for suffix in entry["topics"]]
         yield _channel(entry, sensor, topics)
 
 

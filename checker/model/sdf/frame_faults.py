@@ -84,10 +84,16 @@ def _in_world(world: Element, scopes: _Scopes) -> Iterator[Fault]:
             continue
         name = _name(child)
         at, relative_to = _stated(child.attribute("attached_to")), _relative_to(child)
-        for said, what in ((at, "attached"), (relative_to, "posed relative")):
-            if said is not None and said.value != _WORLD and not scopes.exists(world, said.value):
-                message = f"{child.tag} {name!r} is {what} to {said.value!r}, which does not exist"
-                yield _fault(said, message)
+        for target, what in ((at, "attached"), (relative_to, "posed relative")):
+            if (
+                target is not None
+                and target.value != _WORLD
+                and not scopes.exists(world, target.value)
+            ):
+                message = (
+                    f"{child.tag} {name!r} is {what} to {target.value!r}, which does not exist"
+                )
+                yield _fault(target, message)
         if at is not None:
             attached[name] = at.value
         if frame := relative_to or at:
@@ -182,7 +188,7 @@ def _attachments(robot: Robot) -> Iterator[Fault]:
             path[at] = None
             at = attached[at]
         done.update(path)
-        if at in path and any(frames[each].pose.relative_to for each in path):
+        if at in path and any(frames[step].pose.relative_to for step in path):
             message = f"frame {at!r} is attached to itself through {attached[at]!r}"
             yield Fault(FaultKind.FRAME, frames[at].span, message)
 

@@ -41,7 +41,7 @@ class ModelIncludes(Record):
         return document if isinstance(document, XmlDocument) else f"{path} cannot be read"
 
     def _path(self, uri: str, folder: str) -> str | None:
-        """Return the path of a model: of a package at hand, of a folder, or as it is named."""
+        """Return the path of a model: of an available package, of a folder, or as it is named."""
         if uri.startswith("model://"):
             name, _, uri = uri.removeprefix("model://").partition("/")
             holder = self.package.workspace.package(name)

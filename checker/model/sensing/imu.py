@@ -43,11 +43,11 @@ def read_imu(sensor: Element) -> Imu | None:
 
 
 def _noises(imu: Element) -> dict[tuple[str, str], Noise]:
-    found = {}
+    noises = {}
     for quantity in QUANTITIES:
         holder = imu.child(quantity)
         for axis in "xyz":
             noise = read_noise(holder.child(axis)) if holder is not None else None
             if noise is not None:
-                found[quantity, axis] = noise
-    return found
+                noises[quantity, axis] = noise
+    return noises

@@ -32,8 +32,10 @@ def sensor_types(release: str) -> SensorTypes:
     """Return the types of a release; for one without a table, whatever any release knows."""
     releases = table("gazebo_sensors")["releases"]
     listed = [releases[release]] if release in releases else list(releases.values())
-    entries = [entry for each in listed for entry in each["types"]]
-    lost = [each for each in entries if not each["simulated"] and each["type"] not in _ELSEWHERE]
+    entries = [entry for row in listed for entry in row["types"]]
+    lost = [
+        entry for entry in entries if not entry["simulated"] and entry["type"] not in _ELSEWHERE
+    ]
     return SensorTypes(
         _spellings(entries) | {"none"},
         _spellings(lost) | {"none"} if release in releases else frozenset(),

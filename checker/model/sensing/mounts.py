@@ -124,15 +124,15 @@ def called_directions(mounted: Mounted) -> CalledDirections | None:
     """Return what a sensor's name says, else its topic, else the name of a link made for it."""
     for source, text in _names(mounted):
         words = _words(text)
-        said = [word for word in words if word in _DIRECTIONS]
-        if said:
-            towards = list(dict.fromkeys(_DIRECTIONS[word] for word in said))
+        directions = [word for word in words if word in _DIRECTIONS]
+        if directions:
+            towards = list(dict.fromkeys(_DIRECTIONS[word] for word in directions))
             others = [way for word in words for way in _TOO.get(word, ())]
             between = [mid for a, b in combinations(towards, 2) if (mid := _between(a, b))]
             sideways = all(way in (_LEFT, _RIGHT) for way in towards)
             tilted = not sideways and not {_AHEAD, _BEHIND}.intersection(towards)
             meant = (*towards, *others, *between)
-            return CalledDirections(said[0], source, meant, sideways, tilted)
+            return CalledDirections(directions[0], source, meant, sideways, tilted)
     return None
 
 

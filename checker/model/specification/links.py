@@ -40,14 +40,14 @@ def validation_links(source: SourceText, start: int, end: int) -> Iterator[Span]
         end: Where that section ends.
     """
     # Blanks of the same length keep the offsets.
-    text = _COMMENT.sub(lambda found: " " * len(found.group()), source.text[:MAX_LENGTH])
+    text = _COMMENT.sub(lambda match: " " * len(match.group()), source.text[:MAX_LENGTH])
     offset = 0
     for line in text.splitlines(keepends=True):
         named = start <= offset < end and _RECORDED.search(_URL.sub(" ", line)) is not None
-        for found in _URL.finditer(line):
-            shared = _SHARED.search(found.group()) is not None
-            if (named or shared) and not _PLACEHOLDER.search(found.group()):
-                yield Span(source, offset + found.start(), offset + found.end())
+        for match in _URL.finditer(line):
+            shared = _SHARED.search(match.group()) is not None
+            if (named or shared) and not _PLACEHOLDER.search(match.group()):
+                yield Span(source, offset + match.start(), offset + match.end())
         offset += len(line)
 
 
@@ -75,10 +75,10 @@ _MODELED = re.compile(r"\bmodell?ed\b", re.IGNORECASE)
 
 def relative_links(markdown: Markdown) -> Iterator[Located[str]]:
     """Yield the paths that links lead to, as written; links to web pages and headings are none."""
-    for found in islice(_LINK.finditer(markdown.text), MAX_LINKS):
-        path = unquote(re.split(r"[?#]", found.group(1))[0])
-        if path and not _ELSEWHERE.match(found.group(1)):
-            yield Located(path, Span(markdown.source, *found.span(1)))
+    for match in islice(_LINK.finditer(markdown.text), MAX_LINKS):
+        path = unquote(re.split(r"[?#]", match.group(1))[0])
+        if path and not _ELSEWHERE.match(match.group(1)):
+            yield Located(path, Span(markdown.source, *match.span(1)))
 
 
 def without_datasheet(markdown: Markdown, listed: Sequence[ListedSensor]) -> list[ListedSensor]:
@@ -88,19 +88,19 @@ def without_datasheet(markdown: Markdown, listed: Sequence[ListedSensor]) -> lis
     """
     lines = markdown.text.splitlines()
     linked = "\n".join(_plain(line) for line in lines if _LEADS_OUT.search(line[:_TEXT_LIMIT]))
-    found: dict[int, ListedSensor] = {}
+    items: dict[int, ListedSensor] = {}
     for item in listed:
         names = _names(item.text)
-        if not item.kind.is_sensor or not names or item.span.start in found:
+        if not item.kind.is_sensor or not names or item.span.start in items:
             continue
         if not _LEADS_OUT.search(item.span.text) and not any(name in linked for name in names):
-            found[item.span.start] = item
-    return list(found.values())
+            items[item.span.start] = item
+    return list(items.values())
 
 
 def _names(text: str) -> list[str]:
     device = _MODELED.split(text[:_TEXT_LIMIT], maxsplit=1)[0]
-    written = [found.group() for found in _NAME.finditer(device)]
+    written = [match.group() for match in _NAME.finditer(device)]
     # `Velodyne-16` is linked as velodyne.com, and `D435i` as the D435 that it descends from.
     parts = [part for name in written for part in name.split("-") if part.isalpha()]
     older = [name.rstrip("abcdefghijklmnopqrstuvwxyz") for name in written]

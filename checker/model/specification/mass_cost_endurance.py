@@ -48,14 +48,14 @@ def durations(passages: Iterable[Passage]) -> Iterator[Quantity]:
     for passage in passages:
         for sentence in sentences(passage):
             last = 0
-            for found in _DURATION.finditer(sentence.text):
-                quantity = _duration(sentence, found, sentence.text[last : found.start()])
-                last = found.end()
+            for match in _DURATION.finditer(sentence.text):
+                quantity = _duration(sentence, match, sentence.text[last : match.start()])
+                last = match.end()
                 if quantity is not None:
                     yield quantity
 
 
-def _duration(sentence: Sentence, found: re.Match[str], before: str) -> Quantity | None:
+def _duration(sentence: Sentence, match: re.Match[str], before: str) -> Quantity | None:
     if _BOUND.search(before):
         return None
     if _LIMIT.search(before):
@@ -64,7 +64,7 @@ def _duration(sentence: Sentence, found: re.Match[str], before: str) -> Quantity
         kind = QuantityKind.ENDURANCE
     else:
         return None
-    number, unit, rest, rest_unit = found.groups()
+    number, unit, rest, rest_unit = match.groups()
     factor = _SECONDS[unit[0].lower()]
     value, resolution = number_of(number) * factor, resolution_of(number) * factor
     if rest:
@@ -77,7 +77,7 @@ def _duration(sentence: Sentence, found: re.Match[str], before: str) -> Quantity
         unit,
         is_approximate(before),
         configurations_in(sentence.text),
-        sentence.part(*found.span()),
+        sentence.part(*match.span()),
     )
 
 
@@ -87,11 +87,13 @@ def endurance(stated: Sequence[Quantity]) -> Quantity | None:
     What the model is limited to counts more than what the robot reaches.
     """
     general = [duration for duration in stated if not duration.configurations]
-    limits = [each for each in general if each.kind is QuantityKind.ENDURANCE_LIMIT]
+    limits = [quantity for quantity in general if quantity.kind is QuantityKind.ENDURANCE_LIMIT]
     for same_kind in (limits, general):
         if same_kind:
             first = same_kind[0]
-            agree = all(abs(each.value - first.value) <= _SAME * first.value for each in same_kind)
+            agree = all(
+                abs(quantity.value - first.value) <= _SAME * first.value for quantity in same_kind
+            )
             return first if agree else None
     return None
 
@@ -146,14 +148,14 @@ def prices(stretch: Span) -> tuple[Price, ...]:
 def _prices(stretch: Span) -> Iterator[Price]:
     offset = stretch.start
     for number, line in enumerate(stretch.text.splitlines(keepends=True)):
-        found = _PRICE.search(line[:LINE_LIMIT])
-        if found and number < MAX_LINES:
-            before, behind = line[: found.start()], line[found.end() : LINE_LIMIT]
+        match = _PRICE.search(line[:LINE_LIMIT])
+        if match and number < MAX_LINES:
+            before, behind = line[: match.start()], line[match.end() : LINE_LIMIT]
             is_sum = _SUM.search(before) is not None
             in_list = _ITEM.match(before) or _CELL.match(before)
             yield Price(
-                float(re.sub(r"[,']", "", found.group(1) or found.group(2))),
-                Span(stretch.source, offset + found.start(), offset + found.end()),
+                float(re.sub(r"[,']", "", match.group(1) or match.group(2))),
+                Span(stretch.source, offset + match.start(), offset + match.end()),
                 is_sum,
                 bool(in_list) and not is_sum,
                 not (_MULTIPLIED.match(behind) or _EACH.search(line[:LINE_LIMIT])),
@@ -182,13 +184,13 @@ def masses(passages: Iterable[Passage]) -> Iterator[Quantity]:
         for sentence in sentences(passage):
             last = 0
             named = configurations_in(sentence.text)
-            for found in _MASS.finditer(sentence.text):
-                yield _mass(sentence, found, sentence.text[last : found.start()], named)
-                last = found.end()
+            for match in _MASS.finditer(sentence.text):
+                yield _mass(sentence, match, sentence.text[last : match.start()], named)
+                last = match.end()
 
 
-def _mass(sentence: Sentence, found: re.Match[str], before: str, named: frozenset[int]) -> Quantity:
-    number, unit = found.groups()
+def _mass(sentence: Sentence, match: re.Match[str], before: str, named: frozenset[int]) -> Quantity:
+    number, unit = match.groups()
     factor = _UNITS[unit[0].lower()]
     about_robot = _SUBJECT.search(before) and not _NOT_THE_ROBOT.search(_clause(before))
     return Quantity(
@@ -198,14 +200,14 @@ def _mass(sentence: Sentence, found: re.Match[str], before: str, named: frozense
         unit,
         is_approximate(before),
         named,
-        sentence.part(*found.span()),
+        sentence.part(*match.span()),
     )
 
 
 def _clause(before: str) -> str:
     """Return the words that belong to the last `weighs`: from the comma or `and` before it on."""
-    verb = [found.start() for found in _SUBJECT.finditer(before)][-1]
-    breaks = [found.end() for found in _CLAUSE.finditer(before, 0, verb)]
+    verb = [match.start() for match in _SUBJECT.finditer(before)][-1]
+    breaks = [match.end() for match in _CLAUSE.finditer(before, 0, verb)]
     return before[breaks[-1] if breaks else 0 :]
 
 

@@ -110,48 +110,48 @@ def limits(passages: Iterable[Passage]) -> Iterator[Limit]:
 def _limits_of(sentence: Sentence) -> Iterator[Limit]:
     last = 0
     before_this: Limit | None = None
-    for found in _STATEMENT.finditer(sentence.text):
-        clause = sentence.text[last : found.start()]
-        last = found.end()
-        limit = _limit(sentence, found, clause, before_this)
+    for match in _STATEMENT.finditer(sentence.text):
+        clause = sentence.text[last : match.start()]
+        last = match.end()
+        limit = _limit(sentence, match, clause, before_this)
         if limit is not None:
             before_this = limit
             yield limit
 
 
 def _limit(
-    sentence: Sentence, found: re.Match[str], clause: str, before: Limit | None
+    sentence: Sentence, match: re.Match[str], clause: str, before: Limit | None
 ) -> Limit | None:
-    quantity, factor = _dimension(found)
+    quantity, factor = _dimension(match)
     if _PART.search(clause) or _contradicts(clause, quantity):
         return None
     modeled = bool(_MODELED.search(clause))
     axes = _axes(clause)
     if modeled and not axes and before is not None and before.quantity is quantity:
         axes = before.axes
-    if found["single"]:
+    if match["single"]:
         if not _MAXIMUM.search(clause) and not modeled:
             return None
-        minimum, maximum = None, number_of(found["single"]) * factor
-    elif found["both"]:
-        maximum = number_of(found["both"]) * factor
+        minimum, maximum = None, number_of(match["single"]) * factor
+    elif match["both"]:
+        maximum = number_of(match["both"]) * factor
         minimum = -maximum
     else:
-        minimum, maximum = number_of(found["low"]) * factor, number_of(found["high"]) * factor
-    span = sentence.part(*found.span())
+        minimum, maximum = number_of(match["low"]) * factor, number_of(match["high"]) * factor
+    span = sentence.part(*match.span())
     return Limit(quantity, axes, minimum, maximum, modeled, is_approximate(clause), span)
 
 
-def _dimension(found: re.Match[str]) -> tuple[MotionQuantity, float]:
+def _dimension(match: re.Match[str]) -> tuple[MotionQuantity, float]:
     """Return what the unit measures and its worth in SI units."""
-    if found["turn"]:
-        factor = 1.0 if found["turn"].lower().startswith("rad") else math.pi / 180
-        if found["turn_acceleration"]:
+    if match["turn"]:
+        factor = 1.0 if match["turn"].lower().startswith("rad") else math.pi / 180
+        if match["turn_acceleration"]:
             return MotionQuantity.ANGULAR_ACCELERATION, factor
         return MotionQuantity.ANGULAR_VELOCITY, factor
-    if found["acceleration"]:
+    if match["acceleration"]:
         return MotionQuantity.LINEAR_ACCELERATION, 1.0
-    return MotionQuantity.LINEAR_VELOCITY, 1 / 3.6 if found["kmh"] else 1.0
+    return MotionQuantity.LINEAR_VELOCITY, 1 / 3.6 if match["kmh"] else 1.0
 
 
 def _contradicts(clause: str, quantity: MotionQuantity) -> bool:
@@ -180,7 +180,9 @@ def limit_of(stated: Sequence[Limit], quantity: MotionQuantity, axis: str) -> Li
         if limit.quantity is quantity and (axis in limit.axes or not limit.axes)
     ]
     best = [limit for limit in fitting if limit.modeled] or fitting
-    agree = all((each.minimum, each.maximum) == (best[0].minimum, best[0].maximum) for each in best)
+    agree = all(
+        (limit.minimum, limit.maximum) == (best[0].minimum, best[0].maximum) for limit in best
+    )
     return best[0] if best and agree else None
 
 
@@ -188,8 +190,8 @@ def turning_radii(passages: Iterable[Passage]) -> Iterator[Quantity]:
     """Yield the turning radii of a motion section; a number without unit must be zero."""
     for passage in passages:
         for sentence in sentences(passage):
-            for found in _RADIUS.finditer(sentence.text):
-                number, unit = found.group(1), found.group(2) or ""
+            for match in _RADIUS.finditer(sentence.text):
+                number, unit = match.group(1), match.group(2) or ""
                 factor = 0.01 if unit.lower() == "cm" else 1.0
                 if not unit and number_of(number) != 0:
                     continue
@@ -198,7 +200,7 @@ def turning_radii(passages: Iterable[Passage]) -> Iterator[Quantity]:
                     number_of(number) * factor,
                     resolution_of(number) * factor,
                     unit,
-                    is_approximate(found.group()),
+                    is_approximate(match.group()),
                     configurations_in(sentence.text),
-                    sentence.part(found.start(1), found.end()),
+                    sentence.part(match.start(1), match.end()),
                 )

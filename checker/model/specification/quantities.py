@@ -80,7 +80,7 @@ def sentences(passage: Passage) -> Iterator[Sentence]:
     A sentence of more than 2000 characters is cut, so that the work stays in proportion.
     """
     start = 0
-    ends = [found.end() for found in _SENTENCE_END.finditer(passage.text)]
+    ends = [match.end() for match in _SENTENCE_END.finditer(passage.text)]
     for end in (*ends, len(passage.text)):
         for first in range(start, end, MAX_SENTENCE):
             yield Sentence(passage, first, passage.text[first : min(end, first + MAX_SENTENCE)])

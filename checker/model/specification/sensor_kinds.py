@@ -81,12 +81,12 @@ def kinds_in(words: str, device: str) -> tuple[SensorKind, ...]:
         words: What is searched: behind `modeled by`, or the whole item.
         device: The whole item, which says whether a lidar is planar or measures one point.
     """
-    found: dict[SensorKind, int] = {}
+    places: dict[SensorKind, int] = {}
     for kind, pattern in _KINDS:
         for match in pattern.finditer(words):
-            found.setdefault(kind, match.start())
+            places.setdefault(kind, match.start())
         words = pattern.sub(lambda match: " " * len(match.group()), words)
-    kinds = sorted(found, key=found.__getitem__)
+    kinds = sorted(places, key=places.__getitem__)
     return tuple(_lidar(device) if kind is SensorKind.LIDAR else kind for kind in kinds)
 
 

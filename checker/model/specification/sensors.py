@@ -65,15 +65,15 @@ def listed_sensors(passages: Sequence[Passage]) -> Iterator[ListedSensor]:
 def _breadcrumbs(passage: Passage) -> Iterator[ListedSensor]:
     """Yield what lines such as `Sensor Config 2 adds 12 breadcrumbs:` say outside of lists."""
     for line in re.finditer(r".+", passage.text):
-        said = _BREADCRUMBS.search(line.group())
-        if said:
+        match = _BREADCRUMBS.search(line.group())
+        if match:
             yield ListedSensor(
                 SensorKind.BREADCRUMBS,
-                int(number_of(said.group(1))),
+                int(number_of(match.group(1))),
                 modeled=False,
                 configurations=configurations_in(line.group()),
                 text=" ".join(line.group().split()),
-                span=passage.part(line.start() + said.start(), line.start() + said.end()),
+                span=passage.part(line.start() + match.start(), line.start() + match.end()),
             )
 
 

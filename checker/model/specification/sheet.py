@@ -94,8 +94,8 @@ class Specification(Record, eq=False, dict=True):
     def other_sensors(self) -> str:
         """Path of the sheet that the section "Sensors" links to for others; empty without one."""
         section = self.section("sensors")
-        found = _OTHER_SHEET.search(self.stretch_of(section).text) if section else None
-        return found.group(1) if found else ""
+        match = _OTHER_SHEET.search(self.stretch_of(section).text) if section else None
+        return match.group(1) if match else ""
 
     @cached_property
     def masses(self) -> tuple[Quantity, ...]:
@@ -154,12 +154,12 @@ class Specification(Record, eq=False, dict=True):
     @cached_property
     def _ends(self) -> dict[int, int]:
         """Where each section ends, by the offset of its heading."""
-        ends, found = [len(self.source.text)] * 7, {}
+        ends, by_start = [len(self.source.text)] * 7, {}
         for section in reversed(self.sections):
             start = section.span.start
-            found[start] = ends[section.level]
+            by_start[start] = ends[section.level]
             ends[section.level :] = [start] * (7 - section.level)
-        return found
+        return by_start
 
     def says_nothing(self, section: Section) -> bool:
         """Whether there is neither text nor fenced code in a section."""
@@ -185,13 +185,13 @@ def _contains(title: str, wanted: str) -> bool:
 
 
 def _sections(passages: tuple[Passage, ...]) -> Iterator[Section]:
-    headings = [i for i, each in enumerate(passages) if each.kind is PassageKind.HEADING]
+    headings = [i for i, passage in enumerate(passages) if passage.kind is PassageKind.HEADING]
     # From the back, so that the end of each level is known when a heading is met.
     ends = [len(passages)] * 7
-    found = []
+    sections = []
     for index in reversed(headings):
         heading = passages[index]
         below = passages[index + 1 : ends[heading.level]]
-        found.append(Section(heading.words, heading.level, heading.span, below))
+        sections.append(Section(heading.words, heading.level, heading.span, below))
         ends[heading.level :] = [index] * (7 - heading.level)
-    yield from reversed(found)
+    yield from reversed(sections)

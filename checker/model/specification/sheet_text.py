@@ -40,17 +40,17 @@ class LineReference(Record, eq=False):
 def line_references(passages: Iterable[Passage]) -> Iterator[LineReference]:
     """Yield the claims about lines."""
     for passage in passages:
-        for found in _REFERENCE.finditer(passage.text):
+        for match in _REFERENCE.finditer(passage.text):
             ranges = tuple(
-                (int(first), int(last or first)) for first, last in _RANGE.findall(found.group(2))
+                (int(first), int(last or first)) for first, last in _RANGE.findall(match.group(2))
             )
             yield LineReference(
-                Located(found.group(1), passage.part(*found.span(1))),
+                Located(match.group(1), passage.part(*match.span(1))),
                 ranges,
                 " ".join(
-                    passage.text[max(0, found.start() - CLAIM_LENGTH) : found.start()].split()
+                    passage.text[max(0, match.start() - CLAIM_LENGTH) : match.start()].split()
                 ),
-                passage.part(*found.span()),
+                passage.part(*match.span()),
             )
 
 
@@ -86,14 +86,14 @@ class Leftover(Record, eq=False):
 
 def placeholders(markdown: Markdown) -> Iterator[Leftover]:
     """Yield placeholders of text and of links; those in comments and fenced code are none."""
-    for found in _PLACEHOLDER.finditer(markdown.text):
-        yield Leftover(found.group(), Span(markdown.source, *found.span()))
+    for match in _PLACEHOLDER.finditer(markdown.text):
+        yield Leftover(match.group(), Span(markdown.source, *match.span()))
 
 
 def links_without_target(markdown: Markdown) -> Iterator[Leftover]:
     """Yield links such as `[datasheet]()`."""
-    for found in _NO_TARGET.finditer(markdown.text):
-        yield Leftover(found.group(1), Span(markdown.source, *found.span()))
+    for match in _NO_TARGET.finditer(markdown.text):
+        yield Leftover(match.group(1), Span(markdown.source, *match.span()))
 
 
 def struck_through(markdown: Markdown) -> Iterator[Leftover]:

@@ -90,8 +90,8 @@ def read_description(document: XmlDocument, file: str, *, for_rviz: bool) -> Urd
     return UrdfDescription(
         file,
         document,
-        tuple(_read_transmission(each) for each in root.all("transmission")),
-        tuple(_read_gazebo(each) for each in root.all("gazebo")),
+        tuple(_read_transmission(element) for element in root.all("transmission")),
+        tuple(_read_gazebo(element) for element in root.all("gazebo")),
         for_rviz,
     )
 
@@ -100,8 +100,8 @@ def _read_transmission(element: Element) -> Transmission:
     return Transmission(
         _attribute(element, "name"),
         _type(element),
-        tuple(_read_end(each) for each in element.all("joint")),
-        tuple(_read_end(each) for each in element.all("actuator")),
+        tuple(_read_end(joint) for joint in element.all("joint")),
+        tuple(_read_end(actuator) for actuator in element.all("actuator")),
         element,
     )
 
@@ -113,7 +113,7 @@ def _type(transmission: Element) -> Located[str]:
 
 
 def _read_end(element: Element) -> TransmissionEnd:
-    interfaces = (each.text for each in element.all("hardwareInterface"))
+    interfaces = (item.text for item in element.all("hardwareInterface"))
     return TransmissionEnd(
         _attribute(element, "name"),
         tuple(interface for interface in interfaces if interface.stated),

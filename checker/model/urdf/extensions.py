@@ -22,9 +22,9 @@ def extension_number(tag: Element, name: str) -> Located[float] | None:
     child = tag.child(name)
     if child is None:
         return None
-    said = extension_text(child)
-    value = parse_number(said.value.strip())
-    return None if value is None else Located(value, said.span)
+    text = extension_text(child)
+    value = parse_number(text.value.strip())
+    return None if value is None else Located(value, text.span)
 
 
 def extension_flag(tag: Element, name: str) -> bool:

@@ -72,8 +72,8 @@ def candidates(package: Package, loads: Iterable[Load]) -> list[Candidate]:
         # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
         if path is not None and not path.startswith("../") and package.exists(path):
             chosen.setdefault(path, Candidate(path, load.args, True, load.by_xacro))
-    found = [*chosen.values()] or [Candidate(path) for path in _outermost(package)]
-    return found[:CANDIDATES_LIMIT]
+    files = [*chosen.values()] or [Candidate(path) for path in _outermost(package)]
+    return files[:CANDIDATES_LIMIT]
 
 
 def _files(package: Package) -> list[str]:
@@ -89,7 +89,11 @@ def _outermost(package: Package) -> Iterator[str]:
     """Yield the files that call themselves a robot and that no other file includes."""
     paths = [path for path in _files(package) if not _is_empty(package, path)]
     documents = {path: package.xml(path) for path in paths}
-    roots = {path: each.root for path, each in documents.items() if isinstance(each, XmlDocument)}
+    roots = {
+        path: document.root
+        for path, document in documents.items()
+        if isinstance(document, XmlDocument)
+    }
     included = {
         posixpath.basename(descendant.get("filename") or "")
         for path, root in roots.items()
@@ -119,7 +123,7 @@ _LOADS = re.compile(r"\.(?:urdf|xacro)\b|robot_description")
 _XACRO = re.compile(r"\bxacro:|\bxmlns:xacro\b")
 
 
-class Describing:
+class PackageDescriptions:
     """The reading of a package's descriptions: begun at once, had when asked for."""
 
     def __init__(
@@ -161,7 +165,7 @@ class Describing:
     def files(self) -> UrdfFiles:
         """What became of the files; the first call waits for their expansion."""
         outcomes = self._expansions.outcomes() if self._expansions is not None else []
-        expanded = dict(zip((each.path for each in self._wanted), outcomes, strict=True))
+        expanded = dict(zip((wish.path for wish in self._wanted), outcomes, strict=True))
         descriptions, faults = [], []
         unread: list[tuple[Candidate, str]] = []
         for candidate in self._candidates:
@@ -180,8 +184,8 @@ class Describing:
         return UrdfFiles(
             tuple(descriptions),
             tuple(faults),
-            tuple(reason for each, reason in unread if each.loaded or not self._for_rviz),
-            tuple(reason for each, reason in unread if self._for_rviz and not each.loaded),
+            tuple(reason for file, reason in unread if file.loaded or not self._for_rviz),
+            tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
         )
 
     def stop(self) -> None:

@@ -241,15 +241,15 @@ def _sensors(root: Element, values: ValueReader, graph: FrameGraph) -> dict[str,
 
 def _gravity(root: Element, values: ValueReader) -> dict[str, Located[bool]]:
     """Return whether gravity acts, for links of which a `<gazebo reference=…>` tag says so."""
-    said = {}
+    gravity = {}
     for tag in root.all("gazebo"):
         off = values.boolean(tag, "turnGravityOff", False)
         on = values.boolean(tag, "gravity", True)
         if off.stated or on.stated:
             stated = off if off.stated else on
             acts = on.value and not off.value
-            said[tag.get("reference") or ""] = Located(acts, stated.span)
-    return said
+            gravity[tag.get("reference") or ""] = Located(acts, stated.span)
+    return gravity
 
 
 def _extended(

@@ -26,10 +26,10 @@ def serve(wire: socket.socket) -> None:
             return
         (descriptor,) = descriptors
         try:
-            said = _looked_at(descriptor, json.loads(message)["name"])
+            answer = _looked_at(descriptor, json.loads(message)["name"])
         finally:
             os.close(descriptor)
-        wire.sendall(json.dumps(said).encode() + b"\n")
+        wire.sendall(json.dumps(answer).encode() + b"\n")
 
 
 def _looked_at(descriptor: int, name: str) -> dict[str, str]:

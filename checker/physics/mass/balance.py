@@ -86,7 +86,9 @@ def contact_points(geometry: Geometry, pose: Transform, meshes: Meshes) -> list[
     Among them is its lowest one. Nothing for shapes without end and meshes that are not known; a
     mesh counts by its convex hull.
     """
-    numbers = {name: tuple(each.value for each in size) for name, size in geometry.sizes.items()}
+    numbers = {
+        name: tuple(number.value for number in size) for name, size in geometry.sizes.items()
+    }
     match geometry.shape:
         case "box":
             points = _corners(numbers["size"])
@@ -187,10 +189,10 @@ def stand_of(robot: Robot) -> Stand:
         reach = None if pose is None else robot.support_of(collision.geometry, pose, _DOWN)
         if pose is not None and reach is not None and math.isfinite(reach):
             lowest.append((-reach, link, collision, pose))
-    ground = min((each[0] for each in lowest), default=None)
+    ground = min((point[0] for point in lowest), default=None)
     if ground is None:
         return Stand()
-    touching = [each for each in lowest if each[0] <= ground + _TOUCHES]
+    touching = [point for point in lowest if point[0] <= ground + _TOUCHES]
     points = [
         (x, y)
         for _, _, collision, pose in touching

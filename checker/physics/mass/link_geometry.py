@@ -21,7 +21,7 @@ def volume_of(geometry: Geometry, meshes: Meshes) -> float | None:
 
     A mesh that is not closed counts by its convex hull.
     """
-    size = {name: tuple(each.value for each in sizes) for name, sizes in geometry.sizes.items()}
+    size = {name: tuple(number.value for number in sizes) for name, sizes in geometry.sizes.items()}
     volume: float | None = None
     match geometry.shape:
         case "box":
@@ -56,7 +56,7 @@ def farthest(geometry: Geometry, pose: Transform, point: Vector, meshes: Meshes)
         point: From where to measure.
         meshes: Of the robot.
     """
-    size = {name: tuple(each.value for each in sizes) for name, sizes in geometry.sizes.items()}
+    size = {name: tuple(number.value for number in sizes) for name, sizes in geometry.sizes.items()}
     x, y, z = pose.inverse.apply(point)
     beside = math.hypot(x, y)
     reach: float | None = None

@@ -72,7 +72,7 @@ def motions_of(robot: Robot, joint: Joint) -> tuple[Motion, ...]:
     return tuple(motions)
 
 
-class Hanging(Record, eq=False):
+class SpanningTree(Record, eq=False):
     """The links of a robot, parents before children.
 
     Attributes:
@@ -99,7 +99,7 @@ class Hanging(Record, eq=False):
             waiting.extend(reversed(below.get(name, [])))
 
 
-def hang(robot: Robot) -> Hanging:
+def spanning_tree_of(robot: Robot) -> SpanningTree:
     """Let each link hang by its first tie; a circle opens above its link that stands first."""
     tree = robot.tree
     by = {name: ties[0] for name, ties in tree.above.items()}
@@ -108,7 +108,7 @@ def hang(robot: Robot) -> Hanging:
         del by[min((tie.child for tie in loop), key=number.__getitem__)]
     used = set(by.values())
     left_out = tuple(tie for tie in tree.ties if tie not in used)
-    return Hanging(tuple(_parents_first(tree.links, by)), by, left_out)
+    return SpanningTree(tuple(_parents_first(tree.links, by)), by, left_out)
 
 
 def _parents_first(links: Iterable[str], by: Mapping[str, Tie]) -> dict[str, None]:

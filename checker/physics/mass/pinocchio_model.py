@@ -11,7 +11,13 @@ from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
 from checker.physics.mass.inertia import inertial_pose, se3, spatial_inertia
-from checker.physics.mass.mechanism import Freedom, Hanging, Motion, hang, motions_of
+from checker.physics.mass.mechanism import (
+    Freedom,
+    Motion,
+    SpanningTree,
+    motions_of,
+    spanning_tree_of,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -78,9 +84,9 @@ def pin_model(robot: Robot) -> PinModel:
 
     It has room for some hundred joints: Pinocchio's `Data` holds square matrices.
     """
-    builder = _Builder(robot, hang(robot))
+    builder = _Builder(robot, spanning_tree_of(robot))
     # `crba` takes it for granted that the joints of a branch stand together.
-    for name in builder.hanging.depth_first:
+    for name in builder.spanning_tree.depth_first:
         builder.add(name)
     return PinModel(builder.model, tuple(builder.degrees), tuple(builder.notes))
 
@@ -98,16 +104,16 @@ class _Builder:
         poses: Of each link in the robot's frame.
     """
 
-    def __init__(self, robot: Robot, hanging: Hanging) -> None:
+    def __init__(self, robot: Robot, spanning_tree: SpanningTree) -> None:
         import pinocchio as pin
 
         self.robot = robot
-        self.hanging = hanging
+        self.spanning_tree = spanning_tree
         self.model: Any = pin.Model()
         self.degrees: list[Degree] = []
         self.notes = [
             f"Joint {tie.joint.scoped_name} is left out: {tie.child} already has a parent."
-            for tie in hanging.left_out
+            for tie in spanning_tree.left_out
         ]
         self.notes += [
             f"Joint {broken.joint.scoped_name} is left out: {broken.missing.value} is not a link."
@@ -122,7 +128,7 @@ class _Builder:
         import pinocchio as pin
 
         link = self.robot.tree.links[name]
-        tie = self.hanging.by.get(name)
+        tie = self.spanning_tree.by.get(name)
         self.poses[name] = self._pose(name, tie)
         carrier = self._free(name) if tie is None else self._hung(name, tie)
         self.carriers[name] = carrier

@@ -25,7 +25,13 @@ from checker.physics.mass.inertia import (
     rows_of,
 )
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
-from checker.physics.mass.mechanism import Freedom, Hanging, Motion, hang, motions_of
+from checker.physics.mass.mechanism import (
+    Freedom,
+    Motion,
+    SpanningTree,
+    motions_of,
+    spanning_tree_of,
+)
 
 if TYPE_CHECKING:
     import pinocchio as pin
@@ -40,7 +46,7 @@ GRAVITY = 9.81
 
 def gravity_torques(
     robot: Robot,
-    hanging: Hanging,
+    spanning_tree: SpanningTree,
     links: Mapping[str, LinkInertia],
     standing: frozenset[str],
 ) -> dict[Joint, float]:
@@ -51,15 +57,15 @@ def gravity_torques(
 
     Args:
         robot: Who holds.
-        hanging: Which link hangs on which.
+        spanning_tree: Which link hangs on which.
         links: Their masses and centres.
         standing: Names of links on the ground: what hangs above them is carried from below.
     """
     loads = {name: _load(link) for name, link in links.items()}
     stands = set(standing)
     torques: dict[Joint, float] = {}
-    for name in reversed(hanging.order):
-        tie = hanging.by.get(name)
+    for name in reversed(spanning_tree.order):
+        tie = spanning_tree.by.get(name)
         if tie is None:
             continue
         if tie.parent != WORLD:
@@ -147,21 +153,21 @@ class Weights(Record):
     """What they say of some bodies.
 
     Attributes:
-        each: In the order of the bodies.
+        of_bodies: In the order of the bodies.
         centre: Of the mass of all that weigh something and whose place is known, in the robot's
             frame, metres; None where nothing is known of it.
         inertia: Rows of the 3×3 inertia about this centre, robot's axes, kg·m²; likewise.
     """
 
-    each: tuple[Weight, ...]
+    of_bodies: tuple[Weight, ...]
     centre: Vector | None
     inertia: Rows | None
 
 
 def weights_of(bodies: Sequence[Body], cache: Cache) -> Weights:
     """Weigh bodies, each for itself and all as one rigid body."""
-    asked = json.dumps([body.as_json() for body in bodies])
-    key = key_of(asked, code_hash("physics/mass"), *map(version_of, _LIBRARIES))
+    request = json.dumps([body.as_json() for body in bodies])
+    key = key_of(request, code_hash("physics/mass"), *map(version_of, _LIBRARIES))
     known = _from_json(cache.get(_KIND, key), len(bodies))
     if known is not None:
         return known
@@ -175,7 +181,7 @@ def _from_json(members: Any, number: int) -> Weights | None:
         known = msgspec.convert(members, Weights)
     except msgspec.ValidationError:
         return None
-    return known if len(known.each) == number else None
+    return known if len(known.of_bodies) == number else None
 
 
 def _three(numbers: Sequence[float]) -> Vector:
@@ -187,17 +193,17 @@ def _weighed(bodies: Sequence[Body]) -> Weights:
     import numpy as np
     import pinocchio as pin
 
-    each = []
+    weights = []
     total = pin.Inertia.Zero()
     doubtful = False
     for body in bodies:
         moments = np.array(body.moments)
         weight = Weight(principal_moments(moments), pseudo_eigenvalue(body.mass, moments))
-        each.append(weight)
+        weights.append(weight)
         if body.pose is not None and 0.0 < body.mass < math.inf:
             total += placed_inertia(body.mass, moments, body.pose)
             doubtful |= math.isnan(weight.principal[0])
-    return Weights(tuple(each), _centre(total), None if doubtful else _rows(total))
+    return Weights(tuple(weights), _centre(total), None if doubtful else _rows(total))
 
 
 def _centre(total: pin.Inertia) -> Vector | None:
@@ -229,13 +235,13 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
     links = {
         name: _link_inertia(link, body, weight)
         for (name, link), body, weight in zip(
-            robot.tree.links.items(), bodies, weights.each, strict=True
+            robot.tree.links.items(), bodies, weights.of_bodies, strict=True
         )
     }
     stand = stand_of(robot)
     torques = {}
     if not stand.unknown:
-        torques = gravity_torques(robot, hang(robot), links, stand.links)
+        torques = gravity_torques(robot, spanning_tree_of(robot), links, stand.links)
     return MassProperties(
         robot=robot,
         mass=robot.mass,

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from checker.base.files import NotReadable
-from checker.base.forked_work import Forks
+from checker.base.forked_work import ForkRunner
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 from checker.physics.mesh.content import NoSurface, Piece, by_material
@@ -96,54 +96,56 @@ _SMALL = 100
 """Triangles that each material of a file keeps where there is room."""
 
 
-def appearances(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> list[bytes]:
+def appearances(
+    items: Sequence[Mapping[str, Any]], files: Files, run_in_forks: ForkRunner
+) -> list[bytes]:
     """Return as JSON what each of some files looks like.
 
     Args:
         items: For each `file`, `name` (its suffix says the format), `triangles` (at most),
             `pictures` (by the names inside), `materials` (material files).
         files: All of these, under the names that the items give them.
-        forks: Reads them.
+        run_in_forks: Reads them.
     """
-    if any(each["pictures"] for each in items):
+    if any(item["pictures"] for item in items):
         import_module("PIL.Image")
-    shared = _shared_pictures(items, files, forks)
-    read = forks([partial(_as_json, each, files, shared) for each in items])
+    shared = _shared_pictures(items, files, run_in_forks)
+    read = run_in_forks([partial(_as_json, item, files, shared) for item in items])
     return [
-        json.dumps(appearance_to_json(each.reason)).encode()
-        if isinstance(each, WorkerFailed)
-        else each
-        for each in read
+        json.dumps(appearance_to_json(answer.reason)).encode()
+        if isinstance(answer, WorkerFailed)
+        else answer
+        for answer in read
     ]
 
 
-def _as_json(asked: Mapping[str, Any], files: Files, shared: Pictures) -> bytes:
-    return json.dumps(appearance_to_json(appearance_of(asked, files, shared))).encode()
+def _as_json(item: Mapping[str, Any], files: Files, shared: Pictures) -> bytes:
+    return json.dumps(appearance_to_json(appearance_of(item, files, shared))).encode()
 
 
 def appearance_of(
-    asked: Mapping[str, Any], files: Files, shared: Pictures = MappingProxyType({})
+    item: Mapping[str, Any], files: Files, shared: Pictures = MappingProxyType({})
 ) -> Appearance:
     """Return what one file looks like.
 
     Args:
-        asked: See `appearances`.
+        item: See `appearances`.
         files: See `appearances`.
         shared: Pictures that are read already, by their path.
     """
-    data = files.read(asked["file"])
+    data = files.read(item["file"])
     if isinstance(data, NotReadable):
         return data.reason
-    materials = map(files.read, asked["materials"])
+    materials = map(files.read, item["materials"])
     try:
         at_hand = (material for material in materials if isinstance(material, bytes))
-        pieces = by_material(read_content(data, asked["name"], at_hand).pieces)
+        pieces = by_material(read_content(data, item["name"], at_hand).pieces)
     except NoSurface as none:
         return none.reason
-    painted = [_painted(piece, asked["pictures"], files, shared) for piece in pieces]
-    most = shares([len(each.faces) for each in painted], asked["triangles"], _SMALL)
+    painted = [_painted(piece, item["pictures"], files, shared) for piece in pieces]
+    most = shares([len(look.faces) for look in painted], item["triangles"], _SMALL)
     return tuple(
-        thinned(each, count) for each, count in zip(painted, most, strict=True) if count > 0
+        thinned(look, count) for look, count in zip(painted, most, strict=True) if count > 0
     )
 
 
@@ -165,11 +167,13 @@ def _picture(files: Files, path: str) -> Array | None:
     return picture(data) if isinstance(data, bytes) else None
 
 
-def _shared_pictures(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> Pictures:
+def _shared_pictures(
+    items: Sequence[Mapping[str, Any]], files: Files, run_in_forks: ForkRunner
+) -> Pictures:
     """Read the pictures that several files use: to decode one can take half a second."""
-    uses = Counter(path for each in items for path in set(each["pictures"].values()))
+    uses = Counter(path for item in items for path in set(item["pictures"].values()))
     shared = [path for path, number in uses.most_common(_SHARED) if number > 1]
-    read = forks([partial(_pixels, files, path) for path in shared])
+    read = run_in_forks([partial(_pixels, files, path) for path in shared])
     return dict(zip(shared, map(_as_picture, read), strict=True))
 
 

@@ -37,11 +37,13 @@ class DaeMaterials:
     def __init__(self, root: etree._Element) -> None:
         """Read them."""
         self._bound = _bound(root)
-        images = {_id(each): _text(each, "init_from") for each in root.iter("{*}image")}
-        effects = {_id(each): _material(each, images) for each in root.iter("{*}effect")}
+        images = {_id(image): _text(image, "init_from") for image in root.iter("{*}image")}
+        effects = {_id(effect): _material(effect, images) for effect in root.iter("{*}effect")}
         self._materials = {
-            _id(each): effects.get(_target(each.find("{*}instance_effect"), "url"), Material())
-            for each in root.iter("{*}material")
+            _id(material): effects.get(
+                _target(material.find("{*}instance_effect"), "url"), Material()
+            )
+            for material in root.iter("{*}material")
         }
 
     def material_of(self, geometry: str, symbol: str) -> Material:
@@ -61,8 +63,8 @@ def _bound(root: etree._Element) -> dict[tuple[str, str], str]:
 def _material(effect: etree._Element, images: dict[str, str]) -> Material:
     shading = effect.find("{*}profile_COMMON/{*}technique/*")
     for kind in ("phong", "lambert", "blinn", "constant"):
-        found = effect.find(f"{{*}}profile_COMMON/{{*}}technique/{{*}}{kind}")
-        shading = found if found is not None else shading
+        node = effect.find(f"{{*}}profile_COMMON/{{*}}technique/{{*}}{kind}")
+        shading = node if node is not None else shading
     if shading is None:
         return Material()
     shows = "emission" if local_name(shading) == "constant" else "diffuse"
@@ -74,7 +76,7 @@ def _material(effect: etree._Element, images: dict[str, str]) -> Material:
 
 def _picture(effect: etree._Element, images: dict[str, str], name: str) -> str:
     """Return the file behind a texture: a sampler names a surface, which names an image."""
-    parameters = {each.get("sid", ""): each for each in effect.iter("{*}newparam")}
+    parameters = {parameter.get("sid", ""): parameter for parameter in effect.iter("{*}newparam")}
     for inside in ("sampler2D/{*}source", "surface/{*}init_from"):
         if name in parameters:
             name = _text(parameters[name], inside) or name
@@ -113,8 +115,8 @@ def _number(text: str) -> float:
 
 
 def _text(element: etree._Element, path: str) -> str:
-    found = element.find(f"{{*}}{path}")
-    return (found.text or "").strip() if found is not None else ""
+    node = element.find(f"{{*}}{path}")
+    return (node.text or "").strip() if node is not None else ""
 
 
 def _id(element: etree._Element) -> str:

@@ -96,8 +96,8 @@ def convex_hull(points: NDArray[float64]) -> tuple[tuple[Vector, ...], float]:
     corners = points[hull.vertices]
     if len(corners) > MOST_CORNERS:
         corners = corners[_farthest(corners)]
-    found = tuple((float(x), float(y), float(z)) for x, y, z in corners)
-    return (found, float(hull.volume)) if math.isfinite(hull.volume) else ((), 0.0)
+    vertices = tuple((float(x), float(y), float(z)) for x, y, z in corners)
+    return (vertices, float(hull.volume)) if math.isfinite(hull.volume) else ((), 0.0)
 
 
 def _farthest(corners: NDArray[float64]) -> list[int]:

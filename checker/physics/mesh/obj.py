@@ -31,7 +31,7 @@ MATERIAL_LIMIT = 1_000_000
 def textures_in(material_file: bytes) -> tuple[str, ...]:
     """Return the pictures of a material file as named there, each once."""
     text = material_file.decode("utf-8", "replace")
-    return tuple(dict.fromkeys(found[1].strip() for found in _MAP.finditer(text)))
+    return tuple(dict.fromkeys(match[1].strip() for match in _MAP.finditer(text)))
 
 
 _PART = re.compile(rb"^[ \t]*[og][ \t]+(\S[^\r\n]{0,200})", re.M)
@@ -91,7 +91,7 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
 
     Args:
         data: Of the file.
-        material_files: What is in those that it names, as far as they are at hand.
+        material_files: What is in those that it names, as far as they are available.
 
     Raises:
         NoSurface: The file holds no corners, or its faces name some that it has not.
@@ -103,7 +103,7 @@ def read_obj(data: bytes, material_files: Iterable[bytes] = ()) -> MeshContent:
     for line in _CONTINUED.sub(b" ", data).splitlines():
         if words := line.split():
             reading.line(words)
-    materials = dict(each for content in material_files for each in _materials_in(content))
+    materials = dict(material for content in material_files for material in _materials_in(content))
     pieces = tuple(_pieces(reading, materials))
     return MeshContent(pieces, materials=_names(_MATERIALS, data), parts=_names(_PART, data))
 

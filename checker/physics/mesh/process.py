@@ -59,8 +59,8 @@ def mesh_work(
         files: That go with an item.
         here: Works out one item in this process.
     """
-    asked = {"wanted": wanted, "seconds": SECONDS_FOR_ONE, "seconds_for_all": SECONDS_FOR_ALL}
-    return Work(wanted, _MODULE, _limits(), items, decode, asked, files, lasts, here)
+    request = {"wanted": wanted, "seconds": SECONDS_FOR_ONE, "seconds_for_all": SECONDS_FOR_ALL}
+    return Work(wanted, _MODULE, _limits(), items, decode, request, files, lasts, here)
 
 
 def mesh_server() -> Server:

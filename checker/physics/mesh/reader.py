@@ -112,7 +112,7 @@ def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -
     Args:
         data: Its content.
         path: Its name; the suffix decides on the format, as in Gazebo.
-        material_files: What is in those that it names, as far as they are at hand.
+        material_files: What is in those that it names, as far as they are available.
 
     Raises:
         NoSurface: It cannot be read.
@@ -134,5 +134,5 @@ def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -
     except RecursionError:
         raise NoSurface("is nested too deeply", MeshTrouble.NOT_LOOKED_AT) from None
     except Exception as error:  # libraries raise anything on corrupt files
-        said = str(error).strip().partition("\n")[0][:200]
-        raise NoSurface(f"is corrupt: {said or type(error).__name__}") from error
+        words = str(error).strip().partition("\n")[0][:200]
+        raise NoSurface(f"is corrupt: {words or type(error).__name__}") from error

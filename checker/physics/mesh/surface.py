@@ -46,7 +46,7 @@ def appearance_to_json(read: Appearance) -> dict[str, Any]:
     """Return what JSON can express; see `appearance_from_json`."""
     if isinstance(read, str):
         return {"reason": read}
-    return {"surfaces": [surface_to_json(each) for each in read]}
+    return {"surfaces": [surface_to_json(surface) for surface in read]}
 
 
 def appearance_from_json(data: Any) -> Appearance:
@@ -58,7 +58,7 @@ def appearance_from_json(data: Any) -> Appearance:
     try:
         if "reason" in data:
             return str(data["reason"])
-        return tuple(surface_from_json(each) for each in data["surfaces"])
+        return tuple(surface_from_json(surface) for surface in data["surfaces"])
     except (TypeError, KeyError, AttributeError) as error:
         raise ValueError(f"no surfaces: {error}") from error
 
@@ -90,7 +90,7 @@ def surface_from_json(data: Any) -> Surface:
         raise ValueError("a corner is nowhere")
     if colours is not None and len(colours) != len(vertices):
         raise ValueError("a corner has no colour")
-    red, green, blue, alpha = (min(max(float(each), 0.0), 1.0) for each in data["colour"])
+    red, green, blue, alpha = (min(max(float(number), 0.0), 1.0) for number in data["colour"])
     return Surface(vertices, faces, (red, green, blue, alpha), colours)
 
 

@@ -16,7 +16,7 @@ from typing import Any
 from msgspec import to_builtins
 
 from checker.base.files import NotReadable
-from checker.base.forked_work import Forks, in_forks
+from checker.base.forked_work import ForkRunner, in_forks
 from checker.base.parts import WorkerFailed
 from checker.base.sandbox.files import Files
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
@@ -41,18 +41,20 @@ def answer(request: bytes, files: Files) -> bytes:
     Returns:
         JSON: what is wanted of each item.
     """
-    asked = json.loads(request)
-    late = f"was not read: the others took {asked['seconds_for_all']} s"
-    until = monotonic() + asked["seconds_for_all"]
-    forks = partial(in_forks, seconds=asked["seconds"], until=until, late=late)
+    data = json.loads(request)
+    late = f"was not read: the others took {data['seconds_for_all']} s"
+    until = monotonic() + data["seconds_for_all"]
+    run_in_forks = partial(in_forks, seconds=data["seconds"], until=until, late=late)
     load_libraries(files.names)
-    return b"[" + b",".join(_WANTED[asked["wanted"]](asked["items"], files, forks)) + b"]"
+    return b"[" + b",".join(_WANTED[data["wanted"]](data["items"], files, run_in_forks)) + b"]"
 
 
-def _facts(items: Sequence[Mapping[str, str]], files: Files, forks: Forks) -> list[bytes]:
+def _facts(
+    items: Sequence[Mapping[str, str]], files: Files, run_in_forks: ForkRunner
+) -> list[bytes]:
     """Return what files hold; each item has a `file`, and the `name` that the model knows."""
-    read = forks([partial(_fact, item, files) for item in items])
-    return [_failed(each) if isinstance(each, WorkerFailed) else each for each in read]
+    read = run_in_forks([partial(_fact, item, files) for item in items])
+    return [_failed(result) if isinstance(result, WorkerFailed) else result for result in read]
 
 
 def _fact(item: Mapping[str, str], files: Files) -> bytes:
@@ -71,23 +73,28 @@ def _as_json(read: Mesh | MeshFault) -> bytes:
     return json.dumps({kind: to_builtins(read)}).encode()
 
 
-def _views(items: Sequence[Mapping[str, Any]], files: Files, forks: Forks) -> list[bytes]:
+def _views(
+    items: Sequence[Mapping[str, Any]], files: Files, run_in_forks: ForkRunner
+) -> list[bytes]:
     """Return what sensors see; see `views_of`."""
-    return [json.dumps(_view(item, files, forks)).encode() for item in items]
+    return [json.dumps(_view(item, files, run_in_forks)).encode() for item in items]
 
 
-def _view(item: Mapping[str, Any], files: Files, forks: Forks) -> dict[str, Any]:
+def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> dict[str, Any]:
     sensors = sensors_of(item)
 
     def seen(mesh: Mapping[str, Any]) -> bytes:
         return json.dumps(seen_of_mesh(sensors, mesh, files.read(mesh["file"]))).encode()
 
-    told = forks([partial(seen, mesh) for mesh in item["meshes"]])
-    read = [each.reason if isinstance(each, WorkerFailed) else json.loads(each) for each in told]
+    results = run_in_forks([partial(seen, mesh) for mesh in item["meshes"]])
+    read = [
+        result.reason if isinstance(result, WorkerFailed) else json.loads(result)
+        for result in results
+    ]
     return views_of(item, sensors, read)
 
 
-_WANTED: dict[str, Callable[[Sequence[Any], Files, Forks], list[bytes]]] = {
+_WANTED: dict[str, Callable[[Sequence[Any], Files, ForkRunner], list[bytes]]] = {
     "facts": _facts,
     "appearance": appearances,
     "views": _views,

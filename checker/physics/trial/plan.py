@@ -115,7 +115,7 @@ class Plan(Record):
         return members
 
     @classmethod
-    def from_json(cls, said: Mapping[str, Any]) -> Plan:
+    def from_json(cls, data: Mapping[str, Any]) -> Plan:
         """Return the plan that `as_json` expressed.
 
         Raises:
@@ -123,11 +123,11 @@ class Plan(Record):
         """
         return cls(
             **{
-                **said,
-                "legs": tuple(Leg(**each) for each in said["legs"]),
-                "wheels": tuple(DrivenWheel(**each) for each in said["wheels"]),
-                "belts": tuple(Belt(**each) for each in said["belts"]),
-                "rotors": tuple(PlannedRotor(**each) for each in said["rotors"]),
-                "notes": tuple(said["notes"]),
+                **data,
+                "legs": tuple(Leg(**leg) for leg in data["legs"]),
+                "wheels": tuple(DrivenWheel(**wheel) for wheel in data["wheels"]),
+                "belts": tuple(Belt(**belt) for belt in data["belts"]),
+                "rotors": tuple(PlannedRotor(**rotor) for rotor in data["rotors"]),
+                "notes": tuple(data["notes"]),
             }
         )

@@ -26,8 +26,8 @@ class RobotTrial(Record, eq=False, dict=True):
 
     def part(self, name: str) -> Part:
         """Return the link of a scoped name, else the joint, else the robot."""
-        found = self.robot.links_by_name.get(name) or self.robot.joints_by_name.get(name)
-        return found or self.robot
+        part = self.robot.links_by_name.get(name) or self.robot.joints_by_name.get(name)
+        return part or self.robot
 
     @cached_property
     def drive(self) -> Part:

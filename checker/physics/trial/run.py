@@ -43,10 +43,10 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Backgr
     scene = build_scene(robot, servos=servos, belts=belts, timestep=timestep)
     if scene.unusable:
         return scene.unusable
-    asked = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
-    key = work_key([json.dumps(asked)], ["physics/trial"], _LIBRARIES)
+    item = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
+    key = work_key([json.dumps(item)], ["physics/trial"], _LIBRARIES)
     module = "checker.physics.trial.worker"
-    trial = Background(Work("trial", module, LIMITS, {key: asked}, Trial.from_json), cache)
+    trial = Background(Work("trial", module, LIMITS, {key: item}, Trial.from_json), cache)
     trial.begin()
     return trial
 

@@ -87,17 +87,17 @@ class Replay(Record):
         }
 
     @classmethod
-    def from_json(cls, said: Mapping[str, Any]) -> Replay:
+    def from_json(cls, data: Mapping[str, Any]) -> Replay:
         """Return the replay that `as_json` expressed.
 
         Raises:
             KeyError, TypeError, ValueError: It is no replay.
         """
-        time = tuple(said["time"])
-        poses = {name: _from_text(text) for name, text in said["poses"].items()}
+        time = tuple(data["time"])
+        poses = {name: _from_text(text) for name, text in data["poses"].items()}
         if any(len(pose) != POSE_NUMBERS * len(time) for pose in poses.values()):
             raise ValueError("a replay needs seven numbers a sample of each link")
-        return cls(time, poses, dict(said["carriers"]))
+        return cls(time, poses, dict(data["carriers"]))
 
 
 def _to_text(numbers: Sequence[float]) -> str:

@@ -29,12 +29,12 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     Returns:
         JSON of the trials.
     """
-    return json.dumps([_trial(asked).as_json() for asked in json.loads(request)["items"]]).encode()
+    return json.dumps([_trial(item).as_json() for item in json.loads(request)["items"]]).encode()
 
 
-def _trial(asked: Mapping[str, Any]) -> Trial:
-    scene, plan = Scene.from_json(asked["scene"]), Plan.from_json(asked["plan"])
-    return driven(scene, plan, asked["timestep"])
+def _trial(item: Mapping[str, Any]) -> Trial:
+    scene, plan = Scene.from_json(item["scene"]), Plan.from_json(item["plan"])
+    return driven(scene, plan, item["timestep"])
 
 
 def driven(scene: Scene, plan: Plan, timestep: float) -> Trial:
@@ -71,8 +71,8 @@ def _refused(trial: Trial, reason: str, scene: Scene) -> Trial:
     names |= {mj: joint for joint, mj in scene.joints.items()}
     names |= scene.geoms
     part = next((names[word] for word in _QUOTED.findall(reason) if word in names), "")
-    said = _QUOTED.sub(lambda found: f"'{names.get(found[1], found[1])}'", reason)
-    return replace(trial, refused=" ".join(said.split()), refused_part=part)
+    text = _QUOTED.sub(lambda match: f"'{names.get(match[1], match[1])}'", reason)
+    return replace(trial, refused=" ".join(text.split()), refused_part=part)
 
 
 _QUOTED = re.compile(r"'([^']*)'")

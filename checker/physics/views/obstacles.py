@@ -98,8 +98,8 @@ def _reach(corners: Array, rays: Array) -> Array:
     ]
     inside = (shares[0] <= 0.0) & (shares[1] <= 0.0) & (shares[2] <= 0.0)
     volume = np.einsum("ij,ij->i", a, np.cross(b, c))
-    found: Array = np.where(inside, volume / (shares[0] + shares[1] + shares[2]), np.nan)
-    return found
+    distance: Array = np.where(inside, volume / (shares[0] + shares[1] + shares[2]), np.nan)
+    return distance
 
 
 def _candidates(corners: Array, grid: Grid) -> Iterator[tuple[Whole, Whole]]:
@@ -262,5 +262,5 @@ def entered(kind: str, sizes: Array, origin: Array, rays: Array) -> Array:
 
     with np.errstate(all="ignore"):
         enters, leaves = SOLIDS[kind][1](sizes, origin, rays)
-        found: Array = np.where((enters > 0.0) & (enters <= leaves), enters, np.nan)
-    return found
+        distance: Array = np.where((enters > 0.0) & (enters <= leaves), enters, np.nan)
+    return distance

@@ -93,14 +93,14 @@ class Grid(Record, dict=True):
 
         azimuth, elevation = self._angles
         if self.picture is None:
-            each = np.ones(len(azimuth))
+            weights = np.ones(len(azimuth))
         else:
             x, y, z = self.directions.T
             inside = (np.abs(y) <= self.picture[0] * x) & (np.abs(z) <= self.picture[1] * x)
             # Pixels that a step in azimuth and elevation takes up: d(y/x, z/x).
-            each = np.where(inside, 1.0 / (np.cos(azimuth) ** 3 * np.cos(elevation) ** 2), 0.0)
-        total = each.sum()
-        return np.asarray(each / total if total > 0.0 else each)
+            weights = np.where(inside, 1.0 / (np.cos(azimuth) ** 3 * np.cos(elevation) ** 2), 0.0)
+        total = weights.sum()
+        return np.asarray(weights / total if total > 0.0 else weights)
 
     @cached_property
     def near_along(self) -> NDArray[float64]:

@@ -24,18 +24,18 @@ Content = Callable[[Located[str]], tuple[MeshFile, str] | MeshFault]
 """Finds the file behind a URI, and a hash of what is in it."""
 
 
-class Asked(Record, eq=False):
+class ViewRequest(Record, eq=False):
     """A request, and what its numbers stand for.
 
     Attributes:
-        request: For the worker.
+        item: For the worker.
         contents: A hash of each mesh file, in the order of the request.
         sensors: In the order of the request.
         visuals: By their numbers.
         unseen: What is left out, and why, as ends of sentences.
     """
 
-    request: dict[str, Any]
+    item: dict[str, Any]
     contents: tuple[str, ...]
     sensors: tuple[Mounted, ...]
     visuals: tuple[tuple[Link, Visual], ...]
@@ -44,7 +44,7 @@ class Asked(Record, eq=False):
     @property
     def visible(self) -> bool:
         """Whether there is anything to be seen."""
-        return bool(self.request["meshes"] or self.request["solids"])
+        return bool(self.item["meshes"] or self.item["solids"])
 
     @property
     def work(self) -> int:
@@ -52,7 +52,7 @@ class Asked(Record, eq=False):
         return len(self.sensors) * len(self.visuals)
 
 
-def asked_of(robot: Robot, content: Content) -> Asked:
+def view_request(robot: Robot, content: Content) -> ViewRequest:
     """Return what is to be asked about a robot."""
     looking = [
         (sensor, grid) for sensor in mounted_sensors(robot) if (grid := grid_of(sensor.sensor))
@@ -66,16 +66,16 @@ def asked_of(robot: Robot, content: Content) -> Asked:
     if looking:
         for number, (link, visual) in enumerate(visuals):
             scene.add(number, visual, robot.pose_of_part(link, visual.pose), content)
-    request = {
+    item = {
         "sensors": [
-            {"pose": _numbers(each.pose), "grid": grid.as_json()} for each, grid in looking
+            {"pose": _numbers(mount.pose), "grid": grid.as_json()} for mount, grid in looking
         ],
         "solids": scene.solids,
         "meshes": list(scene.meshes.values()),
     }
     contents = tuple(key for key, _ in scene.meshes)
-    seen = tuple(each for each, _ in looking)
-    return Asked(request, contents, seen, tuple(visuals), tuple(dict.fromkeys(scene.unseen)))
+    seen = tuple(mount for mount, _ in looking)
+    return ViewRequest(item, contents, seen, tuple(visuals), tuple(dict.fromkeys(scene.unseen)))
 
 
 class _Scene(Record, eq=False):
@@ -111,8 +111,8 @@ class _Scene(Record, eq=False):
                 group["sizes"].append(sizes)
                 group["poses"].append(_numbers(pose))
         else:
-            said = f"a visual of kind {geometry.shape} is not checked"
-            self.unseen.append(said)
+            message = f"a visual of kind {geometry.shape} is not checked"
+            self.unseen.append(message)
 
     def _add_mesh(
         self,
@@ -127,7 +127,7 @@ class _Scene(Record, eq=False):
             self.unseen.append(f"{named} {found.reason}")
             return
         part, whole = _part(visual)
-        scale = [each.value for each in visual.geometry.sizes.get("scale", ())]
+        scale = [factor.value for factor in visual.geometry.sizes.get("scale", ())]
         if not whole or len(scale) != 3 or not all(map(math.isfinite, scale)):
             self.unseen.append(f"{named} is only partly used (<submesh>)")
             return
@@ -144,8 +144,8 @@ def _part(visual: Visual) -> tuple[str, bool]:
         return "", True
     name, center = submesh.child("name"), submesh.child("center")
     centred = center is not None and center.text.value.strip() in ("true", "1")
-    said = name.text.value.strip() if name is not None else ""
-    return said, bool(said) and not centred
+    text = name.text.value.strip() if name is not None else ""
+    return text, bool(text) and not centred
 
 
 def _numbers(pose: Transform) -> list[float]:

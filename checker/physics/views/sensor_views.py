@@ -17,7 +17,7 @@ from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews, View
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.mesh.process import SIZE_LIMIT, mesh_work
-from checker.physics.views.request import Asked, Content, asked_of
+from checker.physics.views.request import Content, ViewRequest, view_request
 from checker.source.text import Located
 
 _LIBRARIES = ("lxml", "numpy", "pycollada")
@@ -26,7 +26,7 @@ _SMALL = 1500
 _ROBOTS = 8
 """Of one file; a world with more of them is no submission."""
 
-_Told = dict[str, Any]
+_Answer = dict[str, Any]
 """What the worker says: `views` and `unread`."""
 
 
@@ -42,7 +42,7 @@ class RobotViews:
     cache: Cache
     stages: Stages
     server: Server | None = None
-    _begun: dict[int, tuple[Asked, Background[_Told] | None]] = field(default_factory=dict)
+    _begun: dict[int, tuple[ViewRequest, Background[_Answer] | None]] = field(default_factory=dict)
     _views: tuple[SensorViews, ...] | None = None
 
     def begin(self) -> None:
@@ -61,96 +61,99 @@ class RobotViews:
     def views(self) -> tuple[SensorViews, ...]:
         """The robots with the views of their sensors."""
         if self._views is None:
-            said = (f"only the views of the first {_ROBOTS} robots are checked",)
+            unseen = (f"only the views of the first {_ROBOTS} robots are checked",)
             self._views = tuple(
-                self._collected(number, robot) if number < _ROBOTS else SensorViews(robot, (), said)
+                self._collected(number, robot)
+                if number < _ROBOTS
+                else SensorViews(robot, (), unseen)
                 for number, robot in enumerate(self.robots)
             )
         return self._views
 
-    def _begin(self, number: int) -> tuple[Asked, Background[_Told] | None]:
+    def _begin(self, number: int) -> tuple[ViewRequest, Background[_Answer] | None]:
         if number not in self._begun:
             with self.stages.stage("views"):
-                asked = asked_of(self.robots[number], _content_of(self.robots[number]))
-                begun = self._work(asked) if asked.sensors and asked.visible else None
+                request = view_request(self.robots[number], _content_of(self.robots[number]))
+                begun = self._work(request) if request.sensors and request.visible else None
                 if begun is not None:
                     begun.begin()
-                self._begun[number] = asked, begun
+                self._begun[number] = request, begun
         return self._begun[number]
 
-    def _work(self, asked: Asked) -> Background[_Told]:
+    def _work(self, request: ViewRequest) -> Background[_Answer]:
         # The files count by what is in them, not by where they are.
-        hashed = json.dumps({**asked.request, "meshes": _without_places(asked)})
+        hashed = json.dumps({**request.item, "meshes": _without_places(request)})
         key = work_key([hashed], ["physics/views", "physics/mesh"], _LIBRARIES)
         work = mesh_work(
             "views",
-            {key: asked.request},
-            lambda told: _checked(told, asked),
-            lambda told: not told["unread"],
+            {key: request.item},
+            lambda answer: _checked(answer, request),
+            lambda answer: not answer["unread"],
             lambda item: [(mesh["file"], SIZE_LIMIT) for mesh in item["meshes"]],
-            None if asked.request["meshes"] or asked.work > _SMALL else _seen_here,
+            None if request.item["meshes"] or request.work > _SMALL else _seen_here,
         )
         return Background(work, self.cache, self.server)
 
     def _collected(self, number: int, robot: Robot) -> SensorViews:
         """Wait for what was asked about a robot."""
-        asked, begun = self._begin(number)
+        request, begun = self._begin(number)
         if begun is None:
-            nothing = tuple(View(sensor, (), 0.0, None) for sensor in asked.sensors)
-            return SensorViews(robot, nothing, asked.unseen if asked.sensors else ())
+            nothing = tuple(View(sensor, (), 0.0, None) for sensor in request.sensors)
+            return SensorViews(robot, nothing, request.unseen if request.sensors else ())
         with self.stages.stage(
             "views", "" if begun.known else "computing the views of the sensors"
         ):
-            told = begun.result()
-        if isinstance(told, WorkerFailed):
-            said = f"the views of the sensors were not computed: the process {told.reason}"
-            return SensorViews(robot, (), (said,))
-        return _views_of(robot, asked, told)
+            answer = begun.result()
+        if isinstance(answer, WorkerFailed):
+            reason = f"the views of the sensors were not computed: the process {answer.reason}"
+            return SensorViews(robot, (), (reason,))
+        return _views_of(robot, request, answer)
 
 
-def _seen_here(request: _Told) -> _Told:
+def _seen_here(item: _Answer) -> _Answer:
     from checker.physics.views.visibility import sensors_of, views_of
 
-    return views_of(request, sensors_of(request))
+    return views_of(item, sensors_of(item))
 
 
-def _checked(told: Any, asked: Asked) -> _Told:
+def _checked(answer: Any, request: ViewRequest) -> _Answer:
     """Return an answer that fits the question.
 
     Raises:
         AttributeError, KeyError, TypeError, ValueError: It does not.
     """
-    views, unread = list(told["views"]), list(told["unread"])
+    views, unread = list(answer["views"]), list(answer["unread"])
     if (
-        len(views) == len(asked.sensors)
-        and all(-1 <= int(view["by"]) < len(asked.visuals) for view in views)
+        len(views) == len(request.sensors)
+        and all(-1 <= int(view["by"]) < len(request.visuals) for view in views)
         and all(len(view["shares"]) == len(view["reach"]) for view in views)
         and all(view["cut"] >= 0.0 and sum(view["shares"], 0.0) >= 0.0 for view in views)
-        and all(0 <= number < len(asked.contents) and str(why) for number, why in unread)
+        and all(0 <= number < len(request.contents) and str(why) for number, why in unread)
     ):
         return {"views": views, "unread": unread}
     raise ValueError("no views of these sensors")
 
 
-def _views_of(robot: Robot, asked: Asked, told: dict[str, Any]) -> SensorViews:
+def _views_of(robot: Robot, request: ViewRequest, answer: dict[str, Any]) -> SensorViews:
     views = tuple(
         View(
             mounted,
             tuple(zip(view["shares"], view["reach"], strict=True)),
             view["cut"],
-            asked.visuals[view["by"]] if view["by"] >= 0 else None,
+            request.visuals[view["by"]] if view["by"] >= 0 else None,
         )
-        for mounted, view in zip(asked.sensors, told["views"], strict=True)
+        for mounted, view in zip(request.sensors, answer["views"], strict=True)
     )
-    meshes = asked.request["meshes"]
-    unread = (f"{meshes[number]['uri']} {reason}" for number, reason in told["unread"])
-    return SensorViews(robot, views, (*asked.unseen, *unread))
+    meshes = request.item["meshes"]
+    unread = (f"{meshes[number]['uri']} {reason}" for number, reason in answer["unread"])
+    return SensorViews(robot, views, (*request.unseen, *unread))
 
 
-def _without_places(asked: Asked) -> list[Any]:
-    meshes = asked.request["meshes"]
+def _without_places(request: ViewRequest) -> list[Any]:
+    meshes = request.item["meshes"]
     return [
-        (key, mesh["part"], mesh["uses"]) for key, mesh in zip(asked.contents, meshes, strict=True)
+        (key, mesh["part"], mesh["uses"])
+        for key, mesh in zip(request.contents, meshes, strict=True)
     ]
 
 

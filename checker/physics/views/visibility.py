@@ -35,12 +35,12 @@ it, how far away (`reach`, metres), and those that meet it nearer than the senso
 
 
 def views_of(
-    asked: Mapping[str, Any], sensors: Sensors, of_meshes: Sequence[list[Met] | str] = ()
+    item: Mapping[str, Any], sensors: Sensors, of_meshes: Sequence[list[Met] | str] = ()
 ) -> dict[str, Any]:
     """Return what each sensor sees of the visuals.
 
     Args:
-        asked: See above.
+        item: See above.
         sensors: Those that are asked about.
         of_meshes: What is seen of each mesh, or why that is not known (`seen_of_mesh`).
 
@@ -49,25 +49,25 @@ def views_of(
         them, the share that is `cut` off, and the visual that fills most (`by`; -1 for none).
         `unread`: numbers of files, and why.
     """
-    found = list(_solids(asked["solids"], sensors))
+    hits = list(_solids(item["solids"], sensors))
     unread: list[tuple[int, str]] = []
     for number, seen in enumerate(of_meshes):
         if isinstance(seen, str):
             unread.append((number, seen))
         else:
-            found += seen
+            hits += seen
     views = [
-        _view(grid, [each for each in found if each["sensor"] == number])
+        _view(grid, [hit for hit in hits if hit["sensor"] == number])
         for number, (_, grid) in enumerate(sensors)
     ]
     return {"views": views, "unread": unread}
 
 
-def sensors_of(asked: Mapping[str, Any]) -> Sensors:
+def sensors_of(item: Mapping[str, Any]) -> Sensors:
     """Return poses and rays of the sensors that are asked about."""
     import numpy as np
 
-    sensors = asked["sensors"]
+    sensors = item["sensors"]
     return [(np.array(sensor["pose"]), grid_from_json(sensor["grid"])) for sensor in sensors]
 
 
@@ -78,12 +78,12 @@ def _view(grid: Grid, met: Iterable[Met]) -> dict[str, Any]:
     first = np.full(len(grid.weights), np.inf)
     cut = np.zeros(len(grid.weights), bool)
     most = (0.0, -1)
-    for each in met:
-        rays = each["rays"]
-        first[rays] = np.minimum(first[rays], each["reach"])
-        cut[each["cut"]] = True
-        near = [*rays, *each["cut"]]
-        most = max(most, (float(grid.weights[near].sum()), each["visual"]))
+    for hit in met:
+        rays = hit["rays"]
+        first[rays] = np.minimum(first[rays], hit["reach"])
+        cut[hit["cut"]] = True
+        near = [*rays, *hit["cut"]]
+        most = max(most, (float(grid.weights[near].sum()), hit["visual"]))
     filled = np.flatnonzero(np.isfinite(first) & (grid.weights > 0.0))
     return {
         "shares": grid.weights[filled].round(6).tolist(),
@@ -146,9 +146,9 @@ def seen_of_mesh(sensors: Sensors, mesh: Mapping[str, Any], data: Content) -> li
         return "is only partly used (<submesh>)"
     corners = content.corners
     corners = corners[(np.abs(corners) <= FARTHEST).all(axis=(1, 2))]
-    found: list[Met] = []
+    hits: list[Met] = []
     if not len(corners):
-        return found
+        return hits
     for use in mesh["uses"]:
         placed = np.array(use["pose"])
         in_robot = (corners * use["scale"]) @ placed[:9].reshape(3, 3).T + placed[9:]
@@ -160,5 +160,5 @@ def seen_of_mesh(sensors: Sensors, mesh: Mapping[str, Any], data: Content) -> li
                 continue
             first, cut = met((in_robot - pose[9:]) @ turned, grid)
             if cut.any() or np.isfinite(first).any():
-                found.append(_met(use["visual"], sensor, first, cut))
-    return found
+                hits.append(_met(use["visual"], sensor, first, cut))
+    return hits

@@ -144,32 +144,32 @@ def groups_of(findings: Sequence[ReportedFinding]) -> list[RuleGroup]:
         by_rule.setdefault((finding.severity, finding.rule), []).append(finding)
     room = MOST
     groups = []
-    for (severity, _), found in by_rule.items():
-        shown = found[: min(MOST_OF_A_RULE, room)]
+    for (severity, _), of_rule in by_rule.items():
+        shown = of_rule[: min(MOST_OF_A_RULE, room)]
         room -= len(shown)
-        first = found[0]
+        first = of_rule[0]
         groups.append(
             RuleGroup(
                 str(severity), str(first.concern), plain(first.rule), plain(first.name),
-                plain(first.why), plain(first.how), tuple(_shown(each) for each in shown),
-                len(found) - len(shown),
+                plain(first.why), plain(first.how), tuple(_shown(finding) for finding in shown),
+                len(of_rule) - len(shown),
             )
         )  # fmt: skip
     return groups
 
 
-def _shown(found: ReportedFinding) -> ShownFinding:
-    main, *others = found.places
+def _shown(reported: ReportedFinding) -> ShownFinding:
+    main, *others = reported.places
     return ShownFinding(
-        anchor=f"f-{found.fingerprint}",
-        message=plain(shortened(found.message, _TEXT_LIMIT)),
+        anchor=f"f-{reported.fingerprint}",
+        message=plain(shortened(reported.message, _TEXT_LIMIT)),
         spot=_spot(main),
         frame=frame_of(main),
         others=tuple(_spot(place) for place in others[:_PLACES_SHOWN]),
         more=max(0, len(others) - _PLACES_SHOWN),
-        elements=tuple(_elements(found.places)),
-        safety=str(found.fix.safety) if found.fix else "",
-        changes=tuple(changes_of(found.fix)) if found.fix else (),
+        elements=tuple(_elements(reported.places)),
+        safety=str(reported.fix.safety) if reported.fix else "",
+        changes=tuple(changes_of(reported.fix)) if reported.fix else (),
     )
 
 

@@ -63,11 +63,11 @@ class SetAside(Record):
 
 def reasons_of(not_checked: Sequence[NotChecked]) -> list[Reason]:
     """Join what has one reason; what keeps the package from being ready comes first."""
-    found: dict[tuple[Cause, str], list[str]] = {}
-    for each in not_checked:
-        found.setdefault((each.cause, each.reason), []).append(each.rule)
+    by_reason: dict[tuple[Cause, str], list[str]] = {}
+    for skipped in not_checked:
+        by_reason.setdefault((skipped.cause, skipped.reason), []).append(skipped.rule)
     order = list(_CAUSES)
-    ordered = sorted(found.items(), key=lambda item: order.index(item[0][0]))
+    ordered = sorted(by_reason.items(), key=lambda item: order.index(item[0][0]))
     return [
         Reason(_CAUSES[cause], plain(shortened(reason, _TEXT_LIMIT)), tuple(dict.fromkeys(rules)))
         for (cause, reason), rules in ordered
@@ -78,19 +78,19 @@ def suppressed_of(suppressed: Sequence[Suppressed]) -> list[SetAside]:
     """Return what was set aside, as far as the page shows it."""
     return [
         SetAside(
-            plain(each.finding.rule),
-            plain(shortened(each.finding.message, _TEXT_LIMIT)),
-            plain(str(each.finding.places[0])),
-            str(each.by),
-            plain(shortened(each.reason, _TEXT_LIMIT)),
+            plain(item.finding.rule),
+            plain(shortened(item.finding.message, _TEXT_LIMIT)),
+            plain(str(item.finding.places[0])),
+            str(item.by),
+            plain(shortened(item.reason, _TEXT_LIMIT)),
         )
-        for each in suppressed[:SHOWN]
+        for item in suppressed[:SHOWN]
     ]
 
 
 def why_not_driven(not_checked: Sequence[NotChecked]) -> str:
     """Return why the rules on the trial did not look; empty where they say nothing."""
-    reasons = (each.reason for each in not_checked if each.rule.startswith("TRI"))
+    reasons = (skipped.reason for skipped in not_checked if skipped.rule.startswith("TRI"))
     return plain(shortened(next(reasons, ""), _TEXT_LIMIT))
 
 
@@ -120,7 +120,7 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings) -> s
         facts=[(plain(fact.name), plain(fact.value)) for fact in facts_in_words(package.facts)],
         reasons=reasons[:SHOWN],
         more_reasons=max(0, len(reasons) - SHOWN),
-        unchecked=len({each.rule for each in package.not_checked}),
+        unchecked=len({skipped.rule for skipped in package.not_checked}),
         suppressed=suppressed_of(package.suppressed),
         more_suppressed=max(0, len(package.suppressed) - SHOWN),
         not_opened=report.not_opened,
@@ -154,19 +154,19 @@ def environment() -> Environment:
     """Return what renders the templates; every text is escaped."""
     from jinja2 import Environment, FunctionLoader, StrictUndefined
 
-    made = Environment(
+    jinja = Environment(
         loader=FunctionLoader(text_of),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters["plain"] = plain
-    made.filters["count"] = count
-    made.filters["data_url"] = data_url
-    made.filters["quoted"] = shlex.quote
-    made.filters["with_code"] = with_code
-    return made
+    jinja.filters["plain"] = plain
+    jinja.filters["count"] = count
+    jinja.filters["data_url"] = data_url
+    jinja.filters["quoted"] = shlex.quote
+    jinja.filters["with_code"] = with_code
+    return jinja
 
 
 def with_code(text: str) -> Markup:
@@ -195,8 +195,8 @@ def to_index(report: Report, links: Sequence[str]) -> str:
     return environment().get_template("index.html.j2").render(
         report=report,
         entries=[
-            (each, sentence(each), link)
-            for each, link in zip(report.packages, chain(links, repeat("")), strict=False)
+            (item, sentence(item), link)
+            for item, link in zip(report.packages, chain(links, repeat("")), strict=False)
         ],
         levels=list(Severity),
         with_suppressed=has_suppressed(report.packages),
@@ -217,14 +217,14 @@ def _hash(script: str) -> str:
 
 def _downloads(report: Report, folder: str) -> list[dict[str, Any]]:
     """Return the files that a page carries along, as many as there is room for."""
-    made = [
+    files = [
         ("fixes.patch", "text/plain", report.packages[0].patch),
         ("report.json", "application/json", to_json(report)),
         ("report.sarif", "application/json", to_sarif(report, folder)),
     ]
     room = DOWNLOADS_LIMIT
     carried = []
-    for name, kind, text in made:
+    for name, kind, text in files:
         content = text.encode("utf-8", "surrogatepass")
         if 0 < len(content) <= room:
             room -= len(content)

@@ -113,7 +113,7 @@ def _fan(directions: Sequence[tuple[float, float]], reach: float) -> Surface:
     """Return triangles from the origin to neighbouring directions (azimuth and elevation)."""
     import numpy as np
 
-    azimuth, elevation = (np.array(each) for each in zip(*directions, strict=True))
+    azimuth, elevation = (np.array(angles) for angles in zip(*directions, strict=True))
     flat = np.cos(elevation)
     ends = np.stack([flat * np.cos(azimuth), flat * np.sin(azimuth), np.sin(elevation)], axis=1)
     vertices = np.concatenate([np.zeros((1, 3)), reach * ends]).astype(np.float32)

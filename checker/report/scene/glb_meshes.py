@@ -162,7 +162,7 @@ class GlbMeshes:
 def linear(colour: Colour) -> list[float]:
     """Return a colour as glTF wants it: linear, alpha as it is (IEC 61966-2-1, sRGB)."""
     red, green, blue, alpha = colour
-    return [*(_linear(each) for each in (red, green, blue)), alpha]
+    return [*(_linear(number) for number in (red, green, blue)), alpha]
 
 
 def _linear(value: float) -> float:

@@ -41,20 +41,20 @@ _NAME = 80
 class Notes:
     """Sentences in the order in which they were first said."""
 
-    _said: dict[str, None] = field(default_factory=dict)
+    _sentences: dict[str, None] = field(default_factory=dict)
 
     def say(self, sentence: str) -> None:
         """Add a sentence, unless it was said."""
-        self._said[sentence] = None
+        self._sentences[sentence] = None
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """The first ones, and how many more there are."""
-        said = tuple(self._said)
-        if len(said) <= SENTENCES:
-            return said
-        rest = len(said) - SENTENCES + 1
-        return (*said[: SENTENCES - 1], f"{rest} more parts are not shown")
+        sentences = tuple(self._sentences)
+        if len(sentences) <= SENTENCES:
+            return sentences
+        rest = len(sentences) - SENTENCES + 1
+        return (*sentences[: SENTENCES - 1], f"{rest} more parts are not shown")
 
 
 def short(name: str) -> str:
@@ -138,11 +138,11 @@ class MeshFiles(Record, eq=False, dict=True):
         # Of files with the same content only one is shown.
         counts = {key: min(mesh.triangles, FOR_ONE) for _, key, mesh in files.values()}
         most = dict(zip(counts, shares([*counts.values()], FOR_ALL), strict=True))
-        asked = {
+        items = {
             path: _asked_of(self.meshes.package, file, key, mesh, most[key])
             for path, (file, key, mesh) in files.items()
         }
-        return {path: key for path, (key, _) in asked.items()}, dict(asked.values())
+        return {path: key for path, (key, _) in items.items()}, dict(items.values())
 
     @cached_property
     def _appearances(self) -> Background[Appearance]:
@@ -188,11 +188,11 @@ def _lasts(read: Appearance) -> bool:
     return not isinstance(read, str)
 
 
-def _files_of(asked: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
+def _files_of(item: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
     """Yield what goes with a request: paths, and how many bytes each may have."""
-    yield asked["file"], process.SIZE_LIMIT
-    yield from ((path, PICTURE_LIMIT) for path in asked["pictures"].values())
-    yield from ((path, MATERIAL_LIMIT) for path in asked["materials"])
+    yield item["file"], process.SIZE_LIMIT
+    yield from ((path, PICTURE_LIMIT) for path in item["pictures"].values())
+    yield from ((path, MATERIAL_LIMIT) for path in item["materials"])
 
 
 def _existing(package: Package, folder: str, names: Iterable[str]) -> Iterator[tuple[str, Path]]:

@@ -108,19 +108,19 @@ def _tile(camera: Camera) -> float:
     """Return the length of the ground's tiles, metres: 1, 2 or 5 times a power of ten."""
     whole = math.floor(math.log10(camera.distance / _TILES))
     steps = (step * 10.0**whole for step in (5, 2, 1))
-    return next((each for each in steps if each <= camera.distance / _TILES), 10.0**whole)
+    return next((step for step in steps if step <= camera.distance / _TILES), 10.0**whole)
 
 
 def _boxes(scene: DisplayScene, layer: Layer) -> dict[int, Array]:
     """Return corners of boxes around what a layer shows, in the frames of the links (n × 3)."""
     import numpy as np
 
-    found: dict[int, list[Array]] = {}
+    by_number: dict[int, list[Array]] = {}
     for number, item in drawn_items(scene):
         if item.layer is layer:
             corners = _box(item.surfaces) * np.array(item.scale)
-            found.setdefault(number, []).append(_moved(corners, item.pose))
-    return {number: np.concatenate(corners) for number, corners in found.items()}
+            by_number.setdefault(number, []).append(_moved(corners, item.pose))
+    return {number: np.concatenate(corners) for number, corners in by_number.items()}
 
 
 def _points(scene: DisplayScene, boxes: Mapping[int, Array], sample: int) -> Array:
@@ -185,8 +185,8 @@ class Drawing:
 
     def stop(self) -> None:
         """End what nobody waits for."""
-        for each in self._drawn:
-            each.stop()
+        for answer in self._drawn:
+            answer.stop()
         if self.child is not None:
             self.child.stop()
 
@@ -194,16 +194,16 @@ class Drawing:
         """Say what to draw; it is drawn while the caller does something else."""
         self._shots = tuple(shots_of(scene, WIDTH / HEIGHT))
         if self._shots:
-            asked = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
-            key = work_key([json.dumps(asked)], ["report/scene/drawing"], ["mujoco"])
-            self._drawn = tuple(self._background(key, asked, each) for each in PLATFORMS)
+            item = request_of(scene, self._shots, ground_of(scene), WIDTH, HEIGHT)
+            key = work_key([json.dumps(item)], ["report/scene/drawing"], ["mujoco"])
+            self._drawn = tuple(self._background(key, item, platform) for platform in PLATFORMS)
             self._drawn[0].begin()
 
     @property
     def pictures(self) -> tuple[Picture, ...]:
         """The pictures; none where nothing can draw without a window."""
-        for each in self._drawn:
-            files = each.result()
+        for answer in self._drawn:
+            files = answer.result()
             if not isinstance(files, WorkerFailed):
                 return tuple(
                     Picture(shot.caption, jpeg, WIDTH, HEIGHT)
@@ -212,15 +212,15 @@ class Drawing:
         return ()
 
     def _background(
-        self, key: str, asked: Mapping[str, Any], platform: str
+        self, key: str, item: Mapping[str, Any], platform: str
     ) -> Background[list[bytes]]:
         def decoded(answer: Any) -> list[bytes]:
-            files = [base64.b64decode(each) for each in answer]
+            files = [base64.b64decode(file) for file in answer]
             if len(files) != len(self._shots):
                 raise ValueError("another number of pictures")
             return files
 
         module = drawing_module(platform)
-        work = Work("pictures", module, DRAWING_LIMITS, {key: asked}, decoded)
+        work = Work("pictures", module, DRAWING_LIMITS, {key: item}, decoded)
         waiting = self.child if platform == PLATFORMS[0] else None
         return Background(work, self.cache, waiting)

@@ -115,7 +115,7 @@ def revolved(profile: Sequence[Point]) -> Surface:
     angles = 2 * np.pi * np.arange(AROUND) / AROUND
     turned = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     turned[np.abs(turned) < 1e-15] = 0.0
-    radius, height, out, up = (np.array(each)[:, None] for each in zip(*profile, strict=True))
+    radius, height, out, up = (np.array(column)[:, None] for column in zip(*profile, strict=True))
 
     def around(across: Array, along: Array) -> Array:
         flat = across[:, :, None] * turned

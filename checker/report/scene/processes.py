@@ -28,9 +28,9 @@ class StartedProcesses(Record):
 
     def stop(self) -> None:
         """End them."""
-        for each in (self.meshes, self.drawing):
-            if each is not None:
-                each.stop()
+        for process in (self.meshes, self.drawing):
+            if process is not None:
+                process.stop()
 
 
 NO_PROCESSES = StartedProcesses()

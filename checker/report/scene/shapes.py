@@ -53,8 +53,8 @@ def drawn(showing: Showing, shape: Collision | Visual) -> Drawn | None:
         return None
     if geometry.shape == "mesh":
         x, y, z = sizes["scale"]
-        found = _of_mesh(showing, shape)
-        return Drawn(found, (x, y, z)) if found else None
+        surfaces = _of_mesh(showing, shape)
+        return Drawn(surfaces, (x, y, z)) if surfaces else None
     simple = _simple(geometry.shape, sizes)
     if simple is None:
         notes.say(f"a {shape.element.tag} that is a {geometry.shape} is not shown")
@@ -81,11 +81,11 @@ def _of_mesh(showing: Showing, shape: Collision | Visual) -> tuple[Surface, ...]
     if picks and isinstance(showing.robot.mesh_of(shape), MeshFault):
         notes.say(f"{name} is not shown, because only a part of it is used (<submesh>)")
         return ()
-    found = showing.surfaces.of(geometry.uri)
-    if isinstance(found, str):
-        notes.say(f"{name} is not shown: it {found}")
+    surfaces = showing.surfaces.of(geometry.uri)
+    if isinstance(surfaces, str):
+        notes.say(f"{name} is not shown: it {surfaces}")
         return ()
-    sound = tuple(surface for surface in found if _is_drawable(surface))
+    sound = tuple(surface for surface in surfaces if _is_drawable(surface))
     if not sound:
         notes.say(f"{name} is not shown: it contains no triangles that can be drawn")
     return sound
@@ -102,24 +102,24 @@ def _is_drawable(surface: Surface) -> bool:
 
 def _simple(shape: str, sizes: dict[str, list[float]]) -> Drawn | None:
     """Return a shape that is no mesh; None for kinds that are not shown."""
-    found: Drawn | None = None
+    solid: Drawn | None = None
     match shape, [number for numbers in sizes.values() for number in numbers]:
         case "box", [x, y, z]:
-            found = Drawn((box(),), (x, y, z))
+            solid = Drawn((box(),), (x, y, z))
         case "sphere", [radius]:
-            found = Drawn((sphere(),), (radius, radius, radius))
+            solid = Drawn((sphere(),), (radius, radius, radius))
         case "ellipsoid", [x, y, z]:
-            found = Drawn((sphere(),), (x, y, z))
+            solid = Drawn((sphere(),), (x, y, z))
         case "cylinder", [radius, length]:
-            found = Drawn((cylinder(),), (radius, radius, length))
+            solid = Drawn((cylinder(),), (radius, radius, length))
         case "cone", [radius, length]:
-            found = Drawn((cone(),), (radius, radius, length))
+            solid = Drawn((cone(),), (radius, radius, length))
         case "capsule", [radius, length]:
-            found = Drawn((capsule(radius, length),), (1.0, 1.0, 1.0))
+            solid = Drawn((capsule(radius, length),), (1.0, 1.0, 1.0))
         case "plane", [a, b, c, x, y]:
             turn = Transform(turn_to((a, b, c)))
-            found = Drawn((rectangle(),), (x, y, 1.0), turn)
-    return found
+            solid = Drawn((rectangle(),), (x, y, 1.0), turn)
+    return solid
 
 
 def turn_to(direction: Vector) -> Rotation:

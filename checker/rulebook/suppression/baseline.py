@@ -97,25 +97,25 @@ def _packages(content: object) -> dict[str, tuple[BaselineEntry, ...]]:
     return {name: tuple(map(_entry, entries)) for name, entries in packages.items()}
 
 
-def _entry(said: Any) -> BaselineEntry:
-    if not isinstance(said, dict):
-        raise ValueError(f"an entry is not a table: {said!r}")
-    texts = {name: said.get(name, "") for name in ("rule", "message", "key", "reason")}
+def _entry(data: Any) -> BaselineEntry:
+    if not isinstance(data, dict):
+        raise ValueError(f"an entry is not a table: {data!r}")
+    texts = {name: data.get(name, "") for name in ("rule", "message", "key", "reason")}
     if not all(isinstance(text, str) for text in texts.values()):
-        raise ValueError(f"an entry contains a value that is not a string: {said!r}")
+        raise ValueError(f"an entry contains a value that is not a string: {data!r}")
     for name in ("rule", "message"):
         if not texts[name]:
-            raise ValueError(f"an entry has no {name}: {said!r}")
-    if said.get("severity") not in list(Severity):
-        raise ValueError(f"an entry has severity {said.get('severity')!r}: {said!r}")
+            raise ValueError(f"an entry has no {name}: {data!r}")
+    if data.get("severity") not in list(Severity):
+        raise ValueError(f"an entry has severity {data.get('severity')!r}: {data!r}")
     texts["reason"] = shortened(texts["reason"], REASON_LIMIT)
-    return BaselineEntry(**texts, severity=Severity(said["severity"]), places=_places(said))
+    return BaselineEntry(**texts, severity=Severity(data["severity"]), places=_places(data))
 
 
-def _places(said: Mapping[str, Any]) -> dict[str, int]:
-    places = said.get("places")
+def _places(data: Mapping[str, Any]) -> dict[str, int]:
+    places = data.get("places")
     if not isinstance(places, dict) or not all(type(n) is int and n > 0 for n in places.values()):
-        raise ValueError(f"an entry has no places with their counts: {said!r}")
+        raise ValueError(f"an entry has no places with their counts: {data!r}")
     return places
 
 

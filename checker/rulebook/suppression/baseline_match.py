@@ -38,14 +38,14 @@ def matched(spots: Sequence[Spot], entries: Sequence[BaselineEntry]) -> Matched:
     taken: dict[int, int] = {}
     for tell in _TELLS:
         free = _free(entries, left, tell)
-        for at, each in enumerate(spots):
-            entry = None if at in taken else _take(each, free, left, tell)
+        for at, spot in enumerate(spots):
+            entry = None if at in taken else _take(spot, free, left, tell)
             if entry is not None:
                 taken[at] = entry
     used = set(taken.values())
     # What is left at a place of an unused entry is graver than that: the fault is not gone.
-    left_over = [each for at, each in enumerate(spots) if at not in taken]
-    graver = {_told(tell, each) for each in left_over for tell in _TELLS}
+    left_over = [spot for at, spot in enumerate(spots) if at not in taken]
+    graver = {_told(tell, spot) for spot in left_over for tell in _TELLS}
     unused = (at for at in range(len(entries)) if at not in used)
     stale = tuple(at for at in unused if graver.isdisjoint(_tales(entries[at])))
     return Matched(tuple(map(taken.get, range(len(spots)))), stale)
@@ -59,9 +59,9 @@ def _free(entries: Sequence[BaselineEntry], left: Sequence[dict[str, int]], tell
     free: _Free = {}
     for at, entry in enumerate(entries):
         for place, number in left[at].items():
-            told = tell(entry.rule, place, entry.key, entry.message)
-            if number and told is not None:
-                free.setdefault((entry.severity, told), deque()).append(at)
+            key = tell(entry.rule, place, entry.key, entry.message)
+            if number and key is not None:
+                free.setdefault((entry.severity, key), deque()).append(at)
     return free
 
 
@@ -84,8 +84,8 @@ def _told(tell: _Tell, spot: Spot) -> Hashable:
 
 def _tales(entry: BaselineEntry) -> Iterator[Hashable]:
     for place in entry.places:
-        told = (tell(entry.rule, place, entry.key, entry.message) for tell in _TELLS)
-        yield from (each for each in told if each is not None)
+        keys = (tell(entry.rule, place, entry.key, entry.message) for tell in _TELLS)
+        yield from (entry for entry in keys if entry is not None)
 
 
 class Held:
@@ -104,9 +104,9 @@ class Held:
     def entries_of(self, rule: str, spots: Sequence[Spot]) -> list[BaselineEntry | None]:
         """Return the entry of each spot that a rule finds; None for what is new."""
         entries = self._entries.get(rule, [])
-        found = matched(spots, entries)
-        self._stale[rule] = [entries[at] for at in found.stale]
-        return [None if at is None else entries[at] for at in found.entries]
+        match = matched(spots, entries)
+        self._stale[rule] = [entries[at] for at in match.stale]
+        return [None if at is None else entries[at] for at in match.entries]
 
     def stale(
         self, known: Collection[str], looked: Collection[str], file: str
@@ -118,7 +118,7 @@ class Held:
             looked: Ids of those that looked at all they ask for.
             file: What to call the baseline's file.
         """
-        gone = {rule: tuple(each.message for each in self._stale[rule]) for rule in self._stale}
+        gone = {rule: tuple(entry.message for entry in self._stale[rule]) for rule in self._stale}
         of_rules = [
             StaleEntries((rule,), gone[rule], file)
             for rule in sorted(gone)

@@ -67,19 +67,19 @@ def comments_of(source: SourceText) -> tuple[Comment, ...]:
 def _marks(source: SourceText) -> Iterator[tuple[re.Match[str], int]]:
     """Yield the beginning of each comment that carries the mark, and where the comment ends."""
     only_xml = source.file.lower().endswith(XML_SUFFIXES)
-    for found in _START.finditer(source.text):
-        end = _end(source.text, found)
-        if end > 0 and not (only_xml and found[0].startswith("#")):
-            yield found, end
+    for match in _START.finditer(source.text):
+        end = _end(source.text, match)
+        if end > 0 and not (only_xml and match[0].startswith("#")):
+            yield match, end
 
 
-def _end(text: str, found: re.Match[str]) -> int:
+def _end(text: str, match: re.Match[str]) -> int:
     """Return where a comment ends, or -1 when it does not end soon."""
-    limit = found.end() + _LENGTH_LIMIT
-    if found[0].startswith("<!--"):
-        end = text.find("-->", found.end(), limit)
+    limit = match.end() + _LENGTH_LIMIT
+    if match[0].startswith("<!--"):
+        end = text.find("-->", match.end(), limit)
         return end + 3 if end >= 0 else -1
-    end = text.find("\n", found.end(), limit)
+    end = text.find("\n", match.end(), limit)
     return end if end >= 0 else min(limit, len(text))
 
 

@@ -50,17 +50,17 @@ def entries_of(value: object) -> tuple[SettingsEntry, ...]:
     """
     if not isinstance(value, list) or len(value) > ENTRIES_LIMIT:
         raise ValueError(f"suppress is not a list of at most {ENTRIES_LIMIT} tables")
-    return tuple(_entry(number, each) for number, each in enumerate(value, 1))
+    return tuple(_entry(number, item) for number, item in enumerate(value, 1))
 
 
 def _entry(number: int, value: object) -> SettingsEntry:
     if not isinstance(value, dict):
         raise ValueError(f"suppress {number} is not a table")
-    for key, said in value.items():
+    for key, text in value.items():
         if key not in _KEYS:
             raise ValueError(f"suppress {number} has {key!r}, expected {', '.join(_KEYS)}")
-        if not isinstance(said, str):
-            raise ValueError(f"suppress {number} has {key} = {said!r}, expected a string")
+        if not isinstance(text, str):
+            raise ValueError(f"suppress {number} has {key} = {text!r}, expected a string")
     for key, limit in _LIMITS.items():
         if len(value.get(key, "")) > limit:
             raise ValueError(f"suppress {number} has {key} of more than {limit} characters")

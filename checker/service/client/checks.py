@@ -60,13 +60,13 @@ class Standing(Struct, frozen=True):
     @property
     def end(self) -> End | None:
         """How it has ended; None while it has not."""
-        return next((each for each in End if each == self.stage), None)
+        return next((end for end in End if end == self.stage), None)
 
     def __str__(self) -> str:
         """Say it in a few words."""
-        said = plain(shortened(self.words or self.stage, _SHOWN))
+        text = plain(shortened(self.words or self.stage, _SHOWN))
         before = f" ({count(self.ahead, 'check')} before it)" if self.ahead > 0 else ""
-        return said + before
+        return text + before
 
 
 class Check(Record):
@@ -97,14 +97,14 @@ class Check(Record):
         Raises:
             CheckerError: The service does not say.
         """
-        said, pause = "", _FIRST_PAUSE
+        shown, pause = "", _FIRST_PAUSE
         while True:
             standing = self._standing()
             if standing.end is not None:
                 return standing
-            if str(standing) != said:
-                said, pause = str(standing), _FIRST_PAUSE
-                say(said)
+            if str(standing) != shown:
+                shown, pause = str(standing), _FIRST_PAUSE
+                say(shown)
             sleep(pause)
             pause = min(1.5 * pause, _LONGEST_PAUSE)
 
@@ -148,10 +148,10 @@ def order(connection: Connection, upload: Upload) -> Check:
         CheckerError: The service does not take it; the text says why.
     """
     answer = connection.ask("POST", _CHECKS, upload)
-    given = answer.read_as(Given) if answer.status == 201 else None
-    if given is None:
+    created = answer.read_as(Given) if answer.status == 201 else None
+    if created is None:
         raise _refusal(connection, answer)
-    return Check(connection, given.id)
+    return Check(connection, created.id)
 
 
 def _refusal(connection: Connection, answer: Answer) -> CheckerError:
@@ -162,5 +162,5 @@ def _refusal(connection: Connection, answer: Answer) -> CheckerError:
             f"{connection.server} answers {answer.status}, but not like a subt-check service; "
             "check the address"
         )
-    said = " ".join(filter(None, (problem.error, problem.advice)))
-    return CheckerError(f"{connection.server}: {plain(shortened(said, _SHOWN))}")
+    text = " ".join(filter(None, (problem.error, problem.advice)))
+    return CheckerError(f"{connection.server}: {plain(shortened(text, _SHOWN))}")

@@ -150,10 +150,10 @@ class Connection(Record):
                     body = self._body(response, limit)
         except (httpx.TransportError, httpx.InvalidURL) as error:
             cause = _cause(error)
-            said = plain(shortened(getattr(cause, "strerror", None) or str(cause), _SHOWN))
+            reason = plain(shortened(getattr(cause, "strerror", None) or str(cause), _SHOWN))
             if _is_final(cause):
-                raise CheckerError(f"{self.server} cannot be reached: {said}") from None
-            raise NoAnswer(f"does not answer ({said})") from None
+                raise CheckerError(f"{self.server} cannot be reached: {reason}") from None
+            raise NoAnswer(f"does not answer ({reason})") from None
         return Answer(response.status_code, response.headers, body)
 
     def _request(
@@ -210,9 +210,9 @@ def _cut_off(seconds: float) -> Iterator[Trace]:
         with suppress(OSError):
             streams[-1].get_extra_info("socket").shutdown(socket.SHUT_RDWR)
 
-    def trace(event: str, said: Mapping[str, Any]) -> None:
+    def trace(event: str, details: Mapping[str, Any]) -> None:
         if event in ("connection.connect_tcp.complete", "connection.start_tls.complete"):
-            streams.append(said["return_value"])
+            streams.append(details["return_value"])
         elif event == "http11.receive_response_headers.started":
             timer.start()
 

@@ -146,8 +146,8 @@ def pack(folder: Path, archive: BinaryIO, limits: ArchiveLimits | None = None) -
     packed = [entry for entry in entries if entry.kind in (EntryKind.FILE, EntryKind.FOLDER)]
     _refuse(folder, index, packed, limits or ArchiveLimits())
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
-        for each in packed:
-            _add(folder, file, root.name, each)
+        for item in packed:
+            _add(folder, file, root.name, item)
     return tuple(_words_of_left_out(entries))
 
 
@@ -164,7 +164,7 @@ def _refuse(folder: Path, index: FileIndex, packed: list[FileEntry], limits: Arc
     if len(packed) > min(limits.entries, MAX_ENTRIES):
         reason = f"contains {len(packed)} files and folders, expected {limits.entries} or fewer"
         raise UnreadableInput(folder, reason, _ADVICE)
-    size = sum(each.size for each in packed)
+    size = sum(item.size for item in packed)
     if size > limits.unpacked_bytes:
         reason = f"has {size / 1e6:.0f} MB, expected {limits.unpacked_bytes / 1e6:.0f} MB or less"
         raise UnreadableInput(folder, reason, _ADVICE)

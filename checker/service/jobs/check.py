@@ -139,10 +139,10 @@ def _kept(store: Store, order: Order, checked: Checked, ended: Ended) -> Outcome
     """Put a result into the store: files that we write, under names that we know."""
     with store.workplace() as place:
         try:
-            made = place / "made"
-            _write_result(made, ended.files)
-            (made / SUMMARY).write_bytes(ended.answer)
-            store.keep(checked.key, made)
+            folder = place / "made"
+            _write_result(folder, ended.files)
+            (folder / SUMMARY).write_bytes(ended.answer)
+            store.keep(checked.key, folder)
         except ValueError as error:
             _LOG.error("the child process made an invalid result: %s", plain(str(error)))
             return Died(f"{UNFINISHED}: its report is too large or damaged")

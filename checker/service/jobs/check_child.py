@@ -41,11 +41,11 @@ def without_folder(report: Report, place: Path) -> Report:
         report: As it came out of the check.
         place: The folder, laid out by `checker.service.jobs.exchange`.
     """
-    folders = "|".join(re.escape(str(each)) for each in {place, place.resolve()})
+    folders = "|".join(re.escape(str(folder)) for folder in {place, place.resolve()})
     unpacked = rf"{TEMPORARY}/[^/\s]+|{re.escape(GIVEN)}"
     pattern = re.compile(rf"(?:{folders})(?:/(?:{unpacked}))?/?")
-    said: Report = _changed(report, lambda text: pattern.sub("", text))
-    return said
+    changed: Report = _changed(report, lambda text: pattern.sub("", text))
+    return changed
 
 
 def _changed(value: Any, change: Callable[[str], str]) -> Any:
@@ -54,11 +54,11 @@ def _changed(value: Any, change: Callable[[str], str]) -> Any:
         case str() if type(value) is str:
             return change(value)
         case tuple():
-            return tuple(_changed(each, change) for each in value)
+            return tuple(_changed(item, change) for item in value)
         case list():
-            return [_changed(each, change) for each in value]
+            return [_changed(item, change) for item in value]
         case Mapping():
-            return {_changed(key, change): _changed(each, change) for key, each in value.items()}
+            return {_changed(key, change): _changed(item, change) for key, item in value.items()}
         case Record():
             members = {name: _changed(part, change) for name, part in asdict(value).items()}
             return replace(value, **members)
@@ -107,12 +107,12 @@ def answer(request: bytes, files: Files) -> Answer:
         JSON: why the upload is `refused`, or the summary of the result; and the files of the
         result, with parts for the next stage.
     """
-    asked = json.loads(request)
+    job = json.loads(request)
     place = Path.cwd()
-    settle(place, asked["name"], files)
-    limit(StageLimits(**asked["limits"]))
-    said, made = _checked(asked, place)
-    return json.dumps(said).encode(), chain(made, new_parts(place, files.names))
+    settle(place, job["name"], files)
+    limit(StageLimits(**job["limits"]))
+    summary, written = _checked(job, place)
+    return json.dumps(summary).encode(), chain(written, new_parts(place, files.names))
 
 
 def _meshes() -> Server:
@@ -124,7 +124,7 @@ def _meshes() -> Server:
 
 
 def _checked(
-    asked: Mapping[str, Any], place: Path
+    job: Mapping[str, Any], place: Path
 ) -> tuple[dict[str, Any], Iterator[tuple[str, Content]]]:
     """Return the answer, and the files of the result."""
     from checker.base.errors import InvalidSettings, UnreadableInput
@@ -133,12 +133,12 @@ def _checked(
     from checker.rulebook.profiles import profile_names
     from checker.service.jobs.exchange import summary
 
-    if asked["profile"] not in ("", *profile_names()):
+    if job["profile"] not in ("", *profile_names()):
         known = ", ".join(profile_names())
-        return _refused(f"there is no profile {asked['profile']!r}; choose one of {known}")
-    stage, name = Stage(asked["stage"]), str(asked["name"])
+        return _refused(f"there is no profile {job['profile']!r}; choose one of {known}")
+    stage, name = Stage(job["stage"]), str(job["name"])
     options = {
-        "profile": asked["profile"] or None,
+        "profile": job["profile"] or None,
         "trial": False if stage is Stage.STATIC else None,
         "display": stage is not Stage.STATIC,
     }
@@ -148,23 +148,23 @@ def _checked(
     except (InvalidSettings, UnreadableInput) as error:
         return _refused(shortened(str(error), 1_000))
     if not report.packages:
-        reasons = (f"{each.path} {each.reason}" for each in report.not_opened)
+        reasons = (f"{item.path} {item.reason}" for item in report.not_opened)
         return _refused(shortened(". ".join(reasons), 1_000))
-    return summary(report), _files(report, stage, asked)
+    return summary(report), _files(report, stage, job)
 
 
 def _refused(reason: str) -> tuple[dict[str, Any], Iterator[tuple[str, Content]]]:
     return {"refused": reason}, iter(())
 
 
-def _files(report: Report, stage: Stage, asked: Mapping[str, Any]) -> Iterator[tuple[str, Content]]:
+def _files(report: Report, stage: Stage, job: Mapping[str, Any]) -> Iterator[tuple[str, Content]]:
     """Yield the result: of the static stage the JSON alone, since the trial's follows soon."""
     from checker.report.files import artefacts
     from checker.report.formats import FORMATS
     from checker.report.render_settings import Palette, RenderSettings
 
-    profile = ("--profile", asked["profile"]) if asked["profile"] else ()
-    command = shlex.join(("subt-check", asked["name"], *profile))
+    profile = ("--profile", job["profile"]) if job["profile"] else ()
+    command = shlex.join(("subt-check", job["name"], *profile))
     manner = RenderSettings(Palette(enabled=False), "/", command)
     early = [("report.json", FORMATS["json"](report, manner))]
     for name, content in early if stage is Stage.STATIC else artefacts(report, manner):

@@ -129,8 +129,8 @@ class Children:
 
     def _take(self) -> _Place:
         with self._lock:
-            found, self._waiting = (self._waiting if self._has_one() else None), None
-        return found or self._start()
+            child, self._waiting = (self._waiting if self._has_one() else None), None
+        return child or self._start()
 
     def _has_one(self) -> bool:
         """Whether a process waits; one that has died meanwhile is let go."""

@@ -89,13 +89,13 @@ def _words(report: Report) -> str:
     if len(report.packages) == 1:
         return str(sentence(report.packages[0]))
     kinds = Counter(package.verdict for package in report.packages)
-    said = [f"{kinds[kind]} {kind.replace('_', ' ')}" for kind in VerdictKind if kinds[kind]]
-    return f"{len(report.packages)} packages: {listed(said)}"
+    verdicts = [f"{kinds[kind]} {kind.replace('_', ' ')}" for kind in VerdictKind if kinds[kind]]
+    return f"{len(report.packages)} packages: {listed(verdicts)}"
 
 
-def read_summary(key: str, said: Any) -> Checked | None:
+def read_summary(key: str, data: Any) -> Checked | None:
     """Return what a summary says; None for what is none."""
-    match said:
+    match data:
         case {"packages": list(packages), "words": str(words)} if len(
             packages
         ) <= _PACKAGES_LIMIT and all(map(_is_package, packages)):
@@ -105,17 +105,17 @@ def read_summary(key: str, said: Any) -> Checked | None:
     return None
 
 
-def _is_package(said: Any) -> bool:
+def _is_package(data: Any) -> bool:
     return (
-        isinstance(said, Mapping)
-        and all(_is_text(said.get(name)) for name in _TEXTS)
-        and said.get("verdict") in list(VerdictKind)
-        and all(type(said.get(name)) is int and said[name] >= 0 for name in _NUMBERS)
+        isinstance(data, Mapping)
+        and all(_is_text(data.get(name)) for name in _TEXTS)
+        and data.get("verdict") in list(VerdictKind)
+        and all(type(data.get(name)) is int and data[name] >= 0 for name in _NUMBERS)
     )
 
 
-def _is_text(said: Any) -> bool:
-    return isinstance(said, str) and len(said) <= _TEXT_LIMIT
+def _is_text(data: Any) -> bool:
+    return isinstance(data, str) and len(data) <= _TEXT_LIMIT
 
 
 UPLOAD = "upload"
@@ -139,16 +139,16 @@ def settle(place: Path, name: str, files: Files) -> None:
         name: Of the uploaded file.
         files: The upload, and parts of an earlier check of it.
     """
-    given = place / GIVEN
-    for folder in (given, place / TEMPORARY):
+    upload = place / GIVEN
+    for folder in (upload, place / TEMPORARY):
         folder.mkdir(parents=True)
     # The search for settings ends at the root of a repository: none of this machine's shall judge.
-    (given.parent / ".git").touch()
-    _write(given / name, files, UPLOAD)
+    (upload.parent / ".git").touch()
+    _write(upload / name, files, UPLOAD)
     for part in filter(is_part, files.names):
         (place / part).parent.mkdir(parents=True, exist_ok=True)
         _write(place / part, files, part)
-    os.chdir(given)
+    os.chdir(upload)
     os.environ["TMPDIR"] = str(place / TEMPORARY)
     os.environ["SUBT_CHECK_CACHE"] = str(place / CACHE)
     tempfile.tempdir = None  # a library may have asked for it before

@@ -103,10 +103,10 @@ def _refuse_without_database() -> None:
 
 def _environment(options: argparse.Namespace) -> Mapping[str, str]:
     """Return the variables of the processes: those of here, and what the options say."""
-    said = {"SUBT_CHECK_BASE_URL": options.base_url} if options.base_url else {}
-    said |= {"SUBT_CHECK_PUBLIC": "1"} if options.public else {}
-    said |= {"SUBT_CHECK_WITHOUT_SANDBOX": "1"} if options.without_sandbox else {}
-    return {**os.environ, "PYTHONPATH": module_path(), **said}
+    variables = {"SUBT_CHECK_BASE_URL": options.base_url} if options.base_url else {}
+    variables |= {"SUBT_CHECK_PUBLIC": "1"} if options.public else {}
+    variables |= {"SUBT_CHECK_WITHOUT_SANDBOX": "1"} if options.without_sandbox else {}
+    return {**os.environ, "PYTHONPATH": module_path(), **variables}
 
 
 def _warnings(bound: socket.socket, environment: Mapping[str, str], store: Store) -> Iterator[str]:

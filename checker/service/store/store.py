@@ -176,8 +176,8 @@ class Store(Record):
         for name in _OURS:
             tighten_below(self.folder / name)
         with suppress(FileNotFoundError):
-            found = os.listdir(self.folder)  # noqa: PTH208 - names are all that is asked for
-            if all(name in _OURS or name.startswith(DATABASE) for name in found):
+            names = os.listdir(self.folder)  # noqa: PTH208 - names are all that is asked for
+            if all(name in _OURS or name.startswith(DATABASE) for name in names):
                 tighten(self.folder)
 
     def _expire_one(self, path: Path, before: float, place: Path) -> None:
@@ -227,11 +227,11 @@ def _check_result(folder: Path) -> None:
         raise ValueError("a result is not a link")
     left = RESULT_LIMIT
     for path in folder.rglob("*"):
-        name, found = path.relative_to(folder).as_posix(), path.lstat()
-        if stat.S_ISDIR(found.st_mode) and "/" not in name:
+        name, status = path.relative_to(folder).as_posix(), path.lstat()
+        if stat.S_ISDIR(status.st_mode) and "/" not in name:
             continue
-        left -= found.st_size
-        if not stat.S_ISREG(found.st_mode) or not _is_of_result(name):
+        left -= status.st_size
+        if not stat.S_ISREG(status.st_mode) or not _is_of_result(name):
             raise ValueError(f"{name[:200]!r} is not a file of a result")
         if left < 0:
             raise ValueError(f"a result has at most {RESULT_LIMIT / 1e9:g} GB")

@@ -215,12 +215,12 @@ def _remove_all(place: Path) -> None:
 
 def _emptied(folder: Path) -> Iterator[Path]:
     """Remove the files of a folder, and yield the folders in it."""
-    with os.scandir(folder) as found:
-        for each in found:
-            if each.is_dir(follow_symlinks=False):
-                yield Path(each.path)
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            if entry.is_dir(follow_symlinks=False):
+                yield Path(entry.path)
             else:
-                Path(each.path).unlink()
+                Path(entry.path).unlink()
 
 
 def _at_top(folder: Path, place: Path) -> Path:

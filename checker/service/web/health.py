@@ -47,20 +47,20 @@ def router(services: Services) -> APIRouter:
     from fastapi import APIRouter
 
     health = Health(services)
-    made = APIRouter(tags=["health"])
+    api = APIRouter(tags=["health"])
     no: dict[int | str, dict[str, Any]] = {
         503: {"model": Problem, "description": "Not ready, and why."}
     }
-    made.add_api_route("/healthz", health.lives, response_model=Well)
-    made.add_api_route(
+    api.add_api_route("/healthz", health.lives, response_model=Well)
+    api.add_api_route(
         "/readyz",
         health.ready,
         response_model=Ready,
         response_model_exclude_none=True,
         responses=no,
     )
-    made.add_api_route("/metrics", health.figures, include_in_schema=False)
-    return made
+    api.add_api_route("/metrics", health.figures, include_in_schema=False)
+    return api
 
 
 class Health(Record):

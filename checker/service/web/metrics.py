@@ -77,8 +77,8 @@ class _Engine(Record):
         if alive is not None:
             yield _gauge("running", "Checks that run.", alive.running)
             yield _gauges("waiting", "Checks that wait, by queue.", "queue", alive.waiting)
-            said = "Since each worker's last sign of life."
-            yield _gauges("worker_silent_seconds", said, "worker", alive.workers)
+            about = "Since each worker's last sign of life."
+            yield _gauges("worker_silent_seconds", about, "worker", alive.workers)
 
 
 def _gauge(name: str, about: str, value: float) -> GaugeMetricFamily:
@@ -87,6 +87,6 @@ def _gauge(name: str, about: str, value: float) -> GaugeMetricFamily:
 
 def _gauges(name: str, about: str, label: str, values: Mapping[str, float]) -> GaugeMetricFamily:
     family = GaugeMetricFamily(f"{_OURS}_{name}", about, labels=(label,))
-    for each, value in sorted(values.items()):
-        family.add_metric((each,), value)
+    for key, value in sorted(values.items()):
+        family.add_metric((key,), value)
     return family

@@ -140,17 +140,17 @@ def _bind_positional(call: Call, function: Function, scope: Scope) -> None:
         most = "+" if endless else f"..{required + optional}" if optional else ""
         message = f"wrong number of arguments (given {count}, expected {required}{most})"
         raise RubyError("ArgumentError", message, call.span)
-    given = min(optional, count - required)
-    surplus = count - required - given
+    filled = min(optional, count - required)
+    surplus = count - required - filled
     at = 0
     for parameter in listed:
         if parameter.kind == "rest":
             scope.variables[parameter.name] = call.run.array(call.arguments[at : at + surplus])
             at += surplus
-        elif parameter.kind == "optional" and given == 0:
+        elif parameter.kind == "optional" and filled == 0:
             scope.variables[parameter.name] = _default(call, parameter)
         else:
-            given -= parameter.kind == "optional"
+            filled -= parameter.kind == "optional"
             scope.variables[parameter.name] = call.arguments[at]
             at += 1
 
@@ -178,12 +178,12 @@ def _default(call: Call, parameter: Parameter) -> Value:
 def _subshell(run: Interpreter, node: RubyNode) -> Value:
     """Answer `rospack find PACKAGE` from the workspace; no other command is known."""
     command = string_content(run, node).text
-    found = _FIND.fullmatch(command)
-    if found is None:
+    match = _FIND.fullmatch(command)
+    if match is None:
         raise Unreadable(node.span, f"runs the command '{command.strip()[:60]}'")
-    folder = run.files.package_folder(found.group(1))
+    folder = run.files.package_folder(match.group(1))
     if folder is None:
-        raise Unreadable(node.span, f"package {found.group(1)} is not available")
+        raise Unreadable(node.span, f"package {match.group(1)} is not available")
     return run.computed(absolute(folder) + "\n", node.span)
 
 

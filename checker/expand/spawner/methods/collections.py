@@ -33,8 +33,8 @@ def _at(call: Call, index: Value) -> Value:
         number = call.whole(number)
     if type(number) is not int:
         raise call.refuse("with something else than an integer")
-    found = items[number] if -len(items) <= number < len(items) else NIL
-    return Value(found.data, found.parameters | call.receiver.parameters | index.parameters)
+    chosen = items[number] if -len(items) <= number < len(items) else NIL
+    return Value(chosen.data, chosen.parameters | call.receiver.parameters | index.parameters)
 
 
 def _push(call: Call, *values: Value) -> Value:
@@ -71,12 +71,12 @@ def _times(call: Call, factor: Value) -> Value:
 def _flat(call: Call, items: list[Value], depth: int = 0) -> list[Value]:
     if depth > _MAX_NESTING:
         raise call.refuse("with arrays nested too deeply")
-    found: list[Value] = []
+    result: list[Value] = []
     for item in items:
         call.run.budget.spend()
         inner = item.data
-        found += _flat(call, inner.items, depth + 1) if isinstance(inner, RubyArray) else [item]
-    return found
+        result += _flat(call, inner.items, depth + 1) if isinstance(inner, RubyArray) else [item]
+    return result
 
 
 def _join(call: Call, separator: Value | None = None) -> Value:
@@ -132,8 +132,8 @@ def _get(call: Call, key: Value) -> Value:
 
 def _fetch_or(call: Call, key: Value, default: Value) -> Value:
     entry = _entries(call).get(_identity(call, key))
-    found = entry[1] if entry else default
-    return Value(found.data, found.parameters | call.receiver.parameters | key.influences)
+    value = entry[1] if entry else default
+    return Value(value.data, value.parameters | call.receiver.parameters | key.influences)
 
 
 def _fetch(call: Call, key: Value, default: Value | None = None) -> Value:

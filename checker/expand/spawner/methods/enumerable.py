@@ -146,8 +146,8 @@ def _extreme(choose: Callable[..., Any]) -> Method:
 
 
 def _includes(call: Call, wanted: Value) -> Value:
-    found = any(call.run.equal(item, wanted, call.span) for item in _all(call))
-    return call.value(found, wanted)
+    contained = any(call.run.equal(item, wanted, call.span) for item in _all(call))
+    return call.value(contained, wanted)
 
 
 def _sort(call: Call) -> Value:

@@ -86,28 +86,28 @@ def _times(call: Call, factor: Value) -> Value:
 def _occurrences(call: Call, wanted: str) -> Iterator[tuple[int, int]]:
     """Yield the ranges of a text that do not overlap; an empty one stands between characters."""
     text, at = _text(call), 0
-    while (found := text.find(wanted, at)) >= 0:
+    while (start := text.find(wanted, at)) >= 0:
         call.run.budget.spend()
-        yield found, found + len(wanted)
-        at = found + max(1, len(wanted))
+        yield start, start + len(wanted)
+        at = start + max(1, len(wanted))
         if at > len(text):
             return
 
 
-def _between(text: str, found: list[tuple[int, int]]) -> list[tuple[int, int]]:
+def _between(text: str, occurrences: list[tuple[int, int]]) -> list[tuple[int, int]]:
     """Return the ranges of a text before, between and behind others."""
-    starts = [0, *(end for _, end in found)]
-    return list(zip(starts, [*(start for start, _ in found), len(text)], strict=True))
+    starts = [0, *(end for _, end in occurrences)]
+    return list(zip(starts, [*(start for start, _ in occurrences), len(text)], strict=True))
 
 
 def _replaced(call: Call, wanted: Value, replacement: Value, *, every: bool) -> Value:
     content, new = _own(call), call.traced(replacement)
     if "\\" in new.text:
         raise call.refuse("with a backslash in the replacement")
-    found = list(_occurrences(call, call.text(wanted)))
-    found = found if every else found[:1]
-    kept = content.cut_many(_between(content.text, found))
-    call.run.budget.spend_text(len(new.text) * len(found), len(new.pieces) * len(found))
+    occurrences = list(_occurrences(call, call.text(wanted)))
+    occurrences = occurrences if every else occurrences[:1]
+    kept = content.cut_many(_between(content.text, occurrences))
+    call.run.budget.spend_text(len(new.text) * len(occurrences), len(new.pieces) * len(occurrences))
     parts = [kept[0]]
     for part in kept[1:]:
         parts += [new, part]
@@ -128,7 +128,7 @@ def _split(call: Call, separator: Value | None = None) -> Value:
     if between == "":
         ranges = [(at, at + 1) for at in range(len(text))]
     elif between == " ":
-        ranges = [found.span() for found in _WORD.finditer(text)]
+        ranges = [match.span() for match in _WORD.finditer(text)]
     else:
         ranges = _between(text, list(_occurrences(call, between)))
     while ranges and ranges[-1][0] == ranges[-1][1]:
@@ -159,8 +159,8 @@ def _tested(test: Callable[[str, str], bool]) -> Method:
 
 def _to_i(call: Call) -> Value:
     """Read the integer that leads the text, else 0."""
-    found = _INTEGER.match(_text(call))
-    digits = found.group(1).replace("_", "") if found else "0"
+    match = _INTEGER.match(_text(call))
+    digits = match.group(1).replace("_", "") if match else "0"
     if len(digits) > _MAX_DIGITS:
         raise LimitReached(f"makes an integer of more than {_MAX_DIGITS} digits")
     return call.value(int(digits))
@@ -168,8 +168,8 @@ def _to_i(call: Call) -> Value:
 
 def _to_f(call: Call) -> Value:
     """Read the number that leads the text, else 0.0."""
-    found = _FLOAT.match(_text(call)[:2000])
-    return call.value(float(found.group(1).replace("_", "")) if found else 0.0)
+    match = _FLOAT.match(_text(call)[:2000])
+    return call.value(float(match.group(1).replace("_", "")) if match else 0.0)
 
 
 def _format(call: Call, values: Value) -> Value:

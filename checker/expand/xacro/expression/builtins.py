@@ -79,8 +79,8 @@ def keyed(kind: type) -> Work:
     """Return what `set` and `frozenset` do."""
 
     def work(budget: Budget, *arguments: Any) -> Any:
-        found = [hashable(budget, argument) for argument in arguments]
-        return kind(*found)
+        values = [hashable(budget, argument) for argument in arguments]
+        return kind(*values)
 
     return work
 
@@ -113,20 +113,20 @@ def pairs(budget: Budget, arguments: tuple[Any, ...], among: int = 0) -> tuple[A
         arguments: Those of `dict` or `update`, but for the named ones.
         among: How many keys the dictionary has.
     """
-    found = tuple(list(argument) if type(argument) in LAZY else argument for argument in arguments)
-    for each in found:
-        weigh(each, budget)
-        keys = each if type(each) in MAPPINGS else []
-        if type(consumed(each, budget)) in SEQUENCES:
-            keys = [pair[0] for pair in each if type(pair) in SEQUENCES and pair]
+    values = tuple(list(argument) if type(argument) in LAZY else argument for argument in arguments)
+    for value in values:
+        weigh(value, budget)
+        keys = value if type(value) in MAPPINGS else []
+        if type(consumed(value, budget)) in SEQUENCES:
+            keys = [pair[0] for pair in value if type(pair) in SEQUENCES and pair]
         spend_on_keys(keys, among + len(keys), budget)
-    return found
+    return values
 
 
 def in_order(budget: Budget, items: Any, /, *, key: Any = None, reverse: Any = False) -> list[Any]:
     """Do what `sorted` does."""
-    found = listed(budget, items)
-    return sorted(found, key=sorting_key(budget, found, key), reverse=plain(reverse))
+    values = listed(budget, items)
+    return sorted(values, key=sorting_key(budget, values, key), reverse=plain(reverse))
 
 
 def sorting_key(budget: Budget, items: list[Any], key: Any) -> Any:
@@ -148,9 +148,9 @@ def paid(budget: Budget, key: Any, rounds: int = 1) -> Any:
         return key
 
     def called(item: Any) -> Any:
-        found = key(item)
-        budget.spend(rounds * weigh(found, budget))
-        return found
+        result = key(item)
+        budget.spend(rounds * weigh(result, budget))
+        return result
 
     return called
 
@@ -171,13 +171,13 @@ def extreme(native: Any) -> Work:
 
 def total(budget: Budget, items: Any, /, start: Any = 0) -> Any:
     """Do what `sum` does."""
-    found = listed(budget, items)
-    if all(type(each) in NUMBERS or type(each) is str for each in (*found, start)):
-        weigh(found, budget)
-        return sum(found, start)
+    values = listed(budget, items)
+    if all(type(value) in NUMBERS or type(value) is str for value in (*values, start)):
+        weigh(values, budget)
+        return sum(values, start)
     result = plain(start)
-    for each in found:
-        result = apply_binary(_ADD, result, each, budget)
+    for value in values:
+        result = apply_binary(_ADD, result, value, budget)
     return result
 
 
@@ -188,7 +188,7 @@ def decided(native: Any) -> Work:
 
 def mapped(budget: Budget, function: Any, /, *items: Any) -> Any:
     """Do what `map` does."""
-    return map(function, *(consumed(each, budget) for each in items))
+    return map(function, *(consumed(item, budget) for item in items))
 
 
 def filtered(budget: Budget, function: Any, items: Any, /) -> Any:
@@ -198,7 +198,7 @@ def filtered(budget: Budget, function: Any, items: Any, /) -> Any:
 
 def zipped(budget: Budget, *items: Any, strict: Any = False) -> Any:
     """Do what `zip` does."""
-    iterators = [counted(consumed(each, budget), budget) for each in items]
+    iterators = [counted(consumed(item, budget), budget) for item in items]
     return zip(*iterators, strict=bool(strict))
 
 

@@ -48,34 +48,34 @@ def _through_dot(run: Interpreter, node: ast.Attribute, scope: Scope | None) -> 
     )
 
 
-def _function(found: Any) -> Found:
-    if type(found) is Function:
-        return found.work, found.takes
-    if type(found) in PLAIN or type(found) in LAZY:
-        raise TypeError(f"{type(found).__name__!r} object is not callable")
+def _function(value: Any) -> Found:
+    if type(value) is Function:
+        return value.work, value.takes
+    if type(value) in PLAIN or type(value) in LAZY:
+        raise TypeError(f"{type(value).__name__!r} object is not callable")
     raise RefusedExpression("a call of a namespace")
 
 
 def _positional(
     run: Interpreter, node: ast.Call, scope: Scope | None, takes: frozenset[int | str]
 ) -> list[Any]:
-    if takes and any(type(each) is ast.Starred for each in node.args[:1]):
+    if takes and any(type(argument) is ast.Starred for argument in node.args[:1]):
         takes = frozenset()
-    found: list[Any] = []
-    for number, each in enumerate(node.args):
+    values: list[Any] = []
+    for number, argument in enumerate(node.args):
         if number in takes:
-            found.append(_function_or_value(run, each, scope))
-        elif type(each) is ast.Starred:
-            found.extend(items(run, [each], scope))
+            values.append(_function_or_value(run, argument, scope))
+        elif type(argument) is ast.Starred:
+            values.extend(items(run, [argument], scope))
         else:
-            found.append(run.value(each, scope))
-    return found
+            values.append(run.value(argument, scope))
+    return values
 
 
 def _named(
     run: Interpreter, node: ast.Call, scope: Scope | None, takes: frozenset[int | str]
 ) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    named: dict[str, Any] = {}
     for keyword in node.keywords:
         if keyword.arg is None:
             more = run.value(keyword.value, scope)
@@ -86,12 +86,12 @@ def _named(
             more = {keyword.arg: _function_or_value(run, keyword.value, scope)}
         else:
             more = {keyword.arg: run.value(keyword.value, scope)}
-        if found.keys() & more.keys():
+        if named.keys() & more.keys():
             raise TypeError("a keyword argument is given twice")
         if not all(type(name) is str for name in more):
             raise TypeError("keywords must be strings")
-        found |= more
-    return found
+        named |= more
+    return named
 
 
 def _function_or_value(run: Interpreter, node: ast.expr, scope: Scope | None) -> Any:
@@ -99,9 +99,9 @@ def _function_or_value(run: Interpreter, node: ast.expr, scope: Scope | None) ->
     if type(node) is ast.Lambda:
         return _lambda(run, node, scope)
     if type(node) in (ast.Name, ast.Attribute):
-        found = resolve(run, node, scope)
-        if type(found) is Function:
-            return counting(found, run.budget)
+        value = resolve(run, node, scope)
+        if type(value) is Function:
+            return counting(value, run.budget)
     return run.data(node, scope)
 
 
@@ -110,7 +110,7 @@ def _lambda(run: Interpreter, node: ast.Lambda, scope: Scope | None) -> Callable
     of = node.args
     if of.vararg or of.kwarg or of.kwonlyargs:
         raise RefusedExpression("a lambda function with other than plain parameters")
-    parameters = [each.arg for each in (*of.posonlyargs, *of.args)]
+    parameters = [parameter.arg for parameter in (*of.posonlyargs, *of.args)]
     defaults = [run.data(default, scope) for default in of.defaults]
 
     def called(*arguments: Any) -> Any:
@@ -132,9 +132,9 @@ def _kinds(run: Interpreter, node: ast.expr, scope: Scope | None) -> tuple[type,
     if type(node) is ast.Tuple:
         return tuple(kind for elt in node.elts for kind in _kinds(run, elt, scope))
     if type(node) in (ast.Name, ast.Attribute):
-        found = resolve(run, node, scope)
-        if type(found) is Function and found.stands_for is not None:
-            return (found.stands_for,)
+        value = resolve(run, node, scope)
+        if type(value) is Function and value.stands_for is not None:
+            return (value.stands_for,)
     raise RefusedExpression("isinstance() with other than the types of data")
 
 

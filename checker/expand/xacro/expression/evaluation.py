@@ -65,16 +65,16 @@ def _bind(run: Interpreter, target: ast.expr, item: Any, scope: Scope) -> None:
     targets: list[ast.expr] = target.elts  # type: ignore[attr-defined]
     wanted = len(targets)
     try:
-        found = list(islice(item, wanted + 1))
+        values = list(islice(item, wanted + 1))
     except TypeError:
         raise TypeError(f"cannot unpack non-iterable {type(item).__name__} object") from None
-    run.budget.spend(len(found))
-    if len(found) > wanted:
+    run.budget.spend(len(values))
+    if len(values) > wanted:
         raise ValueError(f"too many values to unpack (expected {wanted})")
-    if len(found) < wanted:
-        raise ValueError(f"not enough values to unpack (expected {wanted}, got {len(found)})")
-    for each, value in zip(targets, found, strict=True):
-        _bind(run, each, value, scope)
+    if len(values) < wanted:
+        raise ValueError(f"not enough values to unpack (expected {wanted}, got {len(values)})")
+    for part, value in zip(targets, values, strict=True):
+        _bind(run, part, value, scope)
 
 
 def _list(run: Interpreter, node: ast.ListComp, outer: Scope | None) -> list[Any]:
@@ -89,19 +89,19 @@ def _generator(run: Interpreter, node: ast.GeneratorExp, outer: Scope | None) ->
 
 def _set(run: Interpreter, node: ast.SetComp, outer: Scope | None) -> set[Any]:
     scope, rounds = _begin(run, node.generators, outer)
-    made: set[Any] = set()
+    result: set[Any] = set()
     for _ in rounds:
-        made.add(add_key(run, run.data(node.elt, scope), made))
-    return made
+        result.add(add_key(run, run.data(node.elt, scope), result))
+    return result
 
 
 def _dict(run: Interpreter, node: ast.DictComp, outer: Scope | None) -> dict[Any, Any]:
     scope, rounds = _begin(run, node.generators, outer)
-    made: dict[Any, Any] = {}
+    result: dict[Any, Any] = {}
     for _ in rounds:
-        key = add_key(run, run.data(node.key, scope), made)
-        made[key] = run.data(node.value, scope)
-    return made
+        key = add_key(run, run.data(node.key, scope), result)
+        result[key] = run.data(node.value, scope)
+    return result
 
 
 COMPREHENSIONS: Mapping[type[ast.AST], Handler] = MappingProxyType(
@@ -132,7 +132,7 @@ _NODES: frozenset[type[ast.AST]] = frozenset(
         *(ast.Lambda, ast.arguments, ast.arg),
     }
 )
-_SAID: dict[type[ast.AST], str] = {
+_FORMS: dict[type[ast.AST], str] = {
     ast.NamedExpr: "an assignment (:=)",
     ast.Await: "await",
     ast.Yield: "yield",
@@ -179,8 +179,8 @@ _kept = lru_cache(_KEPT)(_parsed)
 
 def _check(node: ast.AST) -> None:
     if type(node) not in _NODES:
-        said = _SAID.get(type(node), type(node).__name__)
-        raise RefusedExpression(said)
+        form = _FORMS.get(type(node), type(node).__name__)
+        raise RefusedExpression(form)
     for name in (getattr(node, field, None) for field in ("id", "attr", "arg")):
         if type(name) is str and name.startswith("__"):
             raise RefusedExpression(f"the name {name[:40]!r}")

@@ -38,10 +38,10 @@ def check_spec(spec: str, values: Sequence[Any], budget: Budget) -> None:
     """
     if spec and any(type(value) in (date, datetime) for value in values):
         raise RefusedExpression("a format of a date")
-    found = _SPEC.fullmatch(spec)
-    if found is None:
+    match = _SPEC.fullmatch(spec)
+    if match is None:
         raise ValueError(f"Invalid format specifier {spec[:40]!r}")
-    _spend_on_widths(found, budget)
+    _spend_on_widths(match, budget)
 
 
 def formatted(value: Any, conversion: str, spec: str, budget: Budget) -> str:
@@ -88,12 +88,12 @@ def percent(text: str, values: Any, budget: Budget) -> str:
     weight = weigh(values, budget)
     position = text.find("%")
     while position >= 0:
-        found = _PERCENT.match(text, position)
-        if found is None or found["kind"] in ("*", "("):
+        match = _PERCENT.match(text, position)
+        if match is None or match["kind"] in ("*", "("):
             raise RefusedExpression(f"the format {text[position : position + 10]!r}")
-        _spend_on_widths(found, budget)
+        _spend_on_widths(match, budget)
         budget.spend(weight)
-        position = text.find("%", found.end())
+        position = text.find("%", match.end())
     return str(text % values)
 
 
@@ -105,8 +105,8 @@ def text_of(value: Any, budget: Budget) -> str:
     return str(value)
 
 
-def _spend_on_widths(found: re.Match[str], budget: Budget) -> None:
-    for digits in (found["width"], found["precision"]):
+def _spend_on_widths(match: re.Match[str], budget: Budget) -> None:
+    for digits in (match["width"], match["precision"]):
         if digits:
             width = int(digits[:_DIGITS])
             check_width(width)

@@ -64,13 +64,13 @@ class Interpreter:
         """
         while scope is not None:
             if name in scope.values:
-                found = scope.values[name]
-                if found is _UNBOUND:
+                value = scope.values[name]
+                if value is _UNBOUND:
                     raise UnboundLocalError(
                         f"cannot access local variable {name!r} "
                         "where it is not associated with a value"
                     )
-                return found
+                return value
             scope = scope.outer
         try:
             return self._names[name]

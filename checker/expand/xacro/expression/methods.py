@@ -94,13 +94,13 @@ def _replace(budget: Budget, text: str, *arguments: Any) -> str:
 
 
 def _join(budget: Budget, text: str, *arguments: Any) -> str:
-    found = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
-    for each in found:
-        parts = consumed(each, budget)
+    values = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
+    for value in values:
+        parts = consumed(value, budget)
         if hasattr(type(parts), "__len__"):
             length = sum(map(_length, parts)) + len(text) * len(parts)
             budget.spend_on_text(length)
-    return text.join(*found)
+    return text.join(*values)
 
 
 def _format(budget: Budget, text: str, *arguments: Any, **named: Any) -> str:
@@ -166,8 +166,8 @@ def _sort(budget: Budget, value: Any, *, key: Any = None, reverse: Any = False) 
 
 
 def _update(budget: Budget, value: Any, *arguments: Any, **named: Any) -> Any:
-    found = pairs(budget, arguments, len(value))
-    return value.update(*found, **{k: plain(v) for k, v in named.items()})
+    entries = pairs(budget, arguments, len(value))
+    return value.update(*entries, **{k: plain(v) for k, v in named.items()})
 
 
 def _combining(name: str) -> Method:
@@ -177,10 +177,10 @@ def _combining(name: str) -> Method:
         weigh(value, budget)
         others = [list(argument) if type(argument) in LAZY else argument for argument in arguments]
         sizes = len(value) + sum(len(other) for other in others if hasattr(type(other), "__len__"))
-        for each in (value, *others):
-            found = hashable(budget, each)
-            if type(found) in PLAIN and hasattr(type(found), "__len__"):
-                spend_on_keys(found, sizes, budget)
+        for item in (value, *others):
+            key = hashable(budget, item)
+            if type(key) in PLAIN and hasattr(type(key), "__len__"):
+                spend_on_keys(key, sizes, budget)
         return getattr(value, name)(*others)
 
     return method
@@ -241,9 +241,9 @@ def method_of(value: Any, name: str) -> Method:
         RefusedExpression: It is not in the language.
     """
     kind = type(value)
-    found = METHODS.get(kind, {}).get(name)
-    if found is not None:
-        return found
+    method = METHODS.get(kind, {}).get(name)
+    if method is not None:
+        return method
     if kind in PLAIN and not hasattr(kind, name):
         raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
     raise RefusedExpression(f"the method .{name} of {called(value)}")

@@ -37,9 +37,9 @@ def _binary(run: Interpreter, node: ast.BinOp, scope: Scope | None) -> Any:
     while type(chain[-1].left) is ast.BinOp:
         chain.append(chain[-1].left)
     left = run.value(chain[-1].left, scope)
-    for each in reversed(chain):
-        right = run.value(each.right, scope)
-        left = apply_binary(type(each.op), left, right, run.budget)
+    for operation in reversed(chain):
+        right = run.value(operation.right, scope)
+        left = apply_binary(type(operation.op), left, right, run.budget)
     return left
 
 
@@ -140,11 +140,11 @@ def _constant(_: Interpreter, node: ast.Constant, __: Scope | None) -> Any:
 
 
 def _named(run: Interpreter, node: ast.Name | ast.Attribute, scope: Scope | None) -> Any:
-    found = resolve(run, node, scope)
-    if type(found) in PLAIN or type(found) in LAZY:
-        return found
-    if type(found) is Function:
-        raise RefusedExpression(f"the function {found.name} as a value")
+    value = resolve(run, node, scope)
+    if type(value) in PLAIN or type(value) in LAZY:
+        return value
+    if type(value) is Function:
+        raise RefusedExpression(f"the function {value.name} as a value")
     raise RefusedExpression(f"{ast.unparse(node)[:40]} as a value")
 
 
@@ -153,8 +153,8 @@ def _subscript(run: Interpreter, node: ast.Subscript, scope: Scope | None) -> An
     if type(node.slice) is ast.Slice:
         part = node.slice
         ends = (
-            None if each is None else run.data(each, scope)
-            for each in (part.lower, part.upper, part.step)
+            None if bound is None else run.data(bound, scope)
+            for bound in (part.lower, part.upper, part.step)
         )
         if type(value) in PLAIN and hasattr(type(value), "__len__"):
             run.budget.spend_on_copy(len(value))
@@ -174,25 +174,25 @@ def _tuple(run: Interpreter, node: ast.Tuple, scope: Scope | None) -> tuple[Any,
 
 
 def _set(run: Interpreter, node: ast.Set, scope: Scope | None) -> set[Any]:
-    made: set[Any] = set()
+    result: set[Any] = set()
     for item in items(run, node.elts, scope):
-        made.add(add_key(run, item, made))
-    return made
+        result.add(add_key(run, item, result))
+    return result
 
 
 def _dict(run: Interpreter, node: ast.Dict, scope: Scope | None) -> dict[Any, Any]:
-    made: dict[Any, Any] = {}
+    result: dict[Any, Any] = {}
     for key, value in zip(node.keys, node.values, strict=True):
         if key is not None:
             at = run.data(key, scope)
-            made[add_key(run, at, made)] = run.data(value, scope)
+            result[add_key(run, at, result)] = run.data(value, scope)
             continue
         more = run.value(value, scope)
         if type(more) not in MAPPINGS:
             raise TypeError(f"{type(more).__name__!r} object is not a mapping")
-        spend_on_keys(more, len(made) + len(more), run.budget)
-        made |= dict(consumed(more, run.budget))
-    return made
+        spend_on_keys(more, len(result) + len(more), run.budget)
+        result |= dict(consumed(more, run.budget))
+    return result
 
 
 def _joined(run: Interpreter, node: ast.JoinedStr, scope: Scope | None) -> str:

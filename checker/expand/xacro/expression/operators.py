@@ -163,13 +163,13 @@ def _spend_on_repetition(left: Any, right: Any, budget: Budget) -> None:
 
 
 def _spend_on_both(kind: type[ast.operator], left: Any, right: Any, budget: Budget) -> None:
-    length = sum(len(each) for each in (left, right) if type(each) in SIZED)
+    length = sum(len(operand) for operand in (left, right) if type(operand) in SIZED)
     if type(left) is str:
         budget.spend_on_text(length)
     elif kind is ast.Add:
         budget.spend_on_copy(length)
     elif length:
-        for each in (left, right):
-            weigh(each, budget)
-            if type(each) in SIZED:
-                spend_on_keys(each, length, budget)
+        for operand in (left, right):
+            weigh(operand, budget)
+            if type(operand) in SIZED:
+                spend_on_keys(operand, length, budget)

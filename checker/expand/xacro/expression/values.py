@@ -68,18 +68,18 @@ def weigh(value: Any, budget: Budget) -> int:
     for _ in range(LEVELS_LIMIT):
         below: list[Any] = []
         steps = 0
-        for each in level:
-            kind = type(each)
+        for item in level:
+            kind = type(item)
             if kind is str:
-                steps += 1 + len(each) // 64
+                steps += 1 + len(item) // 64
             elif kind is int:
-                steps += 1 + each.bit_length() // 64
+                steps += 1 + item.bit_length() // 64
             elif kind in SCALARS:
                 steps += 1
             else:
                 if kind in HASHED:
-                    spend_on_keys(each, len(each), budget)
-                below_it = _held(each)
+                    spend_on_keys(item, len(item), budget)
+                below_it = _held(item)
                 budget.spend(len(below_it))
                 taken += len(below_it)
                 below += below_it

@@ -98,7 +98,7 @@ def _speed(drive: TrackedDrive, track: Track, legs: Sequence[Leg]) -> Knots:
 def _forward(robot: Robot, track: Track) -> Vector:
     """Return the direction in which a belt drives, in the robot's frame."""
     pose = robot.pose_of(track.link.scoped_name) or Transform()
-    text = next((each.value for each in track.plugin.at("track_orientation")), "")
+    text = next((value.value for value in track.plugin.at("track_orientation")), "")
     angles = [parse_number(word) for word in text.split()]
     if len(angles) == 3 and None not in angles:
         roll, pitch, yaw = (angle or 0.0 for angle in angles)

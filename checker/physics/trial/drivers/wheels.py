@@ -159,7 +159,7 @@ def _curvature(robot: Robot, drive: WheelDrive) -> float:
     for joint, _ in drive.steering:
         for axis in joint.axes[:1]:
             limits += [abs(axis.lower.value), abs(axis.upper.value)]
-    limit = min((each for each in limits if 0.0 < each < math.pi / 2), default=_USUAL_LIMIT)
+    limit = min((angle for angle in limits if 0.0 < angle < math.pi / 2), default=_USUAL_LIMIT)
     return math.tan(_SHARE_OF_LIMIT * limit) / _true_base(robot, drive)
 
 

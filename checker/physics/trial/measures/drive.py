@@ -144,7 +144,7 @@ def _drift(motion: Motion, leg: Leg, centre: Array) -> float:
 def _explained(leg: Leg, twist: Array, centre: Array) -> float:
     """Return how far the middle of the wheels comes at a steady twist, metres: on a circle."""
     x, y = float(centre[0]), float(centre[1])
-    vx, vy, rate = (float(each) for each in twist)
+    vx, vy, rate = (float(number) for number in twist)
     speed = math.hypot(vx - rate * y, vy + rate * x)
     seconds = leg.end - leg.start
     if abs(rate) * seconds < _LEAST:

@@ -70,7 +70,7 @@ def footing(motion: Motion, touches: Touches) -> Footing:
     holds = (grip > 0.0) & ~np.isnan(columns).any(axis=1)
     columns, link = columns[holds], touches.link[holds]
     is_wheel = np.array([name in surfaces.wheels for name in touches.names])
-    wheels = [_joined(columns[link == each]) for each in np.unique(link[is_wheel[link]])]
+    wheels = [_joined(columns[link == wheel]) for wheel in np.unique(link[is_wheel[link]])]
     columns = np.vstack([columns[~is_wheel[link]], *wheels])
     return Footing(columns[:, 1:3], columns[:, 0], columns[:, 3:])
 
@@ -117,17 +117,19 @@ class _Surfaces:
         """Return velocities in the robot's frame, m/s; NaN for parts that roll freely (k × 2)."""
         import numpy as np
 
-        found = np.zeros((len(self.touches.link), 2))
+        velocities = np.zeros((len(self.touches.link), 2))
         for number in np.unique(self.touches.link).tolist():
             name, of = self.touches.names[number], self.touches.link == number
             if name in self.wheels:
-                found[of] = self._of_wheel(*self.wheels[name], of)
+                velocities[of] = self._of_wheel(*self.wheels[name], of)
             elif name in self.belts:
                 belt = self.belts[name]
-                found[of] = np.outer(self._commands(belt.speed, of), np.negative(belt.forward[:2]))
+                velocities[of] = np.outer(
+                    self._commands(belt.speed, of), np.negative(belt.forward[:2])
+                )
             elif name in self.loose:
-                found[of] = np.nan
-        return found
+                velocities[of] = np.nan
+        return velocities
 
     def _of_wheel(self, joint: int, name: str, of: Mask) -> Array:
         """Return the velocity of a wheel's surface at its contacts: it turns about its axis."""

@@ -200,6 +200,6 @@ _MEASURES = (
 def measured(motion: Motion) -> Iterator[Measurement]:
     """Yield the figures of a run; those that are no finite numbers are none."""
     for measure in _MEASURES:
-        for each in measure(motion):
-            if math.isfinite(each.value):
-                yield each
+        for measurement in measure(motion):
+            if math.isfinite(measurement.value):
+                yield measurement

@@ -112,7 +112,7 @@ def replay_of(run: Run) -> Replay | None:
     rig, samples = run.rig, run.samples
     if not rig.tracked or not samples.tracked:
         return None
-    places, turns = (np.array(each) for each in zip(*samples.tracked, strict=True))
+    places, turns = (np.array(column) for column in zip(*samples.tracked, strict=True))
     with np.errstate(over="ignore"):
         poses = np.concatenate((places, turns), axis=2).astype(np.float32)
     broken = np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))
@@ -142,7 +142,7 @@ def series_of(motion: Motion) -> dict[str, Sequence[float]]:
     rotation, samples, rig = motion.rotation, motion.run.samples, motion.run.rig
     roll = np.arctan2(rotation[:, 2, 1], rotation[:, 2, 2])
     pitch = np.arcsin(np.clip(-rotation[:, 2, 0], -1.0, 1.0))
-    found: dict[str, Array] = {
+    curves: dict[str, Array] = {
         "time": motion.time,
         **dict(zip("xyz", motion.position.T, strict=True)),
         "roll": roll,
@@ -157,10 +157,10 @@ def series_of(motion: Motion) -> dict[str, Sequence[float]]:
     forces = np.array(motion.run.forces)[steps]
     places = np.array(samples.joints)
     for number, joint in enumerate(rig.names[:_MOST_PARTS]):
-        found[f"torque:{joint}"] = forces[:, number]
-        found[f"joint:{joint}"] = places[:, number]
-    found |= _loads(motion)
-    return {name: tuple(values.tolist()) for name, values in found.items() if len(values)}
+        curves[f"torque:{joint}"] = forces[:, number]
+        curves[f"joint:{joint}"] = places[:, number]
+    curves |= _loads(motion)
+    return {name: tuple(values.tolist()) for name, values in curves.items() if len(values)}
 
 
 def _loads(motion: Motion) -> dict[str, Array]:
@@ -170,9 +170,9 @@ def _loads(motion: Motion) -> dict[str, Array]:
     touches, count = motion.contacts, len(motion.time)
     nearest = np.abs(touches.time[:, None] - motion.time).argmin(axis=1)
     counts = np.maximum(np.bincount(nearest, minlength=count), 1)
-    found: dict[str, Array] = {}
+    curves: dict[str, Array] = {}
     for number in list(dict.fromkeys(touches.link.tolist()))[:_MOST_PARTS]:
         of = touches.link == number
         total = np.bincount(nearest[touches.sample[of]], touches.loads[of], count)
-        found[f"load:{touches.names[number]}"] = total / counts
-    return found
+        curves[f"load:{touches.names[number]}"] = total / counts
+    return curves

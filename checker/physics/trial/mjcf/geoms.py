@@ -210,7 +210,7 @@ def _scaled(mesh: Mesh | MeshFault | None, geometry: Geometry) -> Points | str:
         return f"uses a mesh that {mesh.reason}"
     x, y, z = (factor.value for factor in geometry.sizes["scale"])
     points = tuple((x * p[0], y * p[1], z * p[2]) for p in mesh.hull)
-    if not all(usable(each, FAR) for point in points for each in point):
+    if not all(usable(number, FAR) for point in points for number in point):
         return "has a size that is not a usable number"
     return points if _has_volume(points) else "uses a mesh without volume"
 

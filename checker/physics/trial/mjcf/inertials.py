@@ -151,11 +151,11 @@ def _physical(moments: Matrix, name: str, ledger: Ledger) -> Matrix:
     floor = _FLAT * scale
     if least < -_ROUNDING * scale:
         floor = max(floor, LEAST_MOMENT / 2)
-        said = ", ".join(f"{value:.4g}" for value in values)
+        listed = ", ".join(f"{value:.4g}" for value in values)
         ledger.repair(
             name, (
-                f"has principal moments that no body can have ({said} kg·m²); the nearest possible "
-                "ones are used"
+                f"has principal moments that no body can have ({listed} kg·m²); the nearest "
+                "possible ones are used"
             ), serious=True,
         )  # fmt: skip
     elif values[0] <= max(_NOTHING, _ROUNDING * scale):

@@ -11,7 +11,7 @@ from checker.model.geometry.transform import Transform
 from checker.model.locomotion.friction import FrictionReader
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, Tie
-from checker.physics.mass.mechanism import Hanging, hang
+from checker.physics.mass.mechanism import SpanningTree, spanning_tree_of
 from checker.physics.trial.mjcf.geoms import Geom, GeomReader, sliding_friction, touches
 from checker.physics.trial.mjcf.inertials import BodyInertia, inertia_of, thickened
 from checker.physics.trial.mjcf.joints import degrees_of
@@ -24,12 +24,12 @@ from checker.physics.trial.mjcf.repairs import Ledger
 class Forest(Record, eq=False, dict=True):
     """The links of a robot, from those that hang on nothing downwards."""
 
-    hanging: Hanging
+    spanning_tree: SpanningTree
 
     @property
     def order(self) -> tuple[str, ...]:
         """Scoped names of the links, each behind the one that it hangs on."""
-        return self.hanging.order
+        return self.spanning_tree.order
 
     @cached_property
     def below(self) -> dict[str, list[str]]:
@@ -48,7 +48,7 @@ class Forest(Record, eq=False, dict=True):
 
     def tie(self, name: str) -> Tie | None:
         """Return the tie by which a link hangs; None for one that is free."""
-        return self.hanging.by.get(name)
+        return self.spanning_tree.by.get(name)
 
     def base(self, name: str) -> str | None:
         """Return the link that a link hangs on; None where that is the world or nothing."""
@@ -81,12 +81,12 @@ class Layout:
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
         self.ledger = Ledger()
-        self.forest = Forest(hang(robot))
+        self.forest = Forest(spanning_tree_of(robot))
         self._say_what_is_cut()
         self.poses = self._poses()
         self.degrees = {
             child: degrees_of(robot, tie.joint, self.ledger)
-            for child, tie in self.forest.hanging.by.items()
+            for child, tie in self.forest.spanning_tree.by.items()
         }
         self.welded = self._welded()
         reader, friction = GeomReader(robot, self.poses, self.ledger), FrictionReader(robot)
@@ -158,7 +158,7 @@ class Layout:
         return welded
 
     def _say_what_is_cut(self) -> None:
-        for tie in self.forest.hanging.left_out:
+        for tie in self.forest.spanning_tree.left_out:
             what = f"connects {tie.parent} with {tie.child}, which already has a parent"
             self.ledger.repair(tie.joint.scoped_name, f"{what}, and is left out")
         for broken in self.robot.tree.broken:

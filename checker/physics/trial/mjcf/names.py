@@ -42,7 +42,9 @@ def placed(pose: Transform) -> str:
 def well_placed(pose: Transform) -> bool:
     """Return whether a pose is of finite numbers, within `FAR`."""
     turns = [number for row in pose.rotation for number in row]
-    return all(usable(each, FAR) for each in pose.translation) and all(map(math.isfinite, turns))
+    return all(usable(number, FAR) for number in pose.translation) and all(
+        map(math.isfinite, turns)
+    )
 
 
 def quaternion(rotation: Rotation) -> Quaternion:
@@ -56,7 +58,7 @@ def quaternion(rotation: Rotation) -> Quaternion:
     )
     best = max(range(4), key=lambda i: rows[i][i])
     length = math.hypot(*rows[best])
-    w, x, y, z = (each / length for each in rows[best])
+    w, x, y, z = (number / length for number in rows[best])
     return (w, x, y, z)
 
 

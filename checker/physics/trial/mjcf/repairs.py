@@ -46,6 +46,6 @@ class Ledger:
 
 
 def _listed(parts: list[str]) -> str:
-    said = ", ".join(parts[:_MOST_PARTS])
+    listed = ", ".join(parts[:_MOST_PARTS])
     rest = len(parts) - _MOST_PARTS
-    return f"{said} and {rest} more" if rest > 0 else said
+    return f"{listed} and {rest} more" if rest > 0 else listed

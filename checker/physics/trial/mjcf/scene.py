@@ -129,7 +129,7 @@ class Scene(Record):
         return members
 
     @classmethod
-    def from_json(cls, said: Mapping[str, Any]) -> Scene:
+    def from_json(cls, data: Mapping[str, Any]) -> Scene:
         """Return the scene that `as_json` expressed.
 
         Raises:
@@ -137,13 +137,13 @@ class Scene(Record):
         """
         return cls(
             **{
-                **said,
-                "belts": {link: tuple(geoms) for link, geoms in said["belts"].items()},
-                "tied": tuple((first, second) for first, second in said["tied"]),
-                "swept": tuple(said["swept"]),
-                "repairs": tuple(Repair(**each) for each in said["repairs"]),
-                "notes": tuple(said["notes"]),
-                "root_in_robot": tuple(said["root_in_robot"]),
+                **data,
+                "belts": {link: tuple(geoms) for link, geoms in data["belts"].items()},
+                "tied": tuple((first, second) for first, second in data["tied"]),
+                "swept": tuple(data["swept"]),
+                "repairs": tuple(Repair(**repair) for repair in data["repairs"]),
+                "notes": tuple(data["notes"]),
+                "root_in_robot": tuple(data["root_in_robot"]),
             }
         )
 

@@ -256,15 +256,15 @@ class ContactQuery:
 
         for joint in self.scene.swept:
             name = self.scene.joints[joint]
-            for each in (name, f"{name}_2"):
-                index = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, each)
+            for candidate in (name, f"{name}_2"):
+                index = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, candidate)
                 if index < 0:
                     continue
                 address = int(self.model.jnt_qposadr[index])
                 slides = self.model.jnt_type[index] == mujoco.mjtJoint.mjJNT_SLIDE
                 turns = self.model.jnt_type[index] == mujoco.mjtJoint.mjJNT_HINGE
                 limited = bool(self.model.jnt_limited[index])
-                low, high = (float(each) for each in self.model.jnt_range[index])
+                low, high = (float(bound) for bound in self.model.jnt_range[index])
                 if turns and not (limited and high - low < _FULL_TURN):
                     yield address, 0.0, _FULL_TURN
                 elif limited and slides:

@@ -74,8 +74,8 @@ class Rig:
     @property
     def positions(self) -> Array:
         """Where the joints of the actuators stand, rad or m."""
-        found: Array = self.data.qpos[self.model.jnt_qposadr[self.joints]]
-        return found
+        positions: Array = self.data.qpos[self.model.jnt_qposadr[self.joints]]
+        return positions
 
     def pose(self) -> tuple[Array, Array]:
         """Return position (metres) and rotation (3×3) of the robot's frame in the world."""

@@ -165,8 +165,8 @@ def drive(scene: Scene, plan: Plan, timestep: float) -> Run:
 
 
 def _step_of(plan: Plan, leg: str, timestep: float) -> int:
-    found = plan.leg(leg)
-    return round(found.start / timestep) if found is not None else 0
+    planned = plan.leg(leg)
+    return round(planned.start / timestep) if planned is not None else 0
 
 
 def _touched(plan: Plan, steps: int, every: int, timestep: float) -> set[int]:

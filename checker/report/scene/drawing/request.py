@@ -85,7 +85,7 @@ def framed(points: Array, azimuth: float, elevation: float, aspect: float) -> Ca
         shift = _middle(across / away) * right + _middle(high / away) * up
         middle = middle + shift * distance
     _, distance = seen_from(middle)
-    x, y, z = (float(each) for each in middle)
+    x, y, z = (float(number) for number in middle)
     return Camera((x, y, z), max(distance, 1e-3) * 1.02, azimuth, elevation)
 
 

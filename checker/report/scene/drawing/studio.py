@@ -50,26 +50,26 @@ _STUDIO = f"""
 """
 
 
-def drawn_size(asked: Mapping[str, Any]) -> tuple[int, int]:
+def drawn_size(item: Mapping[str, Any]) -> tuple[int, int]:
     """Return width and height in which is drawn: larger, so that edges are smooth once reduced.
 
     That is quicker than to have OpenGL take several samples for each pixel.
     """
-    return asked["width"] * 5 // 4, asked["height"] * 5 // 4
+    return item["width"] * 5 // 4, item["height"] * 5 // 4
 
 
-def model_of(asked: Mapping[str, Any]) -> Any:
+def model_of(item: Mapping[str, Any]) -> Any:
     """Return the model that shows what is asked; see `checker.report.scene.drawing.request`."""
     import mujoco
 
     spec = mujoco.MjSpec.from_string(_STUDIO)
-    spec.visual.global_.offwidth, spec.visual.global_.offheight = drawn_size(asked)
+    spec.visual.global_.offwidth, spec.visual.global_.offheight = drawn_size(item)
     _add_palette(spec)
-    meshes = [surface_from_json(each) for each in asked["meshes"]]
+    meshes = [surface_from_json(surface) for surface in item["meshes"]]
     solid = [_add_mesh(spec, f"m{number}", mesh) for number, mesh in enumerate(meshes)]
-    bodies = [spec.worldbody.add_body(mocap=True) for _ in asked["links"]]
-    by_link = dict(zip(asked["links"], bodies, strict=True))
-    for geom in asked["geoms"]:
+    bodies = [spec.worldbody.add_body(mocap=True) for _ in item["links"]]
+    by_link = dict(zip(item["links"], bodies, strict=True))
+    for geom in item["geoms"]:
         if solid[geom["mesh"]]:
             coloured = meshes[geom["mesh"]].vertex_colours is not None
             by_link[geom["link"]].add_geom(
@@ -83,22 +83,22 @@ def model_of(asked: Mapping[str, Any]) -> Any:
                 contype=0,
                 conaffinity=0,
             )
-    _add_ground(spec, asked)
+    _add_ground(spec, item)
     return spec.compile()
 
 
-def _add_ground(spec: Any, asked: Mapping[str, Any]) -> None:
+def _add_ground(spec: Any, item: Mapping[str, Any]) -> None:
     """Add the ground, and say how far there is something to see."""
     import mujoco
 
-    distances = [shot["camera"]["distance"] for shot in asked["shots"]]
-    spec.stat.extent, spec.stat.center = min(distances), asked["shots"][0]["camera"]["lookat"]
+    distances = [shot["camera"]["distance"] for shot in item["shots"]]
+    spec.stat.extent, spec.stat.center = min(distances), item["shots"][0]["camera"]["lookat"]
     spec.visual.map.znear = 0.1
     spec.visual.map.zfar = _ROOM * max(distances) / min(distances)
     spec.worldbody.add_geom(
         type=mujoco.mjtGeom.mjGEOM_PLANE,
         size=[0.0, 0.0, 1.0],
-        pos=[0.0, 0.0, asked["ground"]],
+        pos=[0.0, 0.0, item["ground"]],
         material="ground",
         group=GROUND_GROUP,
         contype=0,

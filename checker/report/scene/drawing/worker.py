@@ -53,8 +53,14 @@ def rehearsal() -> Mapping[str, Any]:
         "links": [0],
         "geoms": geoms,
         "shots": [
-            {"group": each, "camera": camera, "tile": 1.0, "see_through": each == 1, "poses": poses}
-            for each in _GROUPS
+            {
+                "group": number,
+                "camera": camera,
+                "tile": 1.0,
+                "see_through": number == 1,
+                "poses": poses,
+            }
+            for number in _GROUPS
         ],
     }
 
@@ -91,30 +97,30 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     Returns:
         JSON: of each the JPEG files in the order of the shots, as base64.
     """
-    return json.dumps([_encoded(asked) for asked in json.loads(request)["items"]]).encode()
+    return json.dumps([_encoded(item) for item in json.loads(request)["items"]]).encode()
 
 
-def _encoded(asked: Mapping[str, Any]) -> list[str]:
-    return [base64.b64encode(picture).decode() for picture in _pictures(asked)]
+def _encoded(item: Mapping[str, Any]) -> list[str]:
+    return [base64.b64encode(picture).decode() for picture in _pictures(item)]
 
 
-def _pictures(asked: Mapping[str, Any]) -> list[bytes]:
-    easel = _Easel(asked)
-    return [_jpeg(easel.drawn(shot), asked) for shot in asked["shots"]]
+def _pictures(item: Mapping[str, Any]) -> list[bytes]:
+    easel = _Easel(item)
+    return [_jpeg(easel.drawn(shot), item) for shot in item["shots"]]
 
 
 class _Easel:
     """Draws shots of one model, into memory."""
 
-    def __init__(self, asked: Mapping[str, Any]) -> None:
+    def __init__(self, item: Mapping[str, Any]) -> None:
         """Make the model, and what OpenGL needs to draw it."""
         import mujoco
 
-        self._model = model_of(asked)
+        self._model = model_of(item)
         self._data = mujoco.MjData(self._model)
-        self._size = drawn_size(asked)
+        self._size = drawn_size(item)
         self._window = _window()
-        self._scene = mujoco.MjvScene(self._model, len(asked["geoms"]) + _BESIDES)
+        self._scene = mujoco.MjvScene(self._model, len(item["geoms"]) + _BESIDES)
         self._context = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_50)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
 
@@ -158,14 +164,14 @@ def _window() -> Any:
     return window
 
 
-def _camera(said: dict[str, Any]) -> Any:
+def _camera(data: dict[str, Any]) -> Any:
     import mujoco
 
     camera = mujoco.MjvCamera()
     camera.type = mujoco.mjtCamera.mjCAMERA_FREE
-    camera.lookat = said["lookat"]
-    camera.distance, camera.azimuth = said["distance"], said["azimuth"]
-    camera.elevation = said["elevation"]
+    camera.lookat = data["lookat"]
+    camera.distance, camera.azimuth = data["distance"], data["azimuth"]
+    camera.elevation = data["elevation"]
     return camera
 
 
@@ -178,10 +184,10 @@ def _only(group: int) -> Any:
     return options
 
 
-def _jpeg(pixels: Any, asked: Mapping[str, Any]) -> bytes:
+def _jpeg(pixels: Any, item: Mapping[str, Any]) -> bytes:
     from PIL import Image
 
-    size = (asked["width"], asked["height"])
+    size = (item["width"], item["height"])
     image = Image.fromarray(pixels).resize(size, Image.Resampling.HAMMING)
     for quality in _QUALITIES:
         file = io.BytesIO()

@@ -213,5 +213,5 @@ def _whole(
 @cache
 def _cross() -> tuple[Surface, ...]:
     ends = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    bars = [bar([-each for each in end], end, _WIDTH) for end in ends]
+    bars = [bar([-number for number in end], end, _WIDTH) for end in ends]
     return (replace(joined(bars), colour=_RED),)

@@ -83,7 +83,7 @@ class Paint:
             own = _rgba(_values(material, "diffuse"), bytes_too=True)
             return own or self._named.get(material.element.get("name") or "")
         stated = (_rgba(_values(material, fact)) for fact in _FACTS)
-        return next((each for each in stated if each is not None), None) or _script(material)
+        return next((colour for colour in stated if colour is not None), None) or _script(material)
 
     @cached_property
     def _named(self) -> dict[str, Colour]:

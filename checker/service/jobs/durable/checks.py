@@ -116,24 +116,24 @@ class Checks(Record, dict=True):
         """
         before = (Stage.QUEUED, step.stage) if step.stage is Stage.STATIC else (step.stage,)
         with self.engine.begin() as connection:
-            found = connection.execute(
+            row = connection.execute(
                 sa.select(CHECKS).where(CHECKS.c.id == id).with_for_update()
             ).one_or_none()
-            if found is None or found.stage not in before:
+            if row is None or row.stage not in before:
                 return None
-            losses = [*found.losses, *_loss(found)]
+            losses = [*row.losses, *_loss(row)]
             if len(losses) >= WORKERS_LOST:
                 given_up = Step("end", Stage.FAILED, GIVEN_UP, data={"losses": losses})
                 self._move(connection, id, given_up, losses=losses)
                 return None
             self._move(connection, id, step, worker=worker, losses=losses)
-            if len(losses) > len(found.losses):
+            if len(losses) > len(row.losses):
                 again = (
                     f"starts again: its worker process ended ({len(losses)} of {WORKERS_LOST} "
                     "times)"
                 )
                 self._tell(connection, id, Step(f"lost{len(losses)}", step.stage, again))
-        order = Order(found.upload, found.name, found.profile)
+        order = Order(row.upload, row.name, row.profile)
         return Held(id, worker, step.stage, order)
 
     def settle(self, held: Held, step: Step, then: Change | None = None) -> bool:
@@ -170,28 +170,28 @@ class Checks(Record, dict=True):
     def state(self, id: str) -> State | None:
         """Return where a check stands, with its key for an id; None if it is not known."""
         with self.engine.connect() as connection:
-            found = connection.execute(sa.select(CHECKS).where(CHECKS.c.id == id)).one_or_none()
-            if found is None:
+            row = connection.execute(sa.select(CHECKS).where(CHECKS.c.id == id)).one_or_none()
+            if row is None:
                 return None
-            stage = Stage(found.stage)
-            waits = not stage.is_final and not found.worker
+            stage = Stage(row.stage)
+            waits = not stage.is_final and not row.worker
             return State(
                 id=id,
-                order=Order(found.upload, found.name, found.profile),
+                order=Order(row.upload, row.name, row.profile),
                 stage=stage,
-                words=found.words,
-                ahead=_ahead(connection, found) if waits else 0,
-                created=found.created,
-                result=found.result,
-                packages=tuple(found.packages),
-                expires=found.expires,
+                words=row.words,
+                ahead=_ahead(connection, row) if waits else 0,
+                created=row.created,
+                result=row.result,
+                packages=tuple(row.packages),
+                expires=row.expires,
             )
 
     def events(self, id: str, after: int) -> Sequence[Event]:
         """Return what was told of a check after an event, in order."""
-        told = sa.select(EVENTS).where(EVENTS.c.check_id == id, EVENTS.c.number > after)
+        events = sa.select(EVENTS).where(EVENTS.c.check_id == id, EVENTS.c.number > after)
         with self.engine.connect() as connection:
-            rows = connection.execute(told.order_by(EVENTS.c.number).limit(EVENTS_AT_ONCE))
+            rows = connection.execute(events.order_by(EVENTS.c.number).limit(EVENTS_AT_ONCE))
             return [
                 Event(row.number, Stage(row.stage), row.words, row.time, row.data) for row in rows
             ]
@@ -232,7 +232,7 @@ class Checks(Record, dict=True):
             "its_check": id,
             "its_key": step.key,
             "its_stage": step.stage.value,
-            "its_words": _said(step.words),
+            "its_words": _storable(step.words),
             "its_data": dict(step.data),
         }
         connection.execute(self._telling, event)
@@ -249,7 +249,7 @@ class Checks(Record, dict=True):
         """What writes an event."""
         check = sa.bindparam("its_check", type_=sa.Text)
         key = sa.bindparam("its_key", type_=sa.Text)
-        told = sa.exists().where(EVENTS.c.check_id == check, EVENTS.c.key == key)
+        exists = sa.exists().where(EVENTS.c.check_id == check, EVENTS.c.key == key)
         last = sa.select(sa.func.max(EVENTS.c.number)).where(EVENTS.c.check_id == check)
         event: dict[str, sa.ColumnElement[Any]] = {
             "check_id": check,
@@ -260,14 +260,14 @@ class Checks(Record, dict=True):
             "time": now(self.engine),
             "data": sa.bindparam("its_data", type_=sa.JSON),
         }
-        chosen = sa.select(*event.values()).where(~told)
+        chosen = sa.select(*event.values()).where(~exists)
         return sa.insert(EVENTS).from_select(list(event), chosen)
 
 
-def _ahead(connection: sa.Connection, found: sa.Row[Any]) -> int:
+def _ahead(connection: sa.Connection, row: sa.Row[Any]) -> int:
     """Return how many checks wait in the same queue for longer."""
-    stages = _BEFORE_TRIAL if found.stage in _BEFORE_TRIAL else (Stage.TRIAL.value,)
-    longer = (CHECKS.c.stage.in_(stages), CHECKS.c.worker == "", CHECKS.c.created < found.created)
+    stages = _BEFORE_TRIAL if row.stage in _BEFORE_TRIAL else (Stage.TRIAL.value,)
+    longer = (CHECKS.c.stage.in_(stages), CHECKS.c.worker == "", CHECKS.c.created < row.created)
     question = sa.select(sa.func.count()).select_from(CHECKS).where(*longer)
     return int(connection.execute(question).scalar_one())
 
@@ -279,7 +279,7 @@ def forget(connection: sa.Connection, ids: Collection[str]) -> None:
 
 
 def _values(step: Step) -> dict[str, Any]:
-    values: dict[str, Any] = {"stage": step.stage.value, "words": _said(step.words)}
+    values: dict[str, Any] = {"stage": step.stage.value, "words": _storable(step.words)}
     if step.result:
         values |= {"result": step.result, "packages": [dict(package) for package in step.packages]}
     return values
@@ -290,13 +290,13 @@ def _is(held: Held) -> Sequence[sa.ColumnElement[bool]]:
     return CHECKS.c.id == held.id, CHECKS.c.worker == held.worker, CHECKS.c.stage == held.stage
 
 
-def _loss(found: sa.Row[Any]) -> list[dict[str, Any]]:
+def _loss(row: sa.Row[Any]) -> list[dict[str, Any]]:
     """Return the worker that died with a check in hand, if one did."""
-    if not found.worker:
+    if not row.worker:
         return []
-    return [{"worker": found.worker, "stage": found.stage, "found": round(time.time(), 1)}]
+    return [{"worker": row.worker, "stage": row.stage, "found": round(time.time(), 1)}]
 
 
-def _said(words: str) -> str:
+def _storable(words: str) -> str:
     """Return words as any database takes them: PostgreSQL refuses a zero character."""
     return shortened(plain(words), _WORDS_LIMIT)

@@ -76,23 +76,23 @@ def _hash(connection: sa.Connection, queues: Queues, ids: Sequence[str]) -> None
         connection.exec_driver_sql("BEGIN IMMEDIATE")
         connection.exec_driver_sql("PRAGMA user_version=1")  # until it is written anew
     these = sa.select(CHECKS).where(CHECKS.c.id.in_(ids)).order_by(CHECKS.c.created)
-    for found in connection.execute(these.with_for_update()).all():
-        key = key_of_check(found.id)
-        is_over = found.stage in _FINAL
-        values = {"id": key} if is_over else {"id": key, **_waiting(found)}
-        connection.execute(sa.update(CHECKS).where(CHECKS.c.id == found.id).values(values))
-        told = sa.update(EVENTS).where(EVENTS.c.check_id == found.id)
-        connection.execute(told.values(check_id=key))
+    for row in connection.execute(these.with_for_update()).all():
+        key = key_of_check(row.id)
+        is_over = row.stage in _FINAL
+        values = {"id": key} if is_over else {"id": key, **_waiting(row)}
+        connection.execute(sa.update(CHECKS).where(CHECKS.c.id == row.id).values(values))
+        update = sa.update(EVENTS).where(EVENTS.c.check_id == row.id)
+        connection.execute(update.values(check_id=key))
         if not is_over:
-            trial = found.stage == Stage.TRIAL
+            trial = row.stage == Stage.TRIAL
             queues.put(connection, key, Stage.TRIAL if trial else Stage.STATIC)
 
 
-def _waiting(found: sa.Row[Any]) -> dict[str, Any]:
+def _waiting(row: sa.Row[Any]) -> dict[str, Any]:
     """Return what makes a check wait: who has it in hand loses its turn, through no fault."""
-    if not found.worker:
+    if not row.worker:
         return {}
-    return {"worker": "", "turn": found.turn + 1, "words": WAITS}
+    return {"worker": "", "turn": row.turn + 1, "words": WAITS}
 
 
 def _write_anew(engine: sa.Engine) -> None:
@@ -214,8 +214,8 @@ def now(engine: sa.Engine) -> sa.ColumnElement[float]:
 
 def _cause(error: sa.exc.SQLAlchemyError) -> str:
     """Return what the database said, without the statement that it was asked."""
-    said = getattr(error, "orig", None) or type(error).__name__
-    return plain(shortened(str(said).partition("\n")[0], _SHOWN))
+    cause = getattr(error, "orig", None) or type(error).__name__
+    return plain(shortened(str(cause).partition("\n")[0], _SHOWN))
 
 
 def _make(file: Path) -> None:

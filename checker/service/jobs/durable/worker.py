@@ -111,8 +111,8 @@ def run_worker(stop: threading.Event, options: WorkerOptions) -> None:
 
 
 def _tell_of(layers: Sequence[Layer]) -> None:
-    said = ", ".join(f"{layer.name} ({layer.words})" for layer in layers if layer.held)
-    _LOG.info("layers of the sandbox: %s", said or "none")
+    held = ", ".join(f"{layer.name} ({layer.words})" for layer in layers if layer.held)
+    _LOG.info("layers of the sandbox: %s", held or "none")
     if not hides_files(layers):
         _LOG.warning(
             "no sandbox layer hides files: an upload that takes control of a check can read all "
@@ -135,7 +135,7 @@ def work(options: WorkerOptions) -> None:
     stop = threading.Event()
     # Whoever started it may have it ignore the terminal's Ctrl-C, and stop it in time.
     both = (signal.SIGTERM, signal.SIGINT)
-    heeded = [each for each in both if signal.getsignal(each) is not signal.SIG_IGN]
+    heeded = [number for number in both if signal.getsignal(number) is not signal.SIG_IGN]
     on_requests_to_end(heeded, stop.set, lambda: os._exit(1))
     run_worker(stop, options)
     logging.shutdown()

@@ -54,5 +54,5 @@ class Workers(Record):
         silence = (now(self.engine) - WORKERS.c.beat).label("silence")
         with self.engine.connect() as connection:
             rows = connection.execute(sa.select(WORKERS.c.name, silence, WORKERS.c.layers)).all()
-        layers = {row.name: [Layer(**said) for said in row.layers or ()] for row in rows}
+        layers = {row.name: [Layer(**data) for data in row.layers or ()] for row in rows}
         return {row.name: max(0.0, row.silence) for row in rows}, layers

@@ -114,6 +114,6 @@ def _pieces(file: BinaryIO) -> Iterator[bytes]:
 
 def _policy(page: BinaryIO) -> str:
     """Return the policy of a report: its own script runs, which its head names by hash."""
-    found = _SCRIPT.search(page.read(_HEAD))
+    match = _SCRIPT.search(page.read(_HEAD))
     page.seek(0)
-    return _REPORT + (f"'{found[1].decode('ascii')}'" if found else "'none'")
+    return _REPORT + (f"'{match[1].decode('ascii')}'" if match else "'none'")

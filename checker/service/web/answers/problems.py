@@ -89,13 +89,16 @@ def _of_framework(error: HTTPException) -> Refused:
     if error.status_code == HTTPStatus.NOT_FOUND:
         return not_found()
     if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
-        said = (
+        message = (
             "This address does not support this method.",
             "See /api/openapi.json for the supported methods.",
         )
     else:
-        said = "The request cannot be understood.", "See /api/openapi.json for the expected form."
-    return Refused(error.status_code, *said, headers=dict(error.headers or {}))
+        message = (
+            "The request cannot be understood.",
+            "See /api/openapi.json for the expected form.",
+        )
+    return Refused(error.status_code, *message, headers=dict(error.headers or {}))
 
 
 def _invalid(errors: Sequence[Any]) -> Refused:

@@ -47,7 +47,7 @@ _FORM = {
 }
 _UPLOAD = {"requestBody": {"required": True, "content": {"multipart/form-data": {"schema": _FORM}}}}
 _OTHERS = ("HEAD", "OPTIONS", "PATCH", "POST", "PUT", "TRACE")
-_SAID = {
+_DESCRIPTIONS = {
     400: "The form cannot be read, or was cut off.",
     401: "A token is needed.",
     403: "The request comes from another site.",
@@ -68,9 +68,9 @@ def router(services: Services) -> APIRouter:
     from fastapi import APIRouter
 
     api = Api(services)
-    made = APIRouter(prefix="/api/checks", tags=["checks"])
-    add = partial(made.add_api_route, responses=_refusals(404, 421, 422, 503))
-    made.add_api_route(
+    routes = APIRouter(prefix="/api/checks", tags=["checks"])
+    add = partial(routes.add_api_route, responses=_refusals(404, 421, 422, 503))
+    routes.add_api_route(
         "",
         api.create,
         methods=["POST"],
@@ -87,10 +87,10 @@ def router(services: Services) -> APIRouter:
         response_model=CheckView,
         responses=_refusals(403, 404, 421, 422, 503),
     )
-    made.add_route("/api/checks/{id}", _other_method, methods=_OTHERS, include_in_schema=False)
-    _add_events(made, api)
-    _add_files(made, api)
-    return made
+    routes.add_route("/api/checks/{id}", _other_method, methods=_OTHERS, include_in_schema=False)
+    _add_events(routes, api)
+    _add_files(routes, api)
+    return routes
 
 
 def _add_events(router: APIRouter, api: Api) -> None:
@@ -125,14 +125,14 @@ def _add_files(router: APIRouter, api: Api) -> None:
 
 
 def _add_file(router: APIRouter, path: str, endpoint: Any, kind: str) -> None:
-    said: dict[int | str, dict[str, Any]] = {200: {"content": {kind.partition(";")[0]: {}}}}
+    success: dict[int | str, dict[str, Any]] = {200: {"content": {kind.partition(";")[0]: {}}}}
     name = path.rpartition("/")[2]
     router.add_api_route(
         path,
         endpoint,
         name=f"{name} of a package" if "{folder}" in path else name,
         response_class=Response,
-        responses={**_refusals(404, 421, 422, 503), **said},
+        responses={**_refusals(404, 421, 422, 503), **success},
     )
 
 
@@ -209,4 +209,6 @@ def _other_method(_: Request) -> Response:
 
 
 def _refusals(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    return {statuse: {"model": Problem, "description": _SAID[statuse]} for statuse in statuses}
+    return {
+        statuse: {"model": Problem, "description": _DESCRIPTIONS[statuse]} for statuse in statuses
+    }

@@ -93,20 +93,20 @@ async def _lines(jobs: Jobs, id: str, after: int) -> AsyncIterator[str]:
 
 
 def _message(event: Event) -> str:
-    told = {
+    data = {
         "number": event.number,
         "stage": str(event.stage),
         "words": plain(event.words),
         "time": event.time,
         "data": dict(event.data),
     }
-    return f"id: {event.number}\ndata: {json.dumps(told, default=str)}\n\n"
+    return f"id: {event.number}\ndata: {json.dumps(data, default=str)}\n\n"
 
 
 def _last_seen(request: Request) -> int:
     """Return the number that a browser that comes back has seen last."""
-    given = request.headers.get("last-event-id", "")
-    number = int(given) if given.isascii() and given.isdecimal() and len(given) < 11 else 0
+    header = request.headers.get("last-event-id", "")
+    number = int(header) if header.isascii() and header.isdecimal() and len(header) < 11 else 0
     return min(number, HIGHEST)
 
 

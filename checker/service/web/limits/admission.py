@@ -67,8 +67,8 @@ class Admission:
 
     def knows(self, token: str) -> bool:
         """Whether it is one of the tokens; as slow for a good guess as for a bad one."""
-        given = token.strip().encode()
-        return sum(secrets.compare_digest(given, token) for token in self._tokens) > 0
+        secret = token.strip().encode()
+        return sum(secrets.compare_digest(secret, token) for token in self._tokens) > 0
 
     def _check(self, token: str) -> None:
         if self._tokens and not self.knows(token):

@@ -78,17 +78,17 @@ class Slots(Record):
 
     Attributes:
         all: Places.
-        each: Of them for one client.
+        per_client: Of them for one client.
     """
 
     all: int
-    each: int
+    per_client: int
     _taken: Counter[str] = msgspec.field(default_factory=Counter)
 
     @contextmanager
     def one(self, client: str) -> Iterator[bool]:
         """Hold a place; False if there is none."""
-        free = self._taken.total() < self.all and self._taken[client] < self.each
+        free = self._taken.total() < self.all and self._taken[client] < self.per_client
         self._taken[client] += free
         try:
             yield free

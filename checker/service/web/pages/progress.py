@@ -72,10 +72,12 @@ def _read(path: Path) -> Glance | None:
         report = report_from_json(path.read_text("utf-8"))
     except ValueError:
         return None
-    found = [(package.name, finding) for package in report.packages for finding in package.findings]
-    found.sort(key=lambda pair: pair[1].severity.rank)
-    shown = tuple(_first(name, each) for name, each in found[:SHOWN])
-    return Glance(shown, len(found) - len(shown))
+    findings = [
+        (package.name, finding) for package in report.packages for finding in package.findings
+    ]
+    findings.sort(key=lambda pair: pair[1].severity.rank)
+    shown = tuple(_first(name, finding) for name, finding in findings[:SHOWN])
+    return Glance(shown, len(findings) - len(shown))
 
 
 def _first(package: str, finding: ReportedFinding) -> FirstFinding:

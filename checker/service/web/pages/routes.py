@@ -70,12 +70,12 @@ class RulePage(Record):
 @cache
 def rule_groups() -> tuple[RuleGroup, ...]:
     """Return all rules by group."""
-    found = []
+    groups = []
     for letters, members in groupby(all_rules(), lambda rule: rule.group):
         rules = list(members)
         entries = tuple(rule_pages()[rule.id].entry for rule in rules)
-        found.append(RuleGroup(letters, _line(about(rules)), entries))
-    return tuple(found)
+        groups.append(RuleGroup(letters, _line(about(rules)), entries))
+    return tuple(groups)
 
 
 @cache
@@ -83,14 +83,14 @@ def rule_pages() -> Mapping[str, RulePage]:
     """Return the page of each rule by its id."""
     from markupsafe import Markup
 
-    made = {}
+    pages = {}
     for rule in all_rules():
         title = _line(escaped(parse_page(rule.page).title))
         entry = RuleEntry(rule.id, rule.name, str(rule.severity), title)
         # Markdown without HTML in it: what is rendered is safe, whoever wrote the rule.
         body = Markup(_markdown().render("\n\n".join(told(rule))))  # noqa: S704
-        made[rule.id] = RulePage(entry, body)
-    return made
+        pages[rule.id] = RulePage(entry, body)
+    return pages
 
 
 def _line(markdown: str) -> Markup:
@@ -124,8 +124,8 @@ def router(services: Services) -> APIRouter:
     from fastapi import APIRouter
 
     pages = _Pages(services)
-    made = APIRouter()
-    add = partial(made.add_route, include_in_schema=False)
+    site = APIRouter()
+    add = partial(site.add_route, include_in_schema=False)
     add("/", pages.start, methods=["GET"])
     add("/checks", pages.send, methods=["POST"])
     add("/checks/{id}", pages.check, methods=["GET"])
@@ -133,7 +133,7 @@ def router(services: Services) -> APIRouter:
     add("/rules", _rules, methods=["GET"])
     add("/rules/{id}", _rule, methods=["GET"])
     add(FOLDER + "/{release}/{name}", _static, methods=["GET"])
-    return made
+    return site
 
 
 class _Pages(Record):
@@ -170,7 +170,7 @@ class _Pages(Record):
     def check(self, request: Request) -> Response:
         """Show a check: its steps, the first findings, in the end its results."""
         state = self.services.check(request.path_params["id"])
-        found = glance(self.services.store, state.result)
+        first = glance(self.services.store, state.result)
         names = self.services.store.names(state.result) if state.result else ()
         done = state.stage is Stage.DONE
         packages = progress.package_lines(state, names if done else ())
@@ -186,7 +186,7 @@ class _Pages(Record):
             packages=packages,
             shown=_PACKAGES_SHOWN,
             files=_files(state, names) if done else (),
-            first=found,
+            first=first,
             link=f"{self.services.address(request)}/checks/{state.id}",
             events=f"/api/checks/{state.id}/events",
             expires=progress.moment(state.expires) if state.expires else None,
@@ -213,10 +213,10 @@ def _rule(request: Request) -> Response:
 
 
 def _static(request: Request) -> Response:
-    found = static_file(request.path_params["release"], request.path_params["name"])
-    if found is None:
+    file = static_file(request.path_params["release"], request.path_params["name"])
+    if file is None:
         raise not_found()
-    return found
+    return file
 
 
 def _files(state: State, names: tuple[str, ...]) -> list[tuple[str, str, str]]:

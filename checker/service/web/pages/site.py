@@ -40,10 +40,10 @@ def release() -> str:
 
     It is a folder of their addresses, so that modules find each other by relative names.
     """
-    told = hashlib.sha256()
+    digest = hashlib.sha256()
     for name, text in sorted(files().items()):
-        told.update(f"{name}\n{len(text)}\n{text}".encode())
-    return told.hexdigest()[:16]
+        digest.update(f"{name}\n{len(text)}\n{text}".encode())
+    return digest.hexdigest()[:16]
 
 
 def static_file(of_release: str, name: str) -> Response | None:

@@ -55,14 +55,14 @@ class _Reader:
         return from_json(self._heard())
 
     def _heard(self) -> bytes:
-        deadline, said = monotonic() + _SECONDS, b""
-        while not said.endswith(b"\n"):
+        deadline, data = monotonic() + _SECONDS, b""
+        while not data.endswith(b"\n"):
             self._wire.settimeout(max(0.01, deadline - monotonic()))
             piece = self._wire.recv(_ANSWER_LIMIT)
-            said += piece
-            if not piece or len(said) > _ANSWER_LIMIT:
+            data += piece
+            if not piece or len(data) > _ANSWER_LIMIT:
                 raise ValueError("no answer")
-        return said
+        return data
 
     def stop(self) -> None:
         """End it."""
@@ -104,10 +104,10 @@ class ArchiveIndexes:
             UnreadableInput: It could do harm, is damaged, or takes down who reads it.
         """
         try:
-            said = self._asked(archive, name)
+            answer = self._asked(archive, name)
         except (OSError, ValueError):
             raise UnreadableInput(archive, "has an index that cannot be read", _AGAIN) from None
-        match said:
+        match answer:
             case {"reason": str(reason), "advice": str(advice)}:
                 raise UnreadableInput(archive, reason[:_WORDS_LIMIT], advice[:_WORDS_LIMIT])
             case {}:

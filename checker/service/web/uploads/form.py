@@ -28,17 +28,17 @@ class UnknownKind(ValueError):
         super().__init__(f"the file's name does not end in {known} or {SUFFIXES[-1]}")
 
 
-def safe_name(given: str) -> str:
+def safe_name(name: str) -> str:
     """Return a file name of letters, digits, `-`, `_` and `.`, of at most 100 characters.
 
     Args:
-        given: As the client says it: a name, or a path as some browsers send it.
+        name: As the client says it: a name, or a path as some browsers send it.
 
     Raises:
         UnknownKind: Its ending is of no archive and no model file.
     """
-    base = re.split(r"[/\\]", given)[-1].strip()
-    suffix = next((each for each in SUFFIXES if base.lower().endswith(each)), None)
+    base = re.split(r"[/\\]", name)[-1].strip()
+    suffix = next((ending for ending in SUFFIXES if base.lower().endswith(ending)), None)
     if suffix is None:
         raise UnknownKind
     stem = _UNSAFE.sub("_", base[: -len(suffix)]).strip("._-")

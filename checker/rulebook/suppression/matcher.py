@@ -40,7 +40,7 @@ _Line = tuple[str, int, str]
 """A file, a line of it, and the id of a rule that is not to count there."""
 
 
-class Silence(Record):
+class Suppression(Record):
     """Why a finding does not count.
 
     Attributes:
@@ -52,7 +52,7 @@ class Silence(Record):
     place: Place | None = None
 
 
-class Silencer:
+class SuppressionMatcher:
     """The wishes about one package, and which of them were of use.
 
     Attributes:
@@ -79,41 +79,41 @@ class Silencer:
         self._comments_left = COMMENTS_LIMIT
         self._own = tuple(self._own_comments())
 
-    def silences(
-        self, rule: str, found: Sequence[Finding], spot_of: Callable[[Finding], Spot]
-    ) -> list[Silence | None]:
+    def matches(
+        self, rule: str, findings: Sequence[Finding], spot_of: Callable[[Finding], Spot]
+    ) -> list[Suppression | None]:
         """Return why each finding of a rule does not count; None for those that do.
 
         Args:
             rule: Its id.
-            found: All that it found.
+            findings: All that it found.
             spot_of: Returns how the baseline knows a finding.
         """
-        silences = [self._by_wish(rule, each.places[0]) for each in found]
+        matches = [self._by_wish(rule, finding.places[0]) for finding in findings]
         if not self.held.knows(rule):
-            return silences
+            return matches
         # A place that is reported twice in the same words is one place of the finding.
         spots = {
-            at: (each.places[0], spot_of(each))
-            for at, each in enumerate(found)
-            if silences[at] is None
+            at: (finding.places[0], spot_of(finding))
+            for at, finding in enumerate(findings)
+            if matches[at] is None
         }
         distinct = list(dict.fromkeys(spots.values()))
         entries = self.held.entries_of(rule, [spot for _, spot in distinct])
         held = dict(zip(distinct, entries, strict=True))
         for at, spot in spots.items():
             if entry := held[spot]:
-                silences[at] = Silence(SuppressedBy.BASELINE, entry.reason or IN_BASELINE)
-        return silences
+                matches[at] = Suppression(SuppressedBy.BASELINE, entry.reason or IN_BASELINE)
+        return matches
 
-    def _by_wish(self, rule: str, place: Place) -> Silence | None:
+    def _by_wish(self, rule: str, place: Place) -> Suppression | None:
         """Return the comment or the entry of the settings that is about a place."""
         comment = self._comment_at(rule, place)
-        entries = [each for each in self._entries.get(rule, ()) if each.covers(place)]
+        entries = [entry for entry in self._entries.get(rule, ()) if entry.covers(place)]
         self._used_entries.update(entries)
         if comment:
-            return Silence(SuppressedBy.COMMENT, comment.reason, comment.place)
-        return Silence(SuppressedBy.SETTINGS, entries[0].reason) if entries else None
+            return Suppression(SuppressedBy.COMMENT, comment.reason, comment.place)
+        return Suppression(SuppressedBy.SETTINGS, entries[0].reason) if entries else None
 
     def suppressions(self, looked: Collection[str], settings: Path | None) -> Suppressions:
         """Return what the wishes came to.
@@ -209,14 +209,14 @@ class Silencer:
 
 def parted(
     rule: str,
-    found: Sequence[Finding],
-    silencer: Silencer | None,
+    findings: Sequence[Finding],
+    matcher: SuppressionMatcher | None,
     spot_of: Callable[[Finding], Spot],
-) -> dict[Silence | None, list[Finding]]:
+) -> dict[Suppression | None, list[Finding]]:
     """Part what a rule found by why it does not count; what does stands under None."""
-    nothing = [None] * len(found)
-    silences = silencer.silences(rule, found, spot_of) if silencer else nothing
-    parts: dict[Silence | None, list[Finding]] = {}
-    for each, silence in zip(found, silences, strict=True):
-        parts.setdefault(silence, []).append(each)
+    nothing = [None] * len(findings)
+    matches = matcher.matches(rule, findings, spot_of) if matcher else nothing
+    parts: dict[Suppression | None, list[Finding]] = {}
+    for finding, suppression in zip(findings, matches, strict=True):
+        parts.setdefault(suppression, []).append(finding)
     return parts
