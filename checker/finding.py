@@ -74,7 +74,7 @@ class Concern(enum.StrEnum):
     @property
     def words(self) -> str:
         """What a sentence calls it."""
-        return "the robot" if self is Concern.ROBOT else f"{self}"
+        return str(self) if self is Concern.PORTABILITY else f"the {self}"
 
 
 class Place(Record):

@@ -67,8 +67,9 @@ def run_rules(
             not_checked += _switched_off(rule, profile, settings)
             continue
         result = _run_isolated(rule, parts, profile.context, settings)
+        severity = _severity(rule, None, profile, settings)
         if isinstance(result, NotChecked):
-            not_checked.append(result)
+            not_checked.append(replace(result, severity=severity, concern=rule.concern))
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
         own = [item for item in result if isinstance(item, Finding)]
@@ -84,7 +85,10 @@ def run_rules(
                 ]
         unchecked = (item.reason for item in result if isinstance(item, Unchecked))
         reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
-        not_checked += [NotChecked(rule.id, reason, Cause.NOT_AT_HAND) for reason in reasons]
+        not_checked += [
+            NotChecked(rule.id, reason, Cause.NOT_AT_HAND, severity, rule.concern)
+            for reason in reasons
+        ]
     return _outcome(_sorted(findings), suppressed, not_checked, looked)
 
 
@@ -191,7 +195,7 @@ def _report(
     page = parse_page(rule.page)
     groups: dict[tuple[Severity, str], list[Finding]] = {}
     for finding in findings:
-        severity = _severity(rule, finding, profile, settings)
+        severity = _severity(rule, finding.severity, profile, settings)
         groups.setdefault((severity, finding.key or finding.message), []).append(finding)
     for (severity, _), group in groups.items():
         first = group[0]
@@ -235,16 +239,19 @@ def _joined_fix(fixes: list[Fix]) -> Fix | None:
 
 def _spot(rule: Rule, profile: Profile, settings: Settings, finding: Finding) -> Spot:
     """Return how the baseline knows a finding, in the words of the report."""
-    severity = _severity(rule, finding, profile, settings)
+    severity = _severity(rule, finding.severity, profile, settings)
     message = shortened(finding.message, TEXT_LIMIT)
     return spot(rule.id, severity, finding.places[0], finding.key, message)
 
 
-def _severity(rule: Rule, finding: Finding, profile: Profile, settings: Settings) -> Severity:
-    """The user's word counts most, then the finding's, then the rule's; a profile can lower it."""
+def _severity(rule: Rule, own: Severity | None, profile: Profile, settings: Settings) -> Severity:
+    """Return how severe a finding is: the user's word counts most, then the finding's own.
+
+    Then counts the rule's; a profile can lower it.
+    """
     if rule.id in settings.severity:
         return settings.severity[rule.id]
-    severity = finding.severity or rule.severity
+    severity = own or rule.severity
     limit = profile.severity.get(rule.id)
     return max(severity, limit, key=lambda s: s.rank) if limit else severity
 

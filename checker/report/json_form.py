@@ -94,6 +94,8 @@ class NotCheckedJson(Record):
     rule: Word
     reason: str
     cause: Cause
+    severity: Annotated[Severity | None, Meta(description="Of what it may have missed.")] = None
+    concern: Concern | None = None
 
 
 class LegJson(TypedDict):

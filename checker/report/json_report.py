@@ -76,7 +76,9 @@ def _package_json(package: PackageReport) -> PackageJson:
         inherited=package.inherited,
         findings=tuple(map(_finding_json, package.findings)),
         suppressed=tuple(map(_suppressed_json, package.suppressed)),
-        not_checked=tuple(NotCheckedJson(n.rule, n.reason, n.cause) for n in package.not_checked),
+        not_checked=tuple(
+            NotCheckedJson(*msgspec.structs.astuple(unseen)) for unseen in package.not_checked
+        ),
         trial=cast("TrialJson | None", package.trial),
         facts=package.facts,
         timings={stage: round(seconds, 4) for stage, seconds in package.timings.items()},
@@ -155,7 +157,9 @@ def _package(read: PackageJson) -> PackageReport:
         path=read.path,
         kind=read.kind,
         findings=tuple(map(_finding, read.findings)),
-        not_checked=tuple(NotChecked(n.rule, n.reason, n.cause) for n in read.not_checked),
+        not_checked=tuple(
+            NotChecked(*msgspec.structs.astuple(unseen)) for unseen in read.not_checked
+        ),
         inherited=read.inherited,
         facts={name: value for name, value in read.facts.items() if _is_fact(name, value)},
         timings=read.timings,

@@ -16,6 +16,7 @@ from checker.report.report import VerdictKind
 _SEVERITY = {Severity.ERROR: "1;31", Severity.WARNING: "33", Severity.INFO: "36"}
 _VERDICT = {
     VerdictKind.READY: "1;32",
+    VerdictKind.PAPERWORK: "1;33",
     VerdictKind.NOT_READY: "1;31",
     VerdictKind.INCOMPLETE: "1;33",
 }

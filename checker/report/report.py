@@ -20,13 +20,27 @@ NO_TRIAL = "trial not run (--no-trial)"
 class VerdictKind(enum.StrEnum):
     """What a maintainer wants to know first.
 
-    `READY`: no error. `NOT_READY`: at least one. `INCOMPLETE`: no error, but something that
-    should have been looked at could not be.
+    `READY`: no error. `PAPERWORK`: errors of the paperwork alone. `NOT_READY`: others.
+    `INCOMPLETE`: no other error, but one may be where a rule should have looked and could not.
     """
 
     READY = "ready"
+    PAPERWORK = "paperwork"
     NOT_READY = "not_ready"
     INCOMPLETE = "incomplete"
+
+    @property
+    def lead(self) -> str:
+        """How a sentence begins that tells it."""
+        return _LEADS[self]
+
+
+_LEADS = {
+    VerdictKind.READY: "Ready",
+    VerdictKind.PAPERWORK: "Ready once the paperwork is done",
+    VerdictKind.NOT_READY: "Not ready",
+    VerdictKind.INCOMPLETE: "Incomplete",
+}
 
 
 class Cause(enum.StrEnum):
@@ -43,11 +57,23 @@ class Cause(enum.StrEnum):
 
 
 class NotChecked(Record):
-    """A rule that did not look, and why."""
+    """A rule that did not look, and why.
+
+    Attributes:
+        severity: Of what it may have missed; None where that is not known.
+        concern: What it may have missed is about; None where that is not known.
+    """
 
     rule: str
     reason: str
     cause: Cause
+    severity: Severity | None = None
+    concern: Concern | None = None
+
+    @property
+    def may_hide_error(self) -> bool:
+        """Whether an error may be what was missed."""
+        return self.severity in (Severity.ERROR, None)
 
 
 class ReportedFinding(Record):
@@ -187,11 +213,20 @@ class PackageReport(Record):
     @property
     def verdict(self) -> VerdictKind:
         """Whether the package can be accepted."""
-        if self.count(Severity.ERROR):
+        concerns = {finding.concern for finding in self.errors}
+        if concerns - {Concern.PAPERWORK}:
             return VerdictKind.NOT_READY
-        if self.blind_spots:
+        hidden = {unseen.concern for unseen in self.blind_spots if unseen.may_hide_error}
+        if hidden - {Concern.PAPERWORK}:
             return VerdictKind.INCOMPLETE
-        return VerdictKind.READY
+        if concerns:
+            return VerdictKind.PAPERWORK
+        return VerdictKind.INCOMPLETE if hidden else VerdictKind.READY
+
+    @property
+    def errors(self) -> tuple[ReportedFinding, ...]:
+        """The findings that are errors."""
+        return tuple(found for found in self.findings if found.severity is Severity.ERROR)
 
     @property
     def blind_spots(self) -> tuple[NotChecked, ...]:

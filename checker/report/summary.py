@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from checker.base.record import Record
 from checker.base.words import count, listed, plain, shortened
-from checker.finding import Severity
+from checker.finding import Concern, Severity
 from checker.report.markdown_text import escaped, fitting
-from checker.report.ownership import each_once
+from checker.report.ownership import each_once, is_foreign
 from checker.report.render_settings import Palette
-from checker.report.report import NO_TRIAL, Cause, PackageReport, Report, VerdictKind
+from checker.report.report import (
+    NO_TRIAL,
+    Cause,
+    PackageReport,
+    Report,
+    ReportedFinding,
+    VerdictKind,
+)
 
 # The verdict on a package as one sentence, the same in every report.
 
@@ -22,7 +30,7 @@ class Sentence(Record):
     """A verdict in words.
 
     Attributes:
-        lead: `Ready`, `Not ready` or `Incomplete`.
+        lead: That of the verdict, such as `Not ready`.
         rest: Why; empty or what follows the lead behind a colon.
         aside: What was left out, for the end in brackets; may be empty.
     """
@@ -39,22 +47,39 @@ class Sentence(Record):
 
 def sentence(package: PackageReport) -> Sentence:
     """Say whether a package can be accepted, and what is left to do."""
-    errors, warnings = package.count(Severity.ERROR), package.count(Severity.WARNING)
-    looks = f"{count(warnings, 'warning')} to look at" if warnings else ""
-    match package.verdict:
-        case VerdictKind.NOT_READY:
-            phrases = [f"{count(errors, 'error')} to fix", looks]
-            return Sentence("Not ready", ", ".join(filter(None, phrases)), _aside(package))
-        case VerdictKind.INCOMPLETE:
-            phrases = [f"no error, but {_unseen(package)}", looks]
-            return Sentence("Incomplete", ", ".join(filter(None, phrases)), _aside(package))
-        case _:
-            return Sentence("Ready", looks or "nothing to fix", _aside(package))
+    warnings = package.count(Severity.WARNING)
+    phrases = [_errors(package)] if package.errors else []
+    if package.verdict is VerdictKind.INCOMPLETE:
+        phrases.insert(0, f"{'' if phrases else 'no error, but '}{_unseen(package)}")
+    phrases += [f"{count(warnings, 'warning')} to look at"] if warnings else []
+    rest = ", ".join(phrases) or "nothing to fix"
+    return Sentence(package.verdict.lead, rest, _aside(package))
+
+
+def _errors(package: PackageReport) -> str:
+    """Return `2 errors of the robot and 1 of the paperwork to fix, and 3 in base_robot`."""
+    inherited = Counter(owner for owner in map(_owner, package.errors) if owner)
+    others = listed([f"{number} in {plain(name)}" for name, number in sorted(inherited.items())])
+    own = Counter(found.concern for found in package.errors if not _owner(found))
+    if not own:
+        where = f": {others}" if len(inherited) > 1 else f" in {plain(*inherited)}"
+        return f"{count(inherited.total(), 'error')} to fix{where}"
+    (first, number), *more = ((concern, own[concern]) for concern in Concern if own[concern])
+    phrases = [f"{count(number, 'error')} of {first.words}"]
+    phrases += [f"{number} of {concern.words}" for concern, number in more]
+    return f"{listed(phrases)} to fix" + (f", and {others}" if others else "")
+
+
+def _owner(found: ReportedFinding) -> str:
+    """Return the package that a finding is inherited from; empty for one of its own."""
+    place = found.places[0]
+    return place.file.split("/")[1] if is_foreign(place) else ""
 
 
 def _unseen(package: PackageReport) -> str:
-    blind = len({spot.rule for spot in package.blind_spots})
-    reasons = list(dict.fromkeys(spot.reason for spot in package.blind_spots))
+    unseen = [spot for spot in package.blind_spots if spot.may_hide_error]
+    blind = len({spot.rule for spot in unseen})
+    reasons = list(dict.fromkeys(spot.reason for spot in unseen))
     shown = plain(shortened(listed(reasons[:3]), _REASON_LIMIT))
     return f"{count(blind, 'rule')} not checked: {shown}"
 
@@ -131,7 +156,7 @@ def ready_of_all(packages: Sequence[PackageReport]) -> str:
 
 
 def verdict_word(verdict: VerdictKind) -> str:
-    """Return `not ready`."""
+    """Return the verdict for a column of a table, such as `not ready`."""
     return verdict.replace("_", " ")
 
 

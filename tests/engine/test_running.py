@@ -66,13 +66,16 @@ def test_a_part_that_is_not_at_hand_is_the_reason_not_to_look(
 ) -> None:
     parts = Parts(missing=NotAvailable("it lies elsewhere", applicable))
     outcome = run(rule_of(looking), parts=parts)
-    assert outcome.not_checked == (NotChecked("TST009", "it lies elsewhere", cause),)
+    unseen = NotChecked("TST009", "it lies elsewhere", cause, Severity.ERROR, Concern.ROBOT)
+    assert outcome.not_checked == (unseen,)
 
 
 def test_a_rule_can_say_what_it_could_not_look_at_and_go_on() -> None:
     outcome = run(rule_of(looking_away))
     assert reported(outcome) == ["TST009"]
-    reason = NotChecked("TST009", "the mesh is not available", Cause.NOT_AT_HAND)
+    reason = NotChecked(
+        "TST009", "the mesh is not available", Cause.NOT_AT_HAND, Severity.ERROR, Concern.ROBOT
+    )
     assert outcome.not_checked == (reason,)
 
 

@@ -74,7 +74,9 @@ def test_what_was_ignored_was_switched_off_whether_driven_or_not() -> None:
 def test_a_trial_that_cannot_be_had_is_the_reason_not_to_look() -> None:
     result = outcome(NotAvailable("the trial ended in a crash"))
     assert result.not_checked == (
-        NotChecked("TRI902", "the trial ended in a crash", Cause.NOT_AT_HAND),
+        NotChecked(
+            "TRI902", "the trial ended in a crash", Cause.NOT_AT_HAND, Severity.ERROR, Concern.ROBOT
+        ),
     )
 
 

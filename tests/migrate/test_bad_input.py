@@ -250,4 +250,4 @@ def test_the_command_lists_what_is_left_to_do(write: Write, tmp_path: Path) -> N
     assert out.startswith(f"made {tmp_path}/made/my_team_rover_sensor_config_1\ndecided:\n  - ")
     assert "left to you:\n  - the organization's name, here 'my_team' (--organization)\n" in out
     assert "error SEN022" in out
-    assert "Not ready: 1 error to fix" in out
+    assert "Not ready: 1 error of the interface to fix" in out

@@ -9,6 +9,7 @@ import jsonschema
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
 from checker.package.kind import PackageKind
@@ -65,6 +66,24 @@ def test_the_verdict() -> None:
     assert package(NOT_AT_HAND, severities=(warning,)).verdict is VerdictKind.INCOMPLETE
     assert package(CRASHED).verdict is VerdictKind.INCOMPLETE
     assert package(NOT_AT_HAND, severities=(error,)).verdict is VerdictKind.NOT_READY
+
+
+def test_the_verdict_sets_paperwork_apart() -> None:
+    papers = replace(found(Severity.ERROR), concern=Concern.PAPERWORK)
+    only = replace(package(), findings=(papers,))
+    assert only.verdict is VerdictKind.PAPERWORK
+    both = replace(only, findings=(papers, found(Severity.ERROR)))
+    assert both.verdict is VerdictKind.NOT_READY
+    hidden = replace(NOT_AT_HAND, severity=Severity.ERROR, concern=Concern.ROBOT)
+    assert replace(only, not_checked=(hidden,)).verdict is VerdictKind.INCOMPLETE
+    same = replace(hidden, concern=Concern.PAPERWORK)
+    assert replace(only, not_checked=(same,)).verdict is VerdictKind.PAPERWORK
+    assert package(same).verdict is VerdictKind.INCOMPLETE
+
+
+def test_a_rule_that_never_reports_errors_hides_none() -> None:
+    minor = replace(NOT_AT_HAND, severity=Severity.WARNING, concern=Concern.ROBOT)
+    assert package(minor).verdict is VerdictKind.READY
 
 
 @given(st.text(st.characters(exclude_categories=())), st.sampled_from(PackageKind))

@@ -54,7 +54,8 @@ def test_one_package_has_its_verdict_findings_and_the_rest_folded() -> None:
     )
     written = to_markdown(Report((package,), {}))
     assert written.startswith(
-        "## rover: Not ready\n\n1 error to fix (1 suppressed, 1 of them an error)\n\n"
+        "## rover: Not ready\n\n"
+        "1 error of portability to fix (1 suppressed, 1 of them an error)\n\n"
     )
     assert (
         "| error | SDF004 unknown-element | <code>models/rover/model.sdf</code> line 1 | "

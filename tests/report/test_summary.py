@@ -7,7 +7,7 @@ import re
 import pytest
 from msgspec.structs import replace
 
-from checker.finding import Place, Severity
+from checker.finding import Concern, Place, Severity
 from checker.report.html.page import to_index
 from checker.report.render_settings import Palette
 from checker.report.report import PackageReport, Report, Suppressed, SuppressedBy
@@ -93,3 +93,28 @@ def test_what_packages_share_counts_once() -> None:
     packages = [replace(GOOD, name=n, path=f"models/{n}", findings=(shared,)) for n in "ab"]
     (_, row) = statistics_text(Report(tuple(packages), {})).splitlines()
     assert row == "SDF004  error            1         1  unknown-element"
+
+
+def verdict_on(*errors: tuple[Concern, str]) -> str:
+    """Return the sentence about a package with errors of these concerns in these files."""
+    (first, *_) = PACKAGE.findings
+    findings = tuple(
+        replace(first, concern=concern, places=(Place(file),)) for concern, file in errors
+    )
+    return str(sentence(replace(PACKAGE, findings=findings)))
+
+
+def test_the_verdict_says_what_the_errors_are_about_and_where_they_are_inherited_from() -> None:
+    robot, papers = Concern.ROBOT, Concern.PAPERWORK
+    own, base = "model.sdf", "../base/model.sdf"
+    assert verdict_on() == "Ready: nothing to fix"
+    assert verdict_on((papers, own)) == (
+        "Ready once the paperwork is done: 1 error of the paperwork to fix"
+    )
+    assert verdict_on((robot, own), (robot, own), (papers, own), (robot, base)) == (
+        "Not ready: 2 errors of the robot and 1 of the paperwork to fix, and 1 in base"
+    )
+    assert verdict_on((robot, base), (robot, base)) == "Not ready: 2 errors to fix in base"
+    assert verdict_on((robot, base), (robot, "../other/a.sdf")) == (
+        "Not ready: 2 errors to fix: 1 in base and 1 in other"
+    )

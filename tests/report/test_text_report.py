@@ -56,7 +56,7 @@ def test_a_finding_has_place_message_frame_why_how_and_page() -> None:
         "    fix: write 1.",
         "    subt-check rule SEN005",
         "",
-        "rover: Not ready: 1 error to fix",
+        "rover: Not ready: 1 error of the interface to fix",
     ]
 
 

@@ -121,7 +121,7 @@ class PackageView(BaseModel):
     """The current result of a package."""
 
     name: str
-    verdict: str = Field(description="ready, not_ready or incomplete.")
+    verdict: str = Field(description="ready, paperwork, not_ready or incomplete.")
     errors: int
     warnings: int
     infos: int

@@ -11,7 +11,7 @@ from typing import Any
 from checker.base.record import Record
 from checker.base.words import count, plain, shortened
 from checker.report.json_report import report_from_json
-from checker.report.report import ReportedFinding
+from checker.report.report import ReportedFinding, VerdictKind
 from checker.service.jobs.port import Event, Stage, State
 from checker.service.store.store import Store
 from checker.service.web.api.views import address_of
@@ -100,7 +100,6 @@ STEPS = {
     Stage.DONE: "Report",
 }
 """The way of a check that goes well."""
-LEADS = {"ready": "Ready", "not_ready": "Not ready", "incomplete": "Incomplete"}
 _AGAIN = "Send the package again; if it happens again, tell the operator of this service."
 _TEXT_LIMIT = 600
 
@@ -234,7 +233,7 @@ def _line(state: State, package: Mapping[str, Any], names: Sequence[str]) -> Pac
     return PackageLine(
         name=plain(shortened(str(package["name"]), _TEXT_LIMIT)),
         verdict=verdict,
-        lead=LEADS[verdict],
+        lead=VerdictKind(verdict).lead,
         errors=int(package["errors"]),
         warnings=int(package["warnings"]),
         infos=int(package["infos"]),
