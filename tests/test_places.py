@@ -81,7 +81,7 @@ def marked(source: SourceText, place: Place) -> str:
 
 def is_in_a_text(place: Place) -> bool:
     """Say whether a place marks words: not a folder, nor a file as a whole."""
-    return bool(place.file) and place != Place(place.file)
+    return bool(place.file) and place != Place(place.file, message=place.message)
 
 
 def in_files(findings: tuple[Reported, ...]) -> Iterator[tuple[Package, ReportedFinding, Place]]:
@@ -114,16 +114,15 @@ def test_a_place_without_a_file_is_the_whole_package(findings: tuple[Reported, .
     for _, finding in findings:
         for place in finding.places:
             if not place.file:
-                assert place == Place(""), finding.rule
+                assert place == Place("", message=place.message), finding.rule
 
 
 def test_the_marked_words_are_what_the_message_names(findings: tuple[Reported, ...]) -> None:
-    for package, finding in findings:
-        place = finding.places[0]  # repeats may have other values
+    for package, finding, place in in_files(findings):
         worked_out = place.element.endswith("/pose")  # where a part is, not what is written
-        if is_in_a_text(place) and not worked_out and finding.rule not in ABOUT_SOMETHING_MISSING:
-            text = marked(text_of(package, place), place)
-            assert names(finding.message, text), (finding.rule, str(place), finding.message, text)
+        if not (worked_out or place.note or finding.rule in ABOUT_SOMETHING_MISSING):
+            text, message = marked(text_of(package, place), place), place.message or finding.message
+            assert names(message, text), (finding.rule, str(place), message, text)
 
 
 def test_each_exception_is_a_rule_that_reports_something(corpus: Path) -> None:
