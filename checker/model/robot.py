@@ -33,6 +33,7 @@ from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
 from checker.model.sdf.document import sdf_version
 from checker.model.tree import LinkTree, link_tree
+from checker.model.unknowns import LooseParts, loose_parts, unknown_masses, unplaced_part
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
@@ -140,6 +141,26 @@ class Robot(Part, dict=True):
         """Why parts of the robot are not known, as the end of a sentence; empty when all are."""
         uris = [uri.value or "a model without <uri>" for uri in self.unresolved_includes]
         return f"{uris[0]} is included, but not available" if uris else ""
+
+    @cached_property
+    def loose_parts(self) -> LooseParts:
+        """What no joint connects to the robot."""
+        return loose_parts(self)
+
+    @cached_property
+    def unplaced_part(self) -> str:
+        """Why a part has no place on the robot, as the end of a sentence; empty when all have."""
+        return unplaced_part(self)
+
+    @cached_property
+    def unknown_masses(self) -> dict[str, str]:
+        """Links whose mass is not known or negative, with the reason as the end of a sentence."""
+        return unknown_masses(self)
+
+    @property
+    def unweighed(self) -> str:
+        """Why the mass of the whole is not known, as the end of a sentence; empty when it is."""
+        return self.missing_parts or next(iter(self.unknown_masses.values()), "")
 
     @staticmethod
     def folder_of(uri: Located[str]) -> str:

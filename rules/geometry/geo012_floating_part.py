@@ -32,8 +32,9 @@ def check(robot: Robot, *, gap: float = 0.02) -> Findings:
         return
     if len(groups) < 2:
         return
-    if unknown or robot.missing_parts:
-        reason = robot.missing_parts or f"the size of {unknown[0].name.value!r} is not known"
+    reason = robot.missing_parts or robot.unplaced_part
+    if unknown or reason:
+        reason = reason or f"the size of {unknown[0].name.value!r} is not known"
         yield unchecked(f"{reason}; parts that seem to float may be attached to it")
         return
     members = [[shapes[number] for number in group] for group in groups]

@@ -24,6 +24,9 @@ def check(robot: Robot, *, depth: float = 0.01) -> Findings:
         depth: Metres that two collisions may be inside each other, along the shortest way that
             separates them; more is reported.
     """
+    if robot.unplaced_part:
+        yield unchecked(robot.unplaced_part)
+        return
     try:
         for inside in interpenetrations(robot, depth):
             yield _finding(inside)

@@ -32,8 +32,8 @@ def check(
         approximate_factor: Factor by which both shares grow if the sheet calls the mass
             approximate, as in "about 50 kg".
     """
-    if robot.missing_parts:
-        yield unchecked(robot.missing_parts)
+    if robot.unweighed:
+        yield unchecked(robot.unweighed)
         return
     stated = specification.total_mass
     if stated is None or stated.value <= 0 or not robot.links:

@@ -10,13 +10,13 @@ Source: experience; a position and velocity controller holds each joint.
 
 import math
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI011", "pose-not-held", Severity.WARNING, Concern.ROBOT)
 def check(
-    driven: RobotTrial,
+    driven: SettledTrial,
     *,
     hold_sag_above: float = 0.1,
     hold_sink_above: float = 0.05,
@@ -56,7 +56,7 @@ def check(
         )
 
 
-def _amount(driven: RobotTrial, name: str, value: float) -> str:
+def _amount(driven: SettledTrial, name: str, value: float) -> str:
     joint = driven.robot.joints_by_name.get(name)
     slides = joint is not None and joint.type.value == "prismatic"
     return f"{abs(value):.2g} m" if slides else f"{math.degrees(abs(value)):.0f}°"

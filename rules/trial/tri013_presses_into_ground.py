@@ -8,13 +8,13 @@ Source: contact forces depend on the inertia of the bodies that touch; accepted 
 0.3 mm into the ground.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI013", "presses-into-ground", Severity.WARNING, Concern.ROBOT)
 def check(
-    driven: RobotTrial,
+    driven: SettledTrial,
     *,
     rest_penetration_above: float = 0.01,
     rest_penetration_up_to: float = 0.05,

@@ -42,6 +42,8 @@ def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) ->
         ours, theirs = simulated.links[name], shown.links[name]
         if theirs.inertial is None or ours.inertial is None:
             continue
+        if ours.scoped_name in robot.unknown_masses:
+            continue  # A rule on the model says so.
         if _differ(ours.mass, theirs.mass, share) and _differ(
             simulated.mass_with(name), shown.mass_with(name), share
         ):

@@ -65,6 +65,10 @@ _CREEP = 0.05
 """Share of the command below which no direction can be told."""
 
 
+class SettledTrial(RobotTrial):
+    """A robot that came to rest before it was driven: figures of its drive mean something."""
+
+
 class RepeatedTrial(RobotTrial):
     """A robot that was driven twice.
 

@@ -150,4 +150,5 @@ def _obstacle(robot: Robot) -> NotAvailable | None:
         )
     if robot.is_static:
         return NotAvailable("the model is static, so there is nothing to drive", applicable=False)
-    return None
+    unknown = robot.unplaced_part or next(iter(robot.unknown_masses.values()), "")
+    return NotAvailable(unknown) if unknown else None
