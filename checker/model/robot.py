@@ -24,6 +24,7 @@ from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.geometry.boxes import Box, box_around
 from checker.model.geometry.convex import support
+from checker.model.geometry.mesh_units import ScaledMeshes, misscaled_meshes
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
@@ -225,7 +226,7 @@ class Robot(Part, dict=True):
 
     def support_of(self, geometry: Geometry, pose: Transform, direction: Vector) -> float | None:
         """Return how far a shape reaches in a direction, metres; see `support`."""
-        return support(geometry, pose, direction, self.meshes)
+        return support(geometry, pose, direction, self.scaled_meshes)
 
     def box_of(self, link: Link, *, visuals_too: bool = True) -> Box | None:
         """Return the box around a link's collisions and visuals, in the robot's frame.
@@ -245,7 +246,7 @@ class Robot(Part, dict=True):
         if shape not in self._shape_boxes:
             pose = self.pose_of_part(link, shape.pose)
             placed = [] if pose is None else [(shape.geometry, pose)]
-            self._shape_boxes[shape] = box_around(placed, self.meshes)
+            self._shape_boxes[shape] = box_around(placed, self.scaled_meshes)
         return self._shape_boxes[shape]
 
     @cached_property
@@ -266,11 +267,17 @@ class Robot(Part, dict=True):
             if frame is None or pose is None:
                 return None
             placed.append((shape.geometry, frame.inverse @ pose))
-        return box_around(placed, self.meshes)
+        return box_around(placed, self.scaled_meshes)
 
     def mesh_of(self, shape: Collision | Visual) -> Mesh | MeshFault | None:
         """Return the mesh that a collision or visual consists of; None for other shapes."""
-        return mesh_of(shape.geometry, self.meshes)
+        return mesh_of(shape.geometry, self.scaled_meshes)
+
+    @cached_property
+    def scaled_meshes(self) -> ScaledMeshes:
+        """What its mesh files hold, without those whose unit is wrong."""
+        misscaled = {mesh.use.uri.span: mesh.unit for mesh in misscaled_meshes(self)}
+        return ScaledMeshes(self.meshes, misscaled)
 
     @cached_property
     def mesh_uses(self) -> tuple[MeshUse, ...]:

@@ -82,6 +82,8 @@ def _camera(pose: str, mark: str = "", bracket: str = "") -> str:
     <geometry><box><size>0.1 0.1 0.1</size></box></geometry>
   </visual>
 </link>
+<joint name="j1" type="fixed"><parent>base_link</parent><child>body</child></joint>
+<joint name="j2" type="fixed"><parent>body</parent><child>camera</child></joint>
 """
 
 

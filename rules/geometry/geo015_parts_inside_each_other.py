@@ -60,6 +60,7 @@ def _arm(y: float, mark: str = "", parent: str = "shoulder", turn: float = 0.0) 
   <pose>0 {y} 0 0 0 {turn}</pose>
   {box.format("0.2 0.2 0.2")}
 </link>
+<joint name="j0" type="fixed"><parent>base_link</parent><child>body</child></joint>
 <joint name="j1" type="revolute"><parent>body</parent><child>shoulder</child></joint>
 <joint name="j2" type="revolute"><parent>{parent}</parent><child>hand</child></joint>
 """

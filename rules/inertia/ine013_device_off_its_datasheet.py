@@ -141,7 +141,7 @@ def _sizes(robot: Robot, link: Link) -> list[tuple[float, ...]]:
             pose = robot.pose_of_part(link, shape.pose)
             if frame is not None and pose is not None:
                 placed.append((shape.geometry, frame.inverse @ pose))
-        box = box_around(placed, robot.meshes)
+        box = box_around(placed, robot.scaled_meshes)
         if box is not None:
             sizes.append(tuple(sorted(b - a for a, b in zip(box.low, box.high, strict=True))))
     return sizes

@@ -45,7 +45,8 @@ _FOOT = """
   <collision name="c"><geometry><sphere><radius>0.05</radius></sphere></geometry></collision>
 </link>
 <joint name="{name}_leg" type="prismatic">
-  <parent>base_link</parent><child>{name}</child><axis><xyz>0 0 1</xyz></axis>
+  <parent>base_link</parent><child>{name}</child>
+  <axis><xyz>0 0 1</xyz><limit><lower>-0.1</lower><upper>0</upper></limit></axis>
 </joint>
 """
 _PLACES = {"fl": (0.3, 0.3), "rl": (-0.3, 0.3), "fr": (0.3, -0.3), "rr": (-0.3, -0.3)}

@@ -25,9 +25,7 @@ _VERBS = {
 }
 
 
-def unrest(
-    trial: Trial, limits: Mapping[str, float] = SETTLE_LIMITS
-) -> Iterator[tuple[str, str]]:
+def unrest(trial: Trial, limits: Mapping[str, float] = SETTLE_LIMITS) -> Iterator[tuple[str, str]]:
     """Yield the figures that are beyond their limits, each with what the robot does.
 
     Args:
