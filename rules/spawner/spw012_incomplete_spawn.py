@@ -29,7 +29,7 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     """Report `<spawn>` elements without world or with wrong flags."""
     function = spawner.functions.get("spawner")
     names = [parameter.name for parameter in function.parameters] if function else []
-    if not spawned.spawns and not spawned.gazebo_factories:
+    if not spawned.spawns:
         yield finding(function or spawner.entry.whole(), "the spawner emits no <spawn>")
     for spawn in spawned.spawns:
         yield from _judge_flags(spawn)
