@@ -98,8 +98,8 @@ def unplaced_part(robot: Robot) -> str:
 
 def _unplaced(robot: Robot) -> Iterator[str]:
     tree = robot.tree
-    for tie in tree.broken:
-        yield f"an end of joint {tie.joint.name.value!r} is not known"
+    for broken in tree.broken:
+        yield f"an end of joint {broken.joint.name.value!r} is not known"
     for tie in tree.ties:
         if tie.parent == tie.child:
             yield f"joint {tie.joint.name.value!r} connects a link to itself"

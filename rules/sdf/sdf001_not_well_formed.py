@@ -82,9 +82,7 @@ BAD = [
 """
     },
     {"model.config": "\n<?xml version='1.0'?><!-- ^ SDF001 -->\n<model/>\n"},
-    {
-        "worlds/example.sdf": "<sdf><!-- & --><world name='a & b'/></sdf><!-- ^ SDF001 -->"
-    },
+    {"worlds/example.sdf": "<sdf><!-- & --><world name='a & b'/></sdf><!-- ^ SDF001 -->"},
     {"worlds/example.sdf": "<sdf version='1.6'/>\n<sdf version='1.7'/><!-- ^ SDF001 -->\n"},
     {"urdf/model.urdf": "", "@reported": ["urdf/model.urdf:1"]},
 ]

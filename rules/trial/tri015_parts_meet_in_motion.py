@@ -1,7 +1,8 @@
 """Parts that pass through each other when a joint moves through its range.
 
 The real arm hits its own robot. Gazebo lets the parts pass, so a plan that works in the simulation
-breaks the machine.
+breaks the machine. Legs may meet at the ends of their ranges, which no gait reaches: this is
+information.
 
 Fix: narrow the joint's limits, or shrink the collisions.
 Source: a collision query in steps through the range of each joint, one at a time.
@@ -11,7 +12,7 @@ from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("TRI015", "parts-meet-in-motion", Severity.WARNING, Concern.ROBOT)
+@rule("TRI015", "parts-meet-in-motion", Severity.INFO, Concern.ROBOT)
 def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
     """Report parts that overlap when a joint moves through its range.
 

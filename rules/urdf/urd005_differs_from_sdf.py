@@ -1,7 +1,8 @@
 """A description for RViz that differs from the simulated robot.
 
 Teams plan with the frames that RViz knows. A link that only the simulation has is a frame that
-nobody finds. If a mass differs, one of the two files is out of date.
+nobody finds. If a mass differs, one of the two files is out of date; only RViz reads that of the
+description, so this is information.
 
 Fix: generate the URDF file again from model.sdf.
 Source: Model Migration Guide: the URDF file is converted from the SDF model, so that both agree.
@@ -51,6 +52,7 @@ def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) ->
                 theirs.inertial.mass,
                 f"link {name!r} has a mass of {theirs.mass:g} kg, but {ours.mass:g} kg in "
                 f"{robot.document.source.file}",
+                severity=Severity.INFO,
                 key="mass",
                 related=[(ours.inertial.mass, "in the simulation")],
             )

@@ -2,7 +2,8 @@
 
 Gazebo Classic drops a link without `<inertial>`, with its sensors and all links below it, unless a
 fixed joint merges it into a link that has a mass. Frames of sensors are merged, so they need no
-inertial.
+inertial. A description without any `<gazebo>` tag may be made for RViz or planning alone: there a
+missing inertial is a warning.
 
 Fix: give each link that moves an `<inertial>`, a `<collision>` and a `<visual>`.
 Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children links ignored".
@@ -50,10 +51,11 @@ def _left_out(description: UrdfDescription, link: Link, links: list[Link]) -> Fi
     lost += [f"link {below[0]!r} below it"] if below else []
     with_it = f", with {' and '.join(lost)}" if lost else ""
     missed = lost or any(link.collisions or link.visuals for link in links)
+    grave = missed and description.gazebo
     return finding(
         link,
         f"link {link.name.value!r} has no <inertial>, so Gazebo drops it{with_it}",
-        severity=None if missed else Severity.WARNING,
+        severity=None if grave else Severity.WARNING,
     )
 
 

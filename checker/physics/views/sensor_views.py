@@ -166,8 +166,9 @@ def _content_of(robot: Robot) -> Content:
 
     def content(uri: Located[str]) -> tuple[MeshFile, str] | MeshFault:
         known = robot.scaled_meshes.of(uri)
-        misscaled = isinstance(known, MeshFault) and known.trouble is MeshTrouble.MISSCALED
-        return known if misscaled else meshes.content(uri)
+        if isinstance(known, MeshFault) and known.trouble is MeshTrouble.MISSCALED:
+            return known
+        return meshes.content(uri)
 
     return content
 
