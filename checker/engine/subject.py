@@ -51,7 +51,7 @@ from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
 from checker.physics.mesh.process import mesh_server
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.physics.trial.run import RobotTrials
-from checker.physics.trial.settling import unrest
+from checker.physics.trial.settling import unrest_of
 from checker.physics.views.sensor_views import RobotViews
 from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.source.xml import XmlDocument
@@ -295,8 +295,8 @@ class Subject(Record, eq=False, dict=True):
         if isinstance(driven, NotAvailable):
             return driven
         for robot_trial in driven:
-            if any(unrest(robot_trial.trial)):
-                return NotAvailable("the robot does not come to rest before it is driven")
+            if reason := robot_trial.unlike or unrest_of(robot_trial.trial):
+                return NotAvailable(reason)
         return tuple(SettledTrial(each.robot, each.trial) for each in driven)
 
     @property

@@ -24,7 +24,7 @@ from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.geometry.boxes import Box, box_around
 from checker.model.geometry.convex import support
-from checker.model.geometry.mesh_units import ScaledMeshes, misscaled_meshes
+from checker.model.geometry.mesh_units import ScaledMeshes
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
@@ -155,7 +155,7 @@ class Robot(Part, dict=True):
 
     @cached_property
     def unknown_masses(self) -> dict[str, str]:
-        """Links whose mass is not known or negative, with the reason as the end of a sentence."""
+        """Links whose mass is none, with the reason as the end of a sentence."""
         return unknown_masses(self)
 
     @property
@@ -276,8 +276,7 @@ class Robot(Part, dict=True):
     @cached_property
     def scaled_meshes(self) -> ScaledMeshes:
         """What its mesh files hold, without those whose unit is wrong."""
-        misscaled = {mesh.use.uri.span: mesh.unit for mesh in misscaled_meshes(self)}
-        return ScaledMeshes(self.meshes, misscaled)
+        return ScaledMeshes(self)
 
     @cached_property
     def mesh_uses(self) -> tuple[MeshUse, ...]:

@@ -120,16 +120,16 @@ def _unplaced(robot: Robot) -> Iterator[str]:
 def unknown_masses(robot: Robot) -> dict[str, str]:
     """Return the links whose stated mass is none, by scoped name, with the reason.
 
-    The reason is the end of a sentence. A mass of zero is known: frames have it.
+    The reason is the end of a sentence. A mass of zero is right for frames, but not for bodies.
     """
     misread = {fault.span for fault in robot.faults_of(FaultKind.VALUE)}
     unknown = {}
     for link in robot.links:
         mass = link.inertial.mass if link.inertial is not None else None
-        if mass is None:
+        if mass is None or not mass.stated:
             continue
         if mass.span in misread or not math.isfinite(mass.value):
             unknown[link.scoped_name] = f"the mass of link {link.name.value!r} is not known"
-        elif mass.value < 0.0:
-            unknown[link.scoped_name] = f"the mass of link {link.name.value!r} is negative"
+        elif mass.value < 0.0 or (mass.value == 0.0 and link.collisions):
+            unknown[link.scoped_name] = f"the mass of link {link.name.value!r} is not positive"
     return unknown

@@ -10,7 +10,7 @@ Source: experience; the robot starts 10 mm above the ground and gets no command 
 
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.settling import SETTLE_LIMITS, unrest
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
 @rule("TRI002", "does-not-settle", Severity.ERROR, Concern.ROBOT)
@@ -40,6 +40,9 @@ def check(
         rest_penetration_above: Metres that the deepest contact may be in the ground in the last 0.5
             s; more is an error.
     """
+    if driven.unlike:
+        yield unchecked(driven.unlike)
+        return
     limits = {
         "settle_drop": settle_drop_above,
         "settle_rise": settle_rise_above,

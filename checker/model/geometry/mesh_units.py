@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
@@ -11,7 +12,7 @@ from checker.model.components import Collision, Link, Visual
 from checker.model.geometry.boxes import Box, box_around
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.transform import Vector
-from checker.model.mesh import Mesh, Meshes, MeshFault, MeshTrouble, MeshUse
+from checker.model.mesh import Mesh, MeshFault, MeshTrouble, MeshUse
 from checker.source.text import Located, Span
 
 if TYPE_CHECKING:
@@ -87,23 +88,22 @@ def misscaled_meshes(robot: Robot, limits: UnitLimits = UNIT_LIMITS) -> Iterator
             yield MisscaledMesh(use, size, extent.unlike(use), "rest of its link", unit)
 
 
-class ScaledMeshes(Record, eq=False):
-    """The meshes of a robot without those of a wrong unit: a `Meshes`.
+class ScaledMeshes(Record, eq=False, dict=True):
+    """The meshes of a robot without those of a wrong unit: a `Meshes`."""
 
-    Attributes:
-        meshes: All of them.
-        misscaled: Where the URIs of those stand whose unit is wrong, and what they are in.
-    """
-
-    meshes: Meshes
-    misscaled: dict[Span, str]
+    robot: Robot
 
     def of(self, uri: Located[str]) -> Mesh | MeshFault:
         """Return what the file behind a URI holds, if its unit is right."""
-        unit = self.misscaled.get(uri.span)
+        unit = self._units.get(uri.span)
         if unit is not None:
             return MeshFault(MeshTrouble.MISSCALED, f"seems to be in {unit}")
-        return self.meshes.of(uri)
+        return self.robot.meshes.of(uri)
+
+    @cached_property
+    def _units(self) -> dict[Span, str]:
+        """Where the URIs of meshes of a wrong unit stand, and what they seem to be in."""
+        return {mesh.use.uri.span: mesh.unit for mesh in misscaled_meshes(self.robot)}
 
 
 class _Extent(Record):

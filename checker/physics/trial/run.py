@@ -150,5 +150,4 @@ def _obstacle(robot: Robot) -> NotAvailable | None:
         )
     if robot.is_static:
         return NotAvailable("the model is static, so there is nothing to drive", applicable=False)
-    unknown = robot.unplaced_part or next(iter(robot.unknown_masses.values()), "")
-    return NotAvailable(unknown) if unknown else None
+    return None

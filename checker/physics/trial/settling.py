@@ -43,3 +43,8 @@ def unrest(trial: Trial, limits: Mapping[str, float] = SETTLE_LIMITS) -> Iterato
         else:
             symptom = f"{_VERBS[name]} {value:.3g} m (at most {limit:g} m)"
         yield name, symptom
+
+
+def unrest_of(trial: Trial) -> str:
+    """Return why the figures of the drive mean nothing; empty for a robot that came to rest."""
+    return "the robot does not come to rest before it is driven" if any(unrest(trial)) else ""
