@@ -10,7 +10,7 @@ from checker.model.geometry.boxes import Box
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
-from checker.model.mesh import Mesh, Meshes, MeshFault, MeshTrouble, mesh_of
+from checker.model.mesh import Mesh, Meshes, MeshFault, mesh_of
 from checker.model.robot import Robot
 
 # How much room a shape takes, and how far it reaches from a point: closed formulas.
@@ -98,13 +98,10 @@ def solid(shapes: Iterable[_Shape]) -> list[_Shape]:
 
 
 def not_looked_at(robot: Robot, link: Link) -> str:
-    """Return why a mesh of a link is not known, as the end of a sentence.
-
-    Empty when all are, and for files that are missing or broken: other rules say so.
-    """
+    """Return why a mesh of a link is not known, as the end of a sentence; empty when all are."""
     for shape in solid((*link.collisions, *link.visuals)):
         mesh = robot.mesh_of(shape)
-        if isinstance(mesh, MeshFault) and mesh.trouble is MeshTrouble.NOT_LOOKED_AT:
+        if isinstance(mesh, MeshFault):
             uri = shape.geometry.uri
             return f"the mesh {uri.value if uri else ''} {mesh.reason}"
     return ""
