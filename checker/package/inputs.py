@@ -22,6 +22,8 @@ from checker.package.workspace import Workspace
 
 SINGLE_FILE_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro", ".xml")
 SUBMISSIONS = "submitted_models"
+# A file in a package may lie deep: `robots/NAME/urdf/NAME.urdf`.
+FILE_LEVELS = 6
 # Archives of a repository wrap everything in a folder, sometimes in two.
 MAX_WRAPPERS = 3
 _WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
@@ -194,10 +196,34 @@ def _collect(
 def _open_single(path: Path, file: Path, further: tuple[Path, ...]) -> Opened:
     if not os.access(file, os.R_OK):
         raise UnreadableInput(path, "cannot be read: permission denied", "check its permissions")
-    around = enclosing_package(file.parent)
+    around = enclosing_package(file.parent, FILE_LEVELS)
     homes = (around.parent, *further) if around else further
     workspace = Workspace(homes)
     return Opened(workspace, (Package(file.parent, workspace, only=file.name),))
+
+
+def with_package_path(package: Package, folders: Sequence[Path]) -> Package:
+    """Return a package that also finds the packages in further folders.
+
+    Args:
+        package: As it was opened.
+        folders: Each holds packages, or is one.
+
+    Raises:
+        UnreadableInput: One of them is no folder.
+    """
+    known = package.workspace.directories
+    homes = tuple(home for home in dict.fromkeys(map(_home, folders)) if home not in known)
+    if not homes:
+        return package
+    return Package(package.root, Workspace((*known, *homes)), package.only)
+
+
+def _home(folder: Path) -> Path:
+    real = _resolved(folder)
+    if not real.is_dir():
+        raise UnreadableInput(folder, "is not a folder", "give a folder of packages, or a package")
+    return real.parent if looks_like_package(real) else real
 
 
 def _is_folder(place: Path) -> bool:
