@@ -75,6 +75,8 @@ def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
             message = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"
         elif child.tag in OF_JOINTS and name and name not in robot.joints_by_name:
             message = f"<{child.tag}> is for a joint, but {name!r} is a link"
+        elif child.tag == "sensor" and child.get("type") == "force_torque":
+            continue  # measures at a joint
         elif child.tag in OF_LINKS and name and name not in robot.links_by_name:
             message = f"<{child.tag}> is for a link, but {name!r} is a joint"
         else:
@@ -92,6 +94,7 @@ _PLUGIN = '<plugin name="p" filename="libgazebo_ros_control.so"/>'
 GOOD = [
     {"@urdf": True},
     _tag("<mu1>1</mu1><own_extension/>", "upper_arm"),
+    _tag('<sensor name="s" type="force_torque"/>', "shoulder"),
     _tag("<provideFeedback>true</provideFeedback>", "shoulder"),
     _tag("<static>true</static>" + _PLUGIN),
     {"urdf/rviz.urdf": '<robot name="r"><link name="a"/><gazebo reference="b"/></robot>'},
