@@ -144,7 +144,7 @@ def _asked_for(rule: Rule, profile: Profile, settings: Settings) -> bool:
 
 
 def _needs_trial(rule: Rule) -> bool:
-    return bool({RobotTrial, RepeatedTrial} & set(rule.needs.values()))
+    return any(issubclass(kind, RobotTrial) for kind in rule.needs.values())
 
 
 def _switched_off(rule: Rule, profile: Profile, settings: Settings) -> Iterator[NotChecked]:

@@ -8,12 +8,12 @@ Source: the largest torque in the trial after the robot has settled, averaged ov
 the drive at full speed, compared with `<effort>`.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI009", "effort-limit-exceeded", Severity.WARNING, Concern.ROBOT)
-def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
+def check(driven: SettledTrial, *, warning_above: float = 1.0) -> Findings:
     """Report joints that need more torque or force than their effort limit.
 
     Options:
@@ -33,7 +33,7 @@ def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
             )
 
 
-def _unit(driven: RobotTrial, name: str) -> str:
+def _unit(driven: SettledTrial, name: str) -> str:
     joint = driven.robot.joints_by_name.get(name)
     return "N" if joint is not None and joint.type.value == "prismatic" else "N·m"
 

@@ -156,7 +156,7 @@ class GeomReader:
         if geometry.shape == "cone":
             points = _cone(geometry)
         else:
-            mesh = self.robot.meshes.of(geometry.uri) if geometry.uri is not None else None
+            mesh = self.robot.scaled_meshes.of(geometry.uri) if geometry.uri is not None else None
             serious = not isinstance(mesh, MeshFault) or mesh.trouble in _SERIOUS
             points = _scaled(mesh, geometry)
         if isinstance(points, str):
