@@ -372,7 +372,9 @@ class Subject(Record, eq=False, dict=True):
             return NotAvailable("the package needs no specifications.md", applicable=False)
         part = self.package.part("specifications.md")
         if isinstance(part, Missing):
-            return NotAvailable(part.reason)
+            # PKG003 reports a sheet that is nowhere; one of a sibling may say anything.
+            elsewhere = part.package_not_at_hand is not None
+            return NotAvailable(part.reason, applicable=elsewhere)
         source = self.package.read(part.path)
         if isinstance(source, NotReadable):
             return NotAvailable(f"{part.path} {source.reason}")

@@ -24,6 +24,7 @@ from checker.report.scene.processes import StartedProcesses
 from checker.rule_testing import NAME, write_example
 from tests.mesh.files import binary_stl, box, dae, obj
 
+FUEL = "https://fuel.ignitionrobotics.org/1.0/acme/models"
 CUBE = binary_stl(box(1, 1, 1))
 
 
@@ -57,6 +58,9 @@ def read(files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_CACHE
         (f"model://{NAME}/meshes/a.stl", None),
         (f"model://{NAME.upper()}/meshes/a.stl", None),
         (f"package://{NAME}/meshes/a.stl", None),
+        (f"{FUEL}/{NAME.upper()}/tip/files/meshes/a.stl", None),
+        (f"{FUEL}/{NAME.upper()}/2/files/meshes/b.stl", MeshTrouble.MISSING),
+        (f"{FUEL}/another/tip/files/meshes/a.stl", MeshTrouble.NOT_LOOKED_AT),
         ("meshes/A.stl", MeshTrouble.MISSING),
         ("meshes", MeshTrouble.MISSING),
         ("../other/meshes/a.stl", MeshTrouble.NOT_LOOKED_AT),
