@@ -159,7 +159,9 @@ class Rule(Record, dict=True):
     @cached_property
     def needs(self) -> dict[str, type]:
         """Parts of the package that the function asks for, by parameter name."""
-        return {name: get_args(hint)[0] if _may_be_none(hint) else hint for name, hint in self._hints}
+        return {
+            name: get_args(hint)[0] if _may_be_none(hint) else hint for name, hint in self._hints
+        }
 
     @cached_property
     def spares(self) -> frozenset[str]:

@@ -49,7 +49,9 @@ def _starts_outside(joint: Joint) -> bool:
     return any(not axis.lower.value <= 0.0 <= axis.upper.value for axis in joint.axes)
 
 
-_EFFORT = re.compile(r"\b(?:effort|torque)s?\W{1,3}limit|\blimit\w*\b[^.]{0,60}\b(?:effort|torque)", re.I)
+_EFFORT = re.compile(
+    r"\b(?:effort|torque)s?\W{1,3}limit|\blimit\w*\b[^.]{0,60}\b(?:effort|torque)", re.I
+)
 _SHORTEST_WORD = 4
 
 
