@@ -9,6 +9,7 @@ Source: Model Migration Guide, final directory structure; Robot Model Checklist.
 """
 
 import posixpath
+import re
 from collections.abc import Iterator
 
 from checker.package.inheritance import Found, Missing
@@ -16,6 +17,7 @@ from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
 from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+from checker.source.text import SourceText
 
 MANIFESTS = {
     "package.xml": "which ROS needs to find the package",
@@ -26,13 +28,14 @@ REQUIRED = {
     "specifications.md": "without which no review begins",
 }
 EXPECTED = {
-    "launch/description.launch": "which loads the robot description",
     "launch/example.ign": "which shows how to start the robot",
     "worlds/example.sdf": "which shows the robot in a world",
     "urdf": "which describes the robot for RViz",
     "thumbnails": "which holds pictures of the robot",
 }
 TOPICS = "launch/vehicle_topics.launch"
+DESCRIPTION = {"launch/description.launch": "which loads the robot description"}
+_LOADS = re.compile(r"\brobot_description\b|\bdescription\w{0,40}\.launch\b")
 
 
 @rule("PKG003", "missing-file", Severity.ERROR, Concern.PAPERWORK)
@@ -51,6 +54,21 @@ def check(package: Package) -> Findings:
         yield from _missing(package, REQUIRED, Severity.ERROR)
         yield from _missing(package, EXPECTED, Severity.WARNING)
         yield from _topics(package)
+        if not any(_LOADS.search(text) for text in _started_elsewhere(package)):
+            yield from _missing(package, DESCRIPTION, Severity.WARNING)
+
+
+def _started_elsewhere(package: Package) -> Iterator[str]:
+    """Yield the texts of the launch files of other names that the spawner starts."""
+    for started in package.references:
+        own = started.package_name == package.name
+        holder = package if own else package.workspace.package(started.package_name)
+        if started.kind is not ReferenceKind.ROSLAUNCH or holder is None:
+            continue
+        for file in holder.index.with_suffix(".launch"):
+            source = holder.read(file.path)
+            if posixpath.basename(file.path) == started.file and isinstance(source, SourceText):
+                yield source.text
 
 
 def _missing(

@@ -1,7 +1,7 @@
 """What xacro 1.13 of ROS Melodic, which runs on Python 2, does otherwise than the newer releases.
 
-Expressions find all of Python's functions, and `map`, `filter`, `range` and `zip` make lists. A macro
-that is defined while another one is expanded is known everywhere. Tags need no prefix.
+Expressions find all of Python's functions, and `map`, `filter`, `range` and `zip` make lists. A
+macro that is defined while another one is expanded is known everywhere. Tags need no prefix.
 """
 
 from __future__ import annotations
