@@ -39,9 +39,10 @@ def check(package: Package, robot: Robot) -> Findings:
         named = read_fuel_uri(uri.value)
         if named is None or bool(named.path) is not is_file:
             yield finding(uri, f"Fuel URI {uri.value} is not of the form {_MEANT[is_file]}")
-        elif is_file and (holder := package_on_fuel(package, named.model)):
-            if not holder.exists(named.path):
-                yield finding(uri, f"{uri.value}: {holder.name} does not have {named.path}")
+            continue
+        holder = package_on_fuel(package, named.model) if is_file else None
+        if holder is not None and not holder.exists(named.path):
+            yield finding(uri, f"{uri.value}: {holder.name} does not have {named.path}")
 
 
 def _visual(path: str) -> str:

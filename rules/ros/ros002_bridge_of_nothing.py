@@ -77,8 +77,9 @@ def _publisher(robot: Robot, bridge: Bridge, release: str) -> Plugin | None:
     for plugin in robot.plugins if link is None else (*robot.plugins, *_plugins_in(link)):
         if library_stem(plugin.filename.value) not in known:
             return plugin
-    sensors = link.sensors if link and topic else ()
-    own = (plugin for s in sensors if s.name.value == topic.sensor for plugin in s.plugins)
+    sensors = link.sensors if link else ()
+    named = topic.sensor if topic else ""
+    own = (plugin for s in sensors if s.name.value == named for plugin in s.plugins)
     return next((p for p in own if library_stem(p.filename.value) not in of_gazebo), None)
 
 

@@ -45,7 +45,7 @@ def check(
 
 
 def _starts_outside(joint: Joint) -> bool:
-    """Say whether a joint is pushed to its limit when it starts; the servo then works against it."""
+    """Say whether a joint is pushed to a limit when it starts, against its servo."""
     return any(not axis.lower.value <= 0.0 <= axis.upper.value for axis in joint.axes)
 
 

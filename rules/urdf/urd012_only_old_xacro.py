@@ -1,9 +1,9 @@
 """A xacro file that only the xacro of ROS Melodic expands.
 
-On Melodic, where the challenge runs, the robot is loaded. xacro of ROS Noetic and later, which runs on
-Python 3, ends with an error or leaves tags as they are: `map`, `filter` and `range` make no lists
-there, fewer functions of Python are known, a macro that is defined while another one is expanded is
-known in that one alone, and tags need the prefix `xacro:`.
+On Melodic, where the challenge runs, the robot is loaded. xacro of ROS Noetic and later, which runs
+on Python 3, ends with an error or leaves tags as they are: `map`, `filter` and `range` make no
+lists there, fewer functions of Python are known, a macro that is defined while another one is
+expanded is known in that one alone, and tags need the prefix `xacro:`.
 
 Fix: write what both take: `list(map(…))`, a comprehension instead of `filter`, files with macros
 included outside of macros, and `xacro:` before each tag.
@@ -46,7 +46,8 @@ _MARK = "  <!-- ^ URD012 -->"
 _PARTS = (
     f'{_HEAD}<xacro:macro name="wheel" params="side"><link name="${{side}}"/></xacro:macro></robot>'
 )
-_INCLUDED = """<xacro:macro name="body" params=""><xacro:include filename="parts.xacro"/><link name="b"/>
+_INCLUDED = """<xacro:macro name="body" params="">
+<xacro:include filename="parts.xacro"/><link name="b"/>
 </xacro:macro>
 <xacro:body/>
 """
