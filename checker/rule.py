@@ -165,7 +165,7 @@ class Rule(Record, dict=True):
 
     @cached_property
     def spares(self) -> frozenset[str]:
-        """Names of the parameters for parts that the rule can do without: `Specification | None`."""
+        """Names of the parameters for parts that a rule can do without: `Specification | None`."""
         return frozenset(name for name, hint in self._hints if _may_be_none(hint))
 
     @property
