@@ -61,7 +61,7 @@ def _message(bridge: Bridge, listens: str, fault: str) -> str:
 def _fault(robot: Robot, bridge: Bridge, names: Suggestions) -> str | None:
     """Return what a bridge listens to that nothing publishes."""
     topic = bridge.sensor
-    if topic is None or "$(" in bridge.ign_topic:
+    if topic is None or bridge.node.usual or "$(" in bridge.ign_topic:
         return None
     return _nothing_at(robot, topic, names)
 
