@@ -47,7 +47,7 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.robot_mass import weigh
-from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
+from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris, picked_parts
 from checker.physics.mesh.process import mesh_server
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.physics.trial.run import RobotTrials
@@ -217,8 +217,8 @@ class Subject(Record, eq=False, dict=True):
         return tuple(replace(robot, meshes=self._meshes(robot)) for robot in robots)
 
     def _meshes(self, robot: Robot) -> PackageMeshes:
-        uris = mesh_uris(robot)
-        return PackageMeshes(self.package, uris, self.cache, self.stages, self.mesh_server)
+        uris, picks, server = mesh_uris(robot), picked_parts(robot), self.mesh_server
+        return PackageMeshes(self.package, uris, self.cache, self.stages, server, picks)
 
     @cached_property
     def mesh_server(self) -> Server:

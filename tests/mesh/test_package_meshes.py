@@ -272,3 +272,25 @@ def test_the_name_in_the_model_says_the_format_not_that_behind_a_link(tmp_path: 
         robots = Subject(opened.packages[0]).robots
         assert isinstance(robots, tuple)
         assert isinstance(robots[0].mesh_uses[0].file, Mesh)
+
+
+def test_parts_that_are_picked_are_measured_by_themselves(tmp_path: Path) -> None:
+    node = '<node name="lid"><translate>5 0 0</translate><instance_geometry url="#part"/></node>'
+    pick = "<submesh><name>{}</name></submesh>"
+    visuals = "".join(
+        f'<visual name="{name}"><geometry><mesh><uri>meshes/a.dae</uri>{pick.format(name)}</mesh>'
+        "</geometry></visual>"
+        for name in ("body", "lid", "none")
+    )
+    example = {"@fragment": visuals, "meshes/a.dae": dae(box(1, 1, 1), node=node)}
+    with open_input(write_example(example, tmp_path)) as opened:
+        robots = Subject(opened.packages[0]).robots
+        assert isinstance(robots, tuple)
+        body, lid, none = robots[0].mesh_uses
+        assert isinstance(body.file, Mesh)
+        assert body.file.triangles == 24
+        assert body.mesh is not None
+        assert lid.mesh is not None
+        assert (body.mesh.low, body.mesh.high) == ((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+        assert (lid.mesh.low, lid.mesh.high) == ((4.5, -0.5, -0.5), (5.5, 0.5, 0.5))
+        assert none.mesh is None
