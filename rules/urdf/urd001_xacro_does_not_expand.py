@@ -5,7 +5,7 @@ expressions. Files that contain only macros are not reported, nor files that onl
 at launch.
 
 Fix: correct the error that the message names; `xacro FILE name:=x` shows the same on the command
-line. URD012 reports what only xacro of ROS Noetic and later refuses.
+line. URD014 reports what only xacro of ROS Noetic and later refuses.
 Source: xacro, "unknown macro name", "Undefined substitution argument".
 """
 

@@ -14,7 +14,7 @@ from checker.model.urdf.files import UrdfFiles
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("URD012", "only-old-xacro", Severity.ERROR, Concern.PORTABILITY)
+@rule("URD014", "only-old-xacro", Severity.ERROR, Concern.PORTABILITY)
 def check(files: UrdfFiles) -> Findings:
     """Report what newer releases of xacro refuse in files that Melodic's expands."""
     for refused in files.old:
@@ -42,7 +42,7 @@ def _loaded(body: str) -> dict[str, str]:
     return {_LAUNCH: _LOADING, _DESCRIPTION: f"{_HEAD}{body}\n</robot>\n"}
 
 
-_MARK = "  <!-- ^ URD012 -->"
+_MARK = "  <!-- ^ URD014 -->"
 _PARTS = (
     f'{_HEAD}<xacro:macro name="wheel" params="side"><link name="${{side}}"/></xacro:macro></robot>'
 )
