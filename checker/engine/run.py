@@ -195,13 +195,20 @@ def crashed(what: str, error: Exception) -> NotChecked:
 
 
 def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any]] | NotAvailable:
-    """Return one set of arguments for each combination of the parts that a rule asks for."""
+    """Return one set of arguments for each combination of the parts that a rule asks for.
+
+    None stands for a part that the package has not and the rule can do without; one that only
+    cannot be had is missed all the same.
+    """
     wanted: dict[str, Sequence[object]] = {}
     for name, kind in rule.needs.items():
         had = (context,) if kind is Context else parts.part(kind)
-        if isinstance(had, NotAvailable):
+        if not isinstance(had, NotAvailable):
+            wanted[name] = had
+        elif name in rule.spares and not had.applicable:
+            wanted[name] = (None,)
+        else:
             return had
-        wanted[name] = had
     return [dict(zip(wanted, choice, strict=True)) for choice in product(*wanted.values())]
 
 

@@ -47,7 +47,7 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.robot_mass import weigh
-from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
+from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris, picked_parts
 from checker.physics.mesh.process import mesh_server
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.physics.trial.run import RobotTrials
@@ -218,8 +218,8 @@ class Subject(Record, eq=False, dict=True):
         return tuple(replace(robot, meshes=self._meshes(robot)) for robot in robots)
 
     def _meshes(self, robot: Robot) -> PackageMeshes:
-        uris = mesh_uris(robot)
-        return PackageMeshes(self.package, uris, self.cache, self.stages, self.mesh_server)
+        uris, picks, server = mesh_uris(robot), picked_parts(robot), self.mesh_server
+        return PackageMeshes(self.package, uris, self.cache, self.stages, server, picks)
 
     @cached_property
     def mesh_server(self) -> Server:
@@ -386,7 +386,9 @@ class Subject(Record, eq=False, dict=True):
             return NotAvailable("the package needs no specifications.md", applicable=False)
         part = self.package.part("specifications.md")
         if isinstance(part, Missing):
-            return NotAvailable(part.reason)
+            # PKG003 reports a sheet that is nowhere; one of a sibling may say anything.
+            elsewhere = part.package_not_at_hand is not None
+            return NotAvailable(part.reason, applicable=elsewhere)
         source = self.package.read(part.path)
         if isinstance(source, NotReadable):
             return NotAvailable(f"{part.path} {source.reason}")

@@ -105,7 +105,7 @@ def uses_of(package: Package) -> Iterator[Use]:
     Launch files that are not well-formed are left out.
     """
     for reference in package.references:
-        if reference.kind is not ReferenceKind.DEPENDENCY:
+        if reference.kind is not ReferenceKind.DEPENDENCY and not reference.by_sibling:
             how = f"{reference.kind} {reference.package_name} {reference.file}".strip()
             yield Use(reference.package_name, reference.place, how)
     for file in package.index.with_suffix(".launch", ".sdf"):

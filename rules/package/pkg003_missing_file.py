@@ -30,13 +30,14 @@ MANIFESTS = {
 REQUIRED = {"launch/spawner.rb": "which spawns the robot in a world"}
 SHEET = "specifications.md"
 EXPECTED = {
-    "launch/description.launch": "which loads the robot description",
     "launch/example.ign": "which shows how to start the robot",
     "worlds/example.sdf": "which shows the robot in a world",
     "urdf": "which describes the robot for RViz",
 }
 PICTURES = {"thumbnails": "which holds pictures of the robot"}
 TOPICS = "launch/vehicle_topics.launch"
+DESCRIPTION = {"launch/description.launch": "which loads the robot description"}
+_LOADS = re.compile(r"\brobot_description\b|\bdescription\w{0,40}\.launch\b")
 
 
 @rule("PKG003", "missing-file", Severity.ERROR, Concern.PAPERWORK)
@@ -57,6 +58,21 @@ def check(package: Package) -> Findings:
         yield from _missing(package, EXPECTED, Severity.WARNING)
         yield from _missing(package, PICTURES, Severity.INFO)
         yield from _topics(package)
+        if not any(_LOADS.search(text) for text in _started_elsewhere(package)):
+            yield from _missing(package, DESCRIPTION, Severity.WARNING)
+
+
+def _started_elsewhere(package: Package) -> Iterator[str]:
+    """Yield the texts of the launch files of other names that the spawner starts."""
+    for started in package.references:
+        own = started.package_name == package.name
+        holder = package if own else package.workspace.package(started.package_name)
+        if started.kind is not ReferenceKind.ROSLAUNCH or holder is None:
+            continue
+        for file in holder.index.with_suffix(".launch"):
+            source = holder.read(file.path)
+            if posixpath.basename(file.path) == started.file and isinstance(source, SourceText):
+                yield source.text
 
 
 def _sheet(package: Package) -> Iterator[Finding | Unchecked]:

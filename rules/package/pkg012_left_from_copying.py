@@ -88,7 +88,8 @@ def _commands(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
     manifest = paperwork.manifest
     for reference in package.references:
         name = reference.package_name
-        if reference.kind is not ReferenceKind.ROSLAUNCH or package.kind is not PackageKind.ROBOT:
+        started = reference.kind is ReferenceKind.ROSLAUNCH and not reference.by_sibling
+        if not started or package.kind is not PackageKind.ROBOT:
             continue
         if SUBMISSION_NAME.search(name) is None or is_same_robot(name, package.name):
             continue

@@ -13,6 +13,7 @@ this.
 from collections.abc import Iterator
 
 from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.launcher import WORLD as LAUNCHED_WORLD
 from checker.expand.spawner.reader import Spawner
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.xml import Element
@@ -37,7 +38,9 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
         world = spawn.child("world")
         if world is None or not world.text.stated:
             yield finding(world or spawn, "<spawn> names no <world>")
-        elif len(names) > WORLD and names[WORLD] not in spawned.parameters_of(world.text.span):
+        elif len(names) > WORLD and spawned.parameters_of(world.text.span).isdisjoint(
+            {names[WORLD], LAUNCHED_WORLD}
+        ):
             yield finding(
                 world.text,
                 f"<world> is {world.text.value!r}, expected #{{{names[WORLD]}}}",

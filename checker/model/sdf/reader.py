@@ -19,6 +19,7 @@ from checker.model.sdf.frame_faults import unknown_frames
 from checker.model.sdf.links import read_frame, read_joint, read_link, read_plugin
 from checker.model.sdf.scope import Scope
 from checker.model.values import ValueReader
+from checker.package.fuel import is_on_fuel, path_from_fuel
 from checker.package.manifests import SdfEntry, read_model_config
 from checker.package.package import Package
 from checker.source.text import Located
@@ -42,6 +43,9 @@ class ModelIncludes(Record):
 
     def _path(self, uri: str, folder: str) -> str | None:
         """Return the path of a model: of an available package, of a folder, or as it is named."""
+        if is_on_fuel(uri):
+            on_fuel = path_from_fuel(self.package, uri)
+            return self._model_in(on_fuel) if on_fuel is not None else None
         if uri.startswith("model://"):
             name, _, uri = uri.removeprefix("model://").partition("/")
             holder = self.package.workspace.package(name)
