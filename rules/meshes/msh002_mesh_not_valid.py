@@ -4,7 +4,8 @@ Blender, MuJoCo and most other loaders refuse it. A COLLADA file with `id="<STL_
 example, is not XML; Gazebo's parser reads all of it, so this is information.
 
 Fix: export the mesh again; in a COLLADA file replace `<` in ids by a letter.
-Source: the formats' specifications; tinyxml2, which allows `<` in values. Several accepted packages contain three such files for a lidar.
+Source: the formats' specifications; tinyxml2, which allows `<` in values. Several accepted packages
+contain three such files for a lidar.
 """
 
 from checker.model.mesh import NOT_XML, Mesh
