@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from checker.base.record import Record
@@ -55,31 +56,33 @@ def loose_parts(robot: Robot) -> LooseParts:
     if len(tops) < 2 or robot.is_static:
         return LooseParts()
     main = max(tops, key=lambda top: len(tops[top]))
-    excused, unclear = _tied_by_broken_joints(tree)
+    # A nested model that nothing ties is a robot of its own.
+    apart = {top: group for top, group in tops.items() if top != main and "::" not in top}
+    excused, unclear = _tied_by_broken_joints(tree, chain.from_iterable(apart.values()))
     excused |= {tie.child for tie in tree.ties if tie.parent == tie.child}
     loose = (
         LooseGroup(top, tuple(group), unclear)
-        for top, group in tops.items()
-        # A nested model that nothing ties is a robot of its own.
-        if top != main and "::" not in top and excused.isdisjoint(group)
+        for top, group in apart.items()
+        if excused.isdisjoint(group)
     )
     return LooseParts(main, tuple(loose))
 
 
-def _tied_by_broken_joints(tree: LinkTree) -> tuple[set[str], Joint | None]:
-    """Return links at joints with an unknown end.
+def _tied_by_broken_joints(tree: LinkTree, apart: Iterable[str]) -> tuple[set[str], Joint | None]:
+    """Return links at joints with an unknown end, among them those whose names are meant.
 
     The second value is a joint whose intended link is not known.
     """
-    suggestions = Suggestions(tree.links)
+    suggestions, anywhere = Suggestions(apart), Suggestions(tree.links)
     meant = {tie.known for tie in tree.broken if tie.known is not None}
     unclear = None
     for tie in tree.broken:
-        near = suggestions.near(tie.joint.scope + tie.missing.value)
-        if near is None:
-            unclear = tie.joint
-        else:
+        name = tie.joint.scope + tie.missing.value
+        near = suggestions.near(name)
+        if near is not None:
             meant.add(near)
+        elif anywhere.near(name) is None:
+            unclear = tie.joint
     return meant, unclear
 
 
