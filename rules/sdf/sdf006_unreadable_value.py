@@ -15,27 +15,39 @@ from collections.abc import Iterator, Mapping, Sequence
 from checker.base.resources import table
 from checker.model.sdf.document import QUATERNION_POSE, SdfDocument, misread, out_of_bounds
 from checker.model.sdf.poses import in_degrees
-from checker.model.sdf.schema import ElementType
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.model.sdf.schema import ElementType, type_of
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
+_Attributes = Mapping[str, Sequence[str]]
+"""Attribute name → type, default, required, as the schema has them."""
+
 
 @rule("SDF006", "unreadable-value", Severity.ERROR, Concern.ROBOT)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report texts and attributes that are not values of their type."""
     words = table("sdf_words")
     for element, kind in sdf.typed_elements:
         if kind is None:
             continue
-        yield from _text(element, kind)
+        attributes = _attribute_types(element, kind, context)
+        yield from _text(element, kind, attributes)
         above = element.parent.tag if element.parent is not None else ""
         choice = words["elements"].get(f"{above}/{element.tag}")
         yield from _word(element.text, f"<{element.tag}>", choice)
-        yield from _attributes(element, kind, words["attributes"])
+        yield from _attributes(element, attributes, words["attributes"])
 
 
-def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
+def _attribute_types(element: Element, kind: ElementType, context: Context) -> _Attributes:
+    """Return what attributes may stand at an element, with those of the version it is read as."""
+    if not element.attributes.keys() - kind.attributes.keys():
+        return kind.attributes
+    later = type_of(element, context.reads)
+    return kind.attributes if later is None else {**later.attributes, **kind.attributes}
+
+
+def _text(element: Element, kind: ElementType, attributes: _Attributes) -> Iterator[Finding]:
     text, value_type = element.text, kind.value_type
     if not text.stated:
         # An empty element that is required is for SDF005.
@@ -46,7 +58,7 @@ def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
                 severity=Severity.WARNING,
             )
         return
-    if value_type == "pose" and "rotation_format" in kind.attributes:
+    if value_type == "pose" and "rotation_format" in attributes:
         quaternion = element.get("rotation_format") == "quat_xyzw"
         value_type = QUATERNION_POSE if quaternion else value_type
         if quaternion and in_degrees(element):
@@ -58,9 +70,8 @@ def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
 
 
 def _attributes(
-    element: Element, kind: ElementType, words: Mapping[str, Sequence[str]]
+    element: Element, known: _Attributes, words: Mapping[str, Sequence[str]]
 ) -> Iterator[Finding]:
-    known = kind.attributes
     for name in element.attributes:
         written = element.attribute(name) if name in known else None
         if written is None or not written.value.strip():

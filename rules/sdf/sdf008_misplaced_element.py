@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of
-from checker.rule import Concern, Findings, Safety, Severity, finding, rule
+from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of, type_of
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
 
@@ -25,13 +25,15 @@ _Kinds = Mapping[Element, ElementType | None]
 
 
 @rule("SDF008", "misplaced-element", Severity.ERROR, Concern.ROBOT)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report elements that this SDF version knows, but not below this parent."""
     belonging: dict[tuple[str, ...], Sequence[str]] = {}
     kinds = dict(sdf.typed_elements)
     for element, kind in sdf.typed_elements:
         parent = element.parent
         if kind is not None or parent is None or element.tag not in all_tags(sdf.version):
+            continue
+        if type_of(element, context.reads) is not None:
             continue
         around = parent.parent.tag if parent.parent is not None else ""
         path = (around, parent.tag, element.tag)

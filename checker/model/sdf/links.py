@@ -99,7 +99,7 @@ _MOMENTS = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1
 
 def read_link(element: Element, scope: Scope) -> Link:
     """Read a `<link>` and enter its frame into the graph."""
-    name = scope.values.name(element)
+    name = scope.name(element)
     pose = scope.pose(element)
     scoped_name = scope.scoped(name.value)
     scope.graph.add(
@@ -181,7 +181,7 @@ def read_plugin(element: Element, nested_in: str = "", owner: str = "") -> Plugi
 
 def read_joint(element: Element, scope: Scope) -> Joint:
     """Read a `<joint>` and enter its frame into the graph: posed in its child by default."""
-    name = scope.values.name(element)
+    name = scope.name(element)
     scoped_name = scope.scoped(name.value)
     child = _end(element, "child", scope)
     pose = scope.pose(element)
@@ -241,17 +241,16 @@ def _read_axis(element: Element, scope: Scope) -> Axis:
 def _expressed_in(axis: Element, scope: Scope) -> str:
     """Return the frame of the axis: empty for the joint's own.
 
-    SDF 1.4 always means the model's frame, 1.5 and 1.6 say so by `use_parent_model_frame`,
-    1.7 and later by `expressed_in`.
+    `expressed_in` counts in any version: libsdformat reads old files as if they were new. Before
+    SDF 1.7 `use_parent_model_frame` comes first, which is true by default up to 1.4.
     """
-    if scope.version >= (1, 7):
-        xyz = axis.child("xyz")
-        written = xyz.get("expressed_in") if xyz is not None else None
-        return scope.scoped(written) if written else ""
-    in_model_frame = scope.values.boolean(
-        axis, "use_parent_model_frame", scope.version <= (1, 4)
-    ).value
-    return scope.scoped(MODEL_FRAME) if in_model_frame else ""
+    if scope.version < (1, 7):
+        of_model = scope.values.boolean(axis, "use_parent_model_frame", scope.version <= (1, 4))
+        if of_model.value:
+            return scope.scoped(MODEL_FRAME)
+    xyz = axis.child("xyz")
+    written = xyz.get("expressed_in") if xyz is not None else None
+    return scope.scoped(written) if written else ""
 
 
 def _bound(limit: Located[float]) -> Located[float]:
@@ -269,7 +268,7 @@ def _maximum(limit: Located[float]) -> Located[float]:
 
 def read_frame(element: Element, scope: Scope) -> Frame:
     """Read a `<frame>`: posed in the frame it is attached to by default."""
-    name = scope.values.name(element)
+    name = scope.name(element)
     attached = element.get("attached_to") or ""
     pose = scope.pose(element)
     scope.graph.add(

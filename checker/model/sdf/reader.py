@@ -17,6 +17,7 @@ from checker.model.robot import Robot
 from checker.model.sdf.document import parse_version, sdf_version
 from checker.model.sdf.frame_faults import unknown_frames
 from checker.model.sdf.links import read_frame, read_joint, read_link, read_plugin
+from checker.model.sdf.names import renamed
 from checker.model.sdf.scope import Scope
 from checker.model.values import ValueReader
 from checker.package.manifests import SdfEntry, read_model_config
@@ -41,14 +42,24 @@ class ModelIncludes(Record):
         return document if isinstance(document, XmlDocument) else f"{path} cannot be read"
 
     def _path(self, uri: str, folder: str) -> str | None:
-        """Return the path of a model: of an available package, of a folder, or as it is named."""
-        if uri.startswith("model://"):
-            name, _, uri = uri.removeprefix("model://").partition("/")
-            holder = self.package.workspace.package(name)
-            if holder is None:
-                return None
-            folder = "" if holder is self.package else f"../{holder.name}"
-        path = posixpath.normpath(posixpath.join(folder, uri or "."))
+        """Return the path of a model: beside the file, else of an available package.
+
+        A bare name is looked up as `model://name` is: along the paths of the simulator.
+        """
+        if not uri.startswith("model://"):
+            path = self._at(posixpath.join(folder, uri), folder)
+            if path is not None or "://" in uri:
+                return path
+        name, _, inside = uri.removeprefix("model://").partition("/")
+        holder = self.package.workspace.package(name)
+        if holder is None:
+            return None
+        folder = "" if holder is self.package else f"../{holder.name}"
+        return self._at(posixpath.join(folder, inside or "."), folder)
+
+    def _at(self, path: str, folder: str) -> str | None:
+        """Return the model file at a path, which may be a folder; None when nothing is there."""
+        path = posixpath.normpath(path)
         entry = self.package.resolve(path)
         if path in (".", folder) or (entry is not None and entry.is_folder):
             return self._model_in(path)
@@ -99,7 +110,8 @@ def read_robot(element: Element, include: IncludeReader = not_at_hand) -> Robot:
     """Read one `<model>` as a robot of its own."""
     document = element.document
     values, graph = ValueReader(), FrameGraph()
-    scope = Scope("", MODEL_FRAME, sdf_version(document), values, graph)
+    version = sdf_version(document)
+    scope = Scope("", MODEL_FRAME, version, values, graph, renamed(element, version))
     pose = scope.pose(element)
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), pose.span, "the model"))
     collected = _Collected(include, [document])
@@ -224,11 +236,12 @@ class _Collected:
     def _scope_inside(model: Element, placed: Element, name: str, scope: Scope) -> Scope:
         """Return the scope of a nested model; a merged one (SDF 1.9) shares its parent's names."""
         version = sdf_version(model.document)
+        new_names = renamed(model, version)
         if placed.get("merge") in ("true", "1"):
             frame = f"{scope.prefix}_merged__{name}__model__"
-            return Scope(scope.prefix, frame, version, scope.values, scope.graph)
+            return Scope(scope.prefix, frame, version, scope.values, scope.graph, new_names)
         frame = scope.scoped(name)
-        return Scope(f"{frame}::", frame, version, scope.values, scope.graph)
+        return Scope(f"{frame}::", frame, version, scope.values, scope.graph, new_names)
 
 
 def _name_of(model: Element, placed: Element, scope: Scope) -> Located[str]:

@@ -153,6 +153,19 @@ def _triples(version: str) -> frozenset[tuple[str, str, str]]:
     return frozenset(triples)
 
 
+def type_of(element: Element, version: str) -> ElementType | None:
+    """Return the type of an element in a version, by what it stands in; None without a place."""
+    above: list[Element] = []
+    at: Element | None = element
+    while at is not None:
+        above.append(at)
+        at = at.parent
+    kind = sdf_root(version) if above.pop().tag == "sdf" else None
+    while above and kind is not None and not kind.free:
+        kind = kind.children.get(above.pop().tag)
+    return kind
+
+
 def walk(root: Element, version: str) -> Iterator[tuple[Element, ElementType | None]]:
     """Yield each element with its type, in document order; None for one that has no place there.
 
