@@ -12,7 +12,7 @@ Source: SDFormat specification, "Required: 1" at the element or attribute.
 from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType
+from checker.model.sdf.schema import ElementType, type_of
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
@@ -31,9 +31,12 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     if sdf.root.tag != "sdf":
         yield finding(sdf.root, f"the root element is <{sdf.root.tag}>, expected <sdf>")
     for element, kind in sdf.typed_elements:
-        if kind is not None:
-            yield from _attributes(element, kind)
-            yield from _children(element, kind, without)
+        if kind is None:
+            continue
+        findings = [*_attributes(element, kind), *_children(element, kind, without)]
+        # What has no place in the version that the file is read as, the parser only copies.
+        if findings and type_of(element, context.reads) is not None:
+            yield from findings
 
 
 def _attributes(element: Element, kind: ElementType) -> Iterator[Finding]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from msgspec.structs import replace
+
 from checker.model.components import (
     UNLIMITED,
     Axis,
@@ -18,6 +20,7 @@ from checker.model.components import (
     Sensor,
     Visual,
 )
+from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameNode
 from checker.model.geometry.shapes import Geometry, Material
 from checker.model.sdf.scope import Scope
@@ -113,7 +116,7 @@ def read_link(element: Element, scope: Scope) -> Link:
         element,
         scoped_name,
         pose,
-        _read_inertial(element, scope),
+        _read_inertial(element, scoped_name, scope),
         tuple(_read_collision(child, scope) for child in element.all("collision")),
         tuple(_read_visual(child, scope) for child in element.all("visual")),
         tuple(read_sensor(child, scoped_name, scope) for child in element.all("sensor")),
@@ -123,7 +126,8 @@ def read_link(element: Element, scope: Scope) -> Link:
     )
 
 
-def _read_inertial(link: Element, scope: Scope) -> Inertial | None:
+def _read_inertial(link: Element, frame: str, scope: Scope) -> Inertial | None:
+    """Read where a link has how much mass: always in the link's own frame."""
     element = link.child("inertial")
     if element is None:
         return None
@@ -132,7 +136,12 @@ def _read_inertial(link: Element, scope: Scope) -> Inertial | None:
         scope.values.number(inertia, name, default) for name, default in _MOMENTS.items()
     )
     mass = scope.values.number(element, "mass", 1.0)
-    return Inertial(scope.pose(element), mass, moments, element.span)
+    pose = scope.pose(element)
+    if pose.relative_to not in ("", frame):
+        message = f"the inertial of link {frame!r} is posed relative to {pose.relative_to!r}"
+        message += ", but simulators read it in the link's frame"
+        scope.values.fault(FaultKind.FRAME, pose.span, message)
+    return Inertial(replace(pose, relative_to=""), mass, moments, element.span)
 
 
 def _read_collision(element: Element, scope: Scope) -> Collision:
@@ -203,7 +212,11 @@ def read_joint(element: Element, scope: Scope) -> Joint:
         _end(element, "parent", scope),
         child,
         pose,
-        tuple(_read_axis(axis, scope) for axis in element.children if axis.tag in _AXES),
+        tuple(
+            _read_axis(axis, scope)
+            for tag in _AXES
+            if (axis := element.child(tag)) is not None
+        ),
         tuple(read_sensor(sensor, scoped_name, scope) for sensor in element.all("sensor")),
     )
 

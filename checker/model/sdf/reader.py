@@ -17,7 +17,7 @@ from checker.model.robot import Robot
 from checker.model.sdf.document import parse_version, sdf_version
 from checker.model.sdf.frame_faults import unknown_frames
 from checker.model.sdf.links import read_frame, read_joint, read_link, read_plugin
-from checker.model.sdf.names import renamed
+from checker.model.sdf.names import KINDS, name_of, renamed
 from checker.model.sdf.scope import Scope
 from checker.model.values import ValueReader
 from checker.package.manifests import SdfEntry, read_model_config
@@ -130,6 +130,7 @@ def read_robot(element: Element, include: IncludeReader = not_at_hand) -> Robot:
         tuple(collected.plugins),
         graph,
         unresolved_includes=tuple(collected.unresolved),
+        merges_unknown=collected.merges_unknown,
     )
     for name in graph.nodes:
         graph.pose(name)
@@ -149,6 +150,9 @@ class _Collected:
     models: list[Model] = field(default_factory=list)
     plugins: list[Plugin] = field(default_factory=list)
     unresolved: list[Located[str]] = field(default_factory=list)
+    merges_unknown: bool = False
+    merging: list[Element] = field(default_factory=list)
+    entered: dict[str, tuple[Element | None, Element | None]] = field(default_factory=dict)
 
     def read(self, model: Element, scope: Scope, depth: int) -> None:
         """Read the inside of a model."""
@@ -167,12 +171,26 @@ class _Collected:
                     self._read_nested(child, child, scope, depth + 1)
                 case "include":
                     self._read_include(child, scope, depth + 1)
+            if child.tag in KINDS:
+                self._enter(child, scope)
+
+    def _enter(self, part: Element, scope: Scope) -> None:
+        """Remember a name; one of two models that is given twice comes by a merge."""
+        name = scope.prefix + (scope.renamed.get(part) or name_of(part))
+        merge = self.merging[-1] if self.merging else None
+        parent, earlier = self.entered.setdefault(name, (part.parent, merge))
+        at = merge or earlier
+        elsewhere = parent is not part.parent or earlier is not merge
+        if elsewhere and at is not None and name != scope.prefix:
+            message = f"brings {part.tag} {name!r}, but there is another part of this name"
+            scope.values.fault(FaultKind.INCLUDE, at.span, f"the merged model {message}")
 
     def _read_include(self, include: Element, scope: Scope, depth: int) -> None:
         uri = scope.values.text(include, "uri")
         document = self.include(uri) if uri.stated else "an <include> without <uri>"
         if isinstance(document, str):
             self.unresolved.append(uri)
+            self.merges_unknown |= _merges(include)
             return
         self.includes += 1
         model = next(iter(document.root.all("model")), None)
@@ -180,8 +198,11 @@ class _Collected:
             scope.values.fault(FaultKind.INCLUDE, uri.span, f"{uri.value} {refusal}")
         elif model is not None:
             self.open_files.append(document)
+            self.merging += [include] if _merges(include) else []
             self._read_nested(model, include, scope, depth, uri)
             self.open_files.pop()
+            if _merges(include):
+                self.merging.pop()
 
     def _refusal(self, document: XmlDocument, model: Element | None) -> str:
         """Say why an include is not read; empty when it is."""
@@ -237,11 +258,16 @@ class _Collected:
         """Return the scope of a nested model; a merged one (SDF 1.9) shares its parent's names."""
         version = sdf_version(model.document)
         new_names = renamed(model, version)
-        if placed.get("merge") in ("true", "1"):
+        if _merges(placed):
             frame = f"{scope.prefix}_merged__{name}__model__"
             return Scope(scope.prefix, frame, version, scope.values, scope.graph, new_names)
         frame = scope.scoped(name)
         return Scope(f"{frame}::", frame, version, scope.values, scope.graph, new_names)
+
+
+def _merges(include: Element) -> bool:
+    """Whether an include gives its parts to the model around it, as SDF 1.9 and later allow."""
+    return (include.get("merge") or "").lower() in ("true", "1")
 
 
 def _name_of(model: Element, placed: Element, scope: Scope) -> Located[str]:
