@@ -35,6 +35,7 @@ from checker.model.tree import LinkTree, link_tree
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
+
 class Robot(Part, dict=True):
     """A whole robot; the parts of nested models stand in the same tuples, with scoped names.
 

@@ -1,10 +1,10 @@
 """A value that is not of its type.
 
-Examples are `1.O1e2` with a letter O, `nan`, seven numbers in a pose, or `yes` for a boolean. Parsers
-refuse the file, or read only the first part, so that the robot weighs 1 kg instead of 101 kg. Words
-after the numbers that are expected have no effect: a warning; from libsdformat 12 on a pose may not
-have any. This rule also checks numbers that the specification limits (a stddev below 0) and words that it
-lists (the type of a light).
+Examples are `1.O1e2` with a letter O, `nan`, seven numbers in a pose, or `yes` for a boolean.
+Parsers refuse the file, or read only the first part, so that the robot weighs 1 kg instead of 101
+kg. Words after the numbers that are expected have no effect: a warning; from libsdformat 12 on a
+pose may not have any. This rule also checks numbers that the specification limits (a stddev below
+0) and words that it lists (the type of a light).
 
 Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
 them.

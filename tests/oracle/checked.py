@@ -10,7 +10,8 @@ from checker.base.files import NotReadable
 from checker.engine.review import findings_of
 from checker.finding import Severity
 from checker.model.robot import Robot
-from checker.model.sdf.reader import ModelIncludes, read_sdf
+from checker.model.sdf.includes import ModelIncludes
+from checker.model.sdf.reader import read_sdf
 from checker.package.inputs import open_input
 from checker.settings import Settings
 from checker.source.xml import XmlDocument

@@ -212,11 +212,7 @@ def read_joint(element: Element, scope: Scope) -> Joint:
         _end(element, "parent", scope),
         child,
         pose,
-        tuple(
-            _read_axis(axis, scope)
-            for tag in _AXES
-            if (axis := element.child(tag)) is not None
-        ),
+        tuple(_read_axis(axis, scope) for tag in _AXES if (axis := element.child(tag)) is not None),
         tuple(read_sensor(sensor, scoped_name, scope) for sensor in element.all("sensor")),
     )
 

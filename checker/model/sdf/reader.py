@@ -2,100 +2,35 @@
 
 from __future__ import annotations
 
-import posixpath
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from msgspec.structs import replace
 
-from checker.base.record import Record
 from checker.model.components import Frame, Joint, Link, Model, Plugin
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
-from checker.model.sdf.document import parse_version, sdf_version
+from checker.model.sdf.document import sdf_version
 from checker.model.sdf.frame_faults import unknown_frames
+from checker.model.sdf.includes import IncludeReader, included_model, not_at_hand
 from checker.model.sdf.links import read_frame, read_joint, read_link, read_plugin
 from checker.model.sdf.names import KINDS, name_of, renamed
 from checker.model.sdf.scope import Scope
 from checker.model.values import ValueReader
-from checker.package.manifests import SdfEntry, read_model_config
-from checker.package.package import Package
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
-
-# The models that a package's model includes.
-
-
-class ModelIncludes(Record):
-    """Finds the model file behind the URI of an `<include>`: an `IncludeReader`."""
-
-    package: Package
-
-    def __call__(self, uri: Located[str]) -> XmlDocument | str:
-        """Return the file, or say why it cannot be read; relative URIs start at the includer."""
-        path = self._path(uri.value, posixpath.dirname(uri.span.source.file))
-        if path is None:
-            return f"{uri.value} is not available"
-        document = self.package.xml(path)
-        return document if isinstance(document, XmlDocument) else f"{path} cannot be read"
-
-    def _path(self, uri: str, folder: str) -> str | None:
-        """Return the path of a model: beside the file, else of an available package.
-
-        A bare name is looked up as `model://name` is: along the paths of the simulator.
-        """
-        if not uri.startswith("model://"):
-            path = self._at(posixpath.join(folder, uri), folder)
-            if path is not None or "://" in uri:
-                return path
-        name, _, inside = uri.removeprefix("model://").partition("/")
-        holder = self.package.workspace.package(name)
-        if holder is None:
-            return None
-        folder = "" if holder is self.package else f"../{holder.name}"
-        return self._at(posixpath.join(folder, inside or "."), folder)
-
-    def _at(self, path: str, folder: str) -> str | None:
-        """Return the model file at a path, which may be a folder; None when nothing is there."""
-        path = posixpath.normpath(path)
-        entry = self.package.resolve(path)
-        if path in (".", folder) or (entry is not None and entry.is_folder):
-            return self._model_in(path)
-        return path if entry is not None else None
-
-    def _model_in(self, folder: str) -> str:
-        """Return the model file of a folder: the newest that its model.config names."""
-        config = self.package.xml(posixpath.normpath(f"{folder}/model.config"))
-        entries = read_model_config(config).sdf if isinstance(config, XmlDocument) else ()
-        newest = max(entries, key=_version, default=None)
-        named = newest.file.value if newest is not None else "model.sdf"
-        return posixpath.normpath(f"{folder}/{named}")
-
-
-def _version(entry: SdfEntry) -> tuple[int, int]:
-    return parse_version(entry.version.value) or (0, 0)
-
 
 MAX_NESTING = 40
 MAX_INCLUDES = 100
 """Of one robot in all: files that include one another twice would double at each level."""
 
-IncludeReader = Callable[[Located[str]], "XmlDocument | str"]
-"""Gives the model file behind the URI of an `<include>`, or says why it cannot be read.
-
-The URI's place tells the file that includes, where relative URIs start.
-"""
-
-
-def not_at_hand(uri: Located[str]) -> XmlDocument | str:
-    """Read no include at all."""
-    return f"{uri.value} is not available"
-
 
 def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tuple[Robot, ...]:
-    """Read the models that stand at the top of a file or directly in its worlds."""
+    """Read the models that stand at the top of a file or directly in its worlds.
+
+    A model that is included at the top is the file's own; what worlds include is not.
+    """
     root = document.root
     holders = [root, *root.all("world")]
     if root.tag == "world":
@@ -103,21 +38,32 @@ def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tup
     models = [model for holder in holders for model in holder.all("model")]
     if root.tag == "model":
         models = [root]
-    return tuple(read_robot(model, include) for model in models)
+    robots = [read_robot(model, include) for model in models]
+    included = [(each, included_model(each, include)) for each in root.all("include")]
+    robots += [
+        read_robot(model, include, placed)
+        for placed, model in included
+        if isinstance(model, Element) and root.tag == "sdf"
+    ]
+    return tuple(robots)
 
 
-def read_robot(element: Element, include: IncludeReader = not_at_hand) -> Robot:
-    """Read one `<model>` as a robot of its own."""
+def read_robot(
+    element: Element, include: IncludeReader = not_at_hand, placed: Element | None = None
+) -> Robot:
+    """Read one `<model>` as a robot of its own; an include places it and may name it anew."""
     document = element.document
     values, graph = ValueReader(), FrameGraph()
     version = sdf_version(document)
     scope = Scope("", MODEL_FRAME, version, values, graph, renamed(element, version))
-    pose = scope.pose(element)
+    pose = scope.pose(element if placed is None else _posing(element, placed))
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), pose.span, "the model"))
     collected = _Collected(include, [document])
     collected.read(element, scope, 0)
+    if placed is not None:
+        collected.plugins.extend(read_plugin(plugin) for plugin in placed.all("plugin"))
     robot = Robot(
-        values.name(element),
+        values.name(element) if placed is None else _name_of(element, placed, scope),
         element,
         document,
         "sdf",
@@ -229,8 +175,7 @@ class _Collected:
             return
         name = _name_of(model, placed, scope)
         inside = self._scope_inside(model, placed, name.value, scope)
-        pose_holder = placed if placed.child("pose") is not None else model
-        pose = scope.pose(pose_holder)
+        pose = scope.pose(_posing(model, placed))
         self.read(model, inside, depth)
         if placed is not model:
             names = inside.prefix.removesuffix("::")
@@ -268,6 +213,11 @@ class _Collected:
 def _merges(include: Element) -> bool:
     """Whether an include gives its parts to the model around it, as SDF 1.9 and later allow."""
     return (include.get("merge") or "").lower() in ("true", "1")
+
+
+def _posing(model: Element, placed: Element) -> Element:
+    """Return the element whose pose places a model: that of an include comes first."""
+    return placed if placed.child("pose") is not None else model
 
 
 def _name_of(model: Element, placed: Element, scope: Scope) -> Located[str]:

@@ -68,7 +68,11 @@ class ElementType(Record, dict=True):
     @cached_property
     def children(self) -> dict[str, ElementType]:
         """Elements that may stand directly inside, by tag."""
-        return {child.name: child for child in self._children()}
+        children = {child.name: child for child in self._children()}
+        if not self.enclosing and (world := children.get("world")) is not None:
+            # No description says so, but libsdformat takes a model that is included at the top.
+            children["include"] = world.children["include"]
+        return children
 
     @cached_property
     def required_children(self) -> tuple[ElementType, ...]:
