@@ -43,6 +43,8 @@ def check(
         volume_share: Share of the sum of all links' largest collisions, by volume; a link with more
             is judged whatever its mass.
     """
+    if masses.robot.is_static:
+        return
     large = _large(masses, volume_share)
     for name, inertia in masses.links.items():
         link = inertia.link
