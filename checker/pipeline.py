@@ -22,7 +22,7 @@ from checker.base.resources import versions
 from checker.base.words import shortened
 from checker.engine.report_cache import memory_key, recalled, remember
 from checker.finding import Safety
-from checker.package.inputs import open_input
+from checker.package.inputs import open_input, with_package_path
 from checker.package.package import Package
 from checker.report.report import (
     NotOpened,
@@ -196,6 +196,7 @@ def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     """Take the report of a package from the cache while nothing has changed, else check it."""
     started = perf_counter()
     settings, shown = task.settings_for(package), task.shown(package)
+    package = with_package_path(package, settings.package_path)
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
     # An archive is unpacked into another folder each time.
     is_archive = not task.path.is_dir()

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +56,7 @@ class Settings(Record):
         cache: Whether results are kept on disk, and taken from there.
         devices: Sensor devices of the user's, each in the form of `devices.json`.
         display: Whether the report shall hold the robot in 3D.
+        package_path: Folders in which further packages are found.
         suppress: Findings that shall not count.
         baseline: Findings that were there before, which do not count either.
     """
@@ -73,6 +74,7 @@ class Settings(Record):
     cache: bool = True
     devices: tuple[Mapping[str, Any], ...] = ()
     display: bool = False
+    package_path: tuple[Path, ...] = ()
     suppress: tuple[SettingsEntry, ...] = ()
     baseline: Baseline = field(default_factory=Baseline)
 
@@ -187,6 +189,7 @@ _KEYS = {
     "trial": "trial",
     "thorough": "thorough",
     "devices": "devices",
+    "package-path": "package_path",
     "suppress": "suppress",
     "baseline": "baseline",
 }
@@ -238,9 +241,8 @@ def _convert(key: str, value: Any, path: Path) -> Any:
             if not isinstance(value, bool):
                 raise InvalidSettings(path, f"{key} is {value!r}, expected true or false")
             return value
-        case "devices" | "suppress" | "baseline":
-            read = {"devices": _devices, "suppress": _suppressed, "baseline": _baseline}[key]
-            return read(value, path)
+        case "devices" | "suppress" | "baseline" | "package-path":
+            return _READERS[key](value, path)
         case _:
             return _by_rule(key, value, path)
 
@@ -278,12 +280,35 @@ def _suppressed(value: Any, path: Path) -> tuple[SettingsEntry, ...]:
 
 
 def _baseline(value: Any, path: Path) -> Baseline:
-    """Read the baseline beside a settings file: a stranger's may not name files elsewhere."""
+    """Read the baseline beside a settings file."""
+    return read_baseline(_inside("baseline", value, path, "a file"))
+
+
+def _package_path(value: Any, path: Path) -> tuple[Path, ...]:
+    if not isinstance(value, list):
+        raise InvalidSettings(path, f"package-path is {value!r}, expected a list of folders")
+    folders = tuple(_inside("package-path", folder, path, "a folder") for folder in value)
+    for folder in folders:
+        if not folder.is_dir():
+            raise InvalidSettings(path, f"package-path names {folder.name!r}, which is no folder")
+    return folders
+
+
+def _inside(key: str, value: Any, path: Path, kind: str) -> Path:
+    """Return the path that settings name: a stranger's may not name what lies elsewhere."""
     inside = normal_path(value) if isinstance(value, str) else None
     if inside is None or not _lies_in(path.parent, inside):
-        expected = "expected the path of a file in or below the folder of these settings"
-        raise InvalidSettings(path, f"baseline is {value!r}, {expected}")
-    return read_baseline(path.parent / inside)
+        expected = f"expected the path of {kind} in or below the folder of these settings"
+        raise InvalidSettings(path, f"{key} is {value!r}, {expected}")
+    return path.parent / inside
+
+
+_READERS: Mapping[str, Callable[[Any, Path], Any]] = {
+    "devices": _devices,
+    "suppress": _suppressed,
+    "baseline": _baseline,
+    "package-path": _package_path,
+}
 
 
 def _lies_in(folder: Path, inside: str) -> bool:

@@ -69,6 +69,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--ignore", metavar="IDS", type=ids, help="do not run these")
     parser.add_argument(
+        "--package-path",
+        metavar="DIR",
+        action="append",
+        type=Path,
+        help="also find packages in this folder, or this package; may be repeated",
+    )
+    parser.add_argument(
         "--fail-on",
         choices=("error", "warning"),
         help="lowest severity that fails (default: error)",
@@ -113,6 +120,7 @@ def run(options: argparse.Namespace) -> int:
         "profile": options.profile,
         "select": options.select,
         "ignore": options.ignore,
+        "package_path": tuple(options.package_path) if options.package_path else None,
         "fail_on": Severity(options.fail_on) if options.fail_on else None,
         "trial": False if options.no_trial else None,
         "thorough": True if options.thorough else None,

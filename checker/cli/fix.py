@@ -19,7 +19,7 @@ from checker.base.words import count, listed, plain
 from checker.engine.review import findings_of
 from checker.finding import Safety
 from checker.fix.rounds import Fixed, FixedFile, Judge, fix_package, patch
-from checker.package.inputs import open_input
+from checker.package.inputs import open_input, with_package_path
 from checker.package.package import Package
 from checker.pipeline import Task
 from checker.report.report import ReportedFinding
@@ -170,8 +170,10 @@ def _refuse_archives(path: Path) -> None:
 
 def _fix_input(task: Task, allowed: Collection[Safety], write: bool) -> Iterator[FixedPackage]:
     with open_input(task.path) as opened:
-        for package in opened.packages:
-            fixed = fix_package(package, _judge(task.settings_for(package)), allowed)
+        for given in opened.packages:
+            settings = task.settings_for(given)
+            package = with_package_path(given, settings.package_path)
+            fixed = fix_package(package, _judge(settings), allowed)
             if write:
                 write_files(package, fixed.files)
             yield FixedPackage(package.name, task.shown(package), fixed)

@@ -28,7 +28,7 @@ from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.locomotion.drive import driven_joints, find_wheels
-from checker.model.locomotion.locomotion import Locomotion
+from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
 from checker.model.tree import LinkTree, link_tree
@@ -85,6 +85,11 @@ class Robot(Part, dict=True):
         return (*on_links, *(sensor for joint in self.joints for sensor in joint.sensors))
 
     @property
+    def is_for_gazebo(self) -> bool:
+        """Whether it is written for Gazebo: as SDF, or as URDF with a `<gazebo>` element."""
+        return self.format == "sdf" or self.element.child("gazebo") is not None
+
+    @property
     def is_static(self) -> bool:
         """Whether the model says that nothing moves it."""
         static = self.element.child("static")
@@ -105,6 +110,17 @@ class Robot(Part, dict=True):
     def locomotion(self) -> Locomotion:
         """What its drive plugins move, and within which limits."""
         return read_locomotion(self)
+
+    @cached_property
+    def stands_alone(self) -> bool:
+        """Whether it stands on the ground by what its file says.
+
+        A simulator puts a model of SDF on the ground as it is. A URDF says nothing about that: arms
+        and hands are mounted on something, and legs fall without their controllers. So it needs
+        wheels, or a plugin that drives it.
+        """
+        drives = self.locomotion.kind is not DriveKind.NONE
+        return self.format == "sdf" or bool(self.wheels) or drives
 
     @cached_property
     def tree(self) -> LinkTree:

@@ -22,6 +22,8 @@ from checker.package.workspace import Workspace
 
 SINGLE_FILE_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro", ".xml")
 SUBMISSIONS = "submitted_models"
+# A file in a package may lie deep: `robots/NAME/urdf/NAME.urdf`.
+FILE_LEVELS = 6
 # Archives of a repository wrap everything in a folder, sometimes in two.
 MAX_WRAPPERS = 3
 _WHAT_TO_GIVE = "give a package folder, a .zip or .tar.gz archive, or a model file"
@@ -52,7 +54,6 @@ class Opened(Record):
 def open_input(
     path: Path,
     *,
-    search: Sequence[Path] = (),
     name: str = "",
     limits: ArchiveLimits | None = None,
 ) -> Iterator[Opened]:
@@ -62,7 +63,6 @@ def open_input(
 
     Args:
         path: What the user gave.
-        search: Further folders to look for sibling packages in.
         name: The file's name as the user knows it, when it is stored under another.
         limits: What an archive may hold.
 
@@ -70,18 +70,17 @@ def open_input(
         UnreadableInput: There is no package in it, or it cannot be read.
     """
     real = _resolved(path)
-    further = tuple(_resolved(place) for place in search)
     shown = name or path.name
     if real.is_dir():
-        yield _open_folder(path, real, further)
+        yield _open_folder(path, real)
     elif shown.lower().endswith(ARCHIVE_SUFFIXES):
         with tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True) as own:
             target = Path(own).resolve() / _archive_stem(shown)
             target.mkdir()
             _unpack(path, real, target, shown, limits)
-            yield _open_folder(path, _unwrapped(target), further)
+            yield _open_folder(path, _unwrapped(target))
     elif real.is_file() and shown.lower().endswith(SINGLE_FILE_SUFFIXES):
-        yield _open_single(path, real, further)
+        yield _open_single(path, real)
     else:
         raise UnreadableInput(path, "is not a package, archive or model file", _WHAT_TO_GIVE)
 
@@ -129,7 +128,7 @@ def _unwrapped(folder: Path) -> Path:
     return folder
 
 
-def _open_folder(path: Path, folder: Path, further: tuple[Path, ...]) -> Opened:
+def _open_folder(path: Path, folder: Path) -> Opened:
     try:
         if not any(folder.iterdir()):
             raise UnreadableInput(path, "is an empty folder", _WHAT_TO_GIVE)
@@ -137,23 +136,23 @@ def _open_folder(path: Path, folder: Path, further: tuple[Path, ...]) -> Opened:
         reason = f"cannot be listed: {error.strerror}"
         raise UnreadableInput(path, reason, "check its permissions") from None
     if looks_like_package(folder):
-        return _opened(folder.parent, [folder], further)
-    if found := _packages_below(folder, further):
+        return _opened(folder.parent, [folder])
+    if found := _packages_below(folder):
         return found
     if holds_loose_models(folder):
-        return _opened(folder.parent, [folder], further)
+        return _opened(folder.parent, [folder])
     around = enclosing_package(folder)
     advice = f"give the package folder {around}" if around else _WHAT_TO_GIVE
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     raise UnreadableInput(path, missing, advice)
 
 
-def _opened(home: Path, folders: list[Path], further: tuple[Path, ...]) -> Opened:
-    workspace = Workspace((home, *further))
+def _opened(home: Path, folders: list[Path]) -> Opened:
+    workspace = Workspace((home,))
     return Opened(workspace, tuple(workspace.at(folder) for folder in folders))
 
 
-def _packages_below(folder: Path, further: tuple[Path, ...]) -> Opened | None:
+def _packages_below(folder: Path) -> Opened | None:
     """Open the packages in a folder, else those one level deeper; `submitted_models/` first."""
     submissions = folder / SUBMISSIONS
     inner = _subfolders(folder)
@@ -165,7 +164,7 @@ def _packages_below(folder: Path, further: tuple[Path, ...]) -> Opened | None:
         homes = [home for home in inner if any(map(looks_like_package, _subfolders(home)))]
     if not homes:
         return None
-    workspace = Workspace((*homes, *further))
+    workspace = Workspace(tuple(homes))
     packages: dict[str, Package] = {}
     skipped: list[Skipped] = []
     for home in homes:
@@ -191,13 +190,36 @@ def _collect(
             packages[place.name] = workspace.at(place)
 
 
-def _open_single(path: Path, file: Path, further: tuple[Path, ...]) -> Opened:
+def _open_single(path: Path, file: Path) -> Opened:
     if not os.access(file, os.R_OK):
         raise UnreadableInput(path, "cannot be read: permission denied", "check its permissions")
-    around = enclosing_package(file.parent)
-    homes = (around.parent, *further) if around else further
-    workspace = Workspace(homes)
+    around = enclosing_package(file.parent, FILE_LEVELS)
+    workspace = Workspace((around.parent,) if around else ())
     return Opened(workspace, (Package(file.parent, workspace, only=file.name),))
+
+
+def with_package_path(package: Package, folders: Sequence[Path]) -> Package:
+    """Return a package that also finds the packages in further folders.
+
+    Args:
+        package: As it was opened.
+        folders: Each holds packages, or is one.
+
+    Raises:
+        UnreadableInput: One of them is no folder.
+    """
+    known = package.workspace.directories
+    homes = tuple(home for home in dict.fromkeys(map(_home, folders)) if home not in known)
+    if not homes:
+        return package
+    return Package(package.root, Workspace((*known, *homes)), package.only)
+
+
+def _home(folder: Path) -> Path:
+    real = _resolved(folder)
+    if not real.is_dir():
+        raise UnreadableInput(folder, "is not a folder", "give a folder of packages, or a package")
+    return real.parent if looks_like_package(real) else real
 
 
 def _is_folder(place: Path) -> bool:

@@ -116,7 +116,7 @@ class Package(Record, eq=False, dict=True):
         name, _, rest = normal.removeprefix("../").partition("/")
         if name == "..":
             return None
-        if name == self.root.name:
+        if name == self.root.name and not self.only:
             return self.resolve(rest)
         sibling = self.workspace.package(name)
         return sibling.resolve(rest) if sibling else None

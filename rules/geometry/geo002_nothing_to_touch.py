@@ -32,9 +32,7 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
         yield unchecked(robot.missing_parts or robot.unread_plugins)
     if robot.links and not any(link.collisions for link in robot.links):
         if not robot.missing_parts:
-            yield finding(
-                robot, "no link of the robot has a collision: the robot falls through the ground"
-            )
+            yield _without_any(robot)
         return
     for part in _driven(robot):
         if not any(link.collisions for link in part.links):
@@ -45,6 +43,13 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
             )
     yield from _others(robot)
     yield from _bodies(robot, body_share * robot.mass)
+
+
+def _without_any(robot: Robot) -> Finding:
+    what = "no link of the robot has a collision"
+    if robot.stands_alone:
+        return finding(robot, f"{what}: the robot falls through the ground")
+    return finding(robot, f"{what}: nothing touches the robot", severity=Severity.WARNING)
 
 
 def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:

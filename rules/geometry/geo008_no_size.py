@@ -40,6 +40,7 @@ def _lengths(geometry: Geometry, whose: str, *, touches: bool) -> Iterator[Findi
                 f"{name} of {geometry.shape} {whose} is {number.value:g}, expected more than 0"
                 + (": the mesh is mirrored" if mirrored else ""),
                 severity=Severity.WARNING if mirrored else Severity.ERROR,
+                key="mirrored" if mirrored else "",
             )
 
 

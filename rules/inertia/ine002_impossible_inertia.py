@@ -7,6 +7,7 @@ mass, must not be negative.
 
 Fix: take mass, centre of mass and inertia from CAD, all in kg and m and about the centre of mass.
 Look for a moment that is too large by a factor of 1000, or a lost sign.
+In URDF a link with a mass of zero is a frame without a body; URD007 reports one that moves.
 Source: Wensing, Kim and Slotine, "Linear matrix inequalities for physically consistent inertial
 parameter identification", 2018; libsdformat 12 refuses negative masses and impossible moments, and
 accepts a mass of zero.
@@ -24,7 +25,9 @@ from checker.source.text import Span
 
 
 @rule("INE002", "impossible-inertia", Severity.ERROR, Concern.ROBOT)
-def check(masses: MassProperties, context: Context, *, tolerance: float = 1e-13) -> Findings:
+def check(
+    masses: MassProperties, context: Context, *, tolerance: float = 1e-13, rounding: float = 1e-3
+) -> Findings:
     """Report masses that are not positive and finite, and moments that no body can have.
 
     If the profile names no simulator, values that libsdformat accepts are a warning.
@@ -32,15 +35,26 @@ def check(masses: MassProperties, context: Context, *, tolerance: float = 1e-13)
     Options:
         tolerance: Rounding error, as a share of the pseudo-inertia's largest eigenvalue, by which
             the smallest may be below 0, in units in which mass and largest moment are 1.
+        rounding: The same for URDF, which is not read by libsdformat: numbers rounded to three
+            digits do no harm.
     """
     readable = Severity.ERROR if context.release else Severity.WARNING
-    misread = _misread(masses.robot)
+    robot = masses.robot
+    misread = _misread(robot)
+    share = rounding if robot.format == "urdf" else tolerance
     for inertia in masses.links.values():
         inertial = inertia.link.inertial
         if inertial is None or _spans(inertial) & misread:
             continue
-        yield from _mass(inertia, inertial, readable)
-        yield from _moments(inertia, inertial, readable, tolerance)
+        # Without mass it is a frame; without moments, INE003 reports it.
+        if robot.format == "urdf" and (inertia.mass == 0.0 or not inertia.has_moments):
+            continue
+        if inertia.mass < 0.0 or not robot.is_static:
+            yield from _mass(inertia, inertial, readable)
+        # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
+        merged = robot.format == "urdf" and inertia.piece_eigenvalue >= -share
+        possible = Severity.WARNING if merged else Severity.ERROR
+        yield from _moments(inertia, inertial, readable, possible, share)
 
 
 def _spans(inertial: Inertial) -> set[Span]:
@@ -65,7 +79,7 @@ def _mass(inertia: LinkInertia, inertial: Inertial, readable: Severity) -> Itera
 
 
 def _moments(
-    inertia: LinkInertia, inertial: Inertial, readable: Severity, tolerance: float
+    inertia: LinkInertia, inertial: Inertial, readable: Severity, level: Severity, share: float
 ) -> Iterator[Finding]:
     name = inertia.link.name.value
     if any(math.isnan(moment) for moment in inertia.principal):
@@ -78,7 +92,7 @@ def _moments(
         )
         return
     # A negative mass makes the eigenvalue negative by itself; it is said already.
-    if inertia.mass < 0.0 or not inertia.pseudo_eigenvalue < -tolerance:
+    if inertia.mass < 0.0 or not inertia.pseudo_eigenvalue < -share:
         return
     first, second, third = inertia.principal
     moments = ", ".join(f"{moment:.4g}" for moment in inertia.principal)
@@ -88,6 +102,7 @@ def _moments(
         inertia.moments_span,
         f"link {name!r} has principal moments of inertia of {moments} kg·m², which no physical "
         f"body can have: {why}",
+        severity=level,
     )
 
 

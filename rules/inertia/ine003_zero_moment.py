@@ -44,7 +44,8 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
 
 def _possible(inertia: LinkInertia, tolerance: float = 1e-12) -> bool:
     """Skip what INE002 reports: values that no body can have."""
-    return inertia.mass > 0.0 and inertia.pseudo_eigenvalue >= -tolerance
+    possible = inertia.pseudo_eigenvalue >= -tolerance or not inertia.has_moments
+    return inertia.mass > 0.0 and possible
 
 
 def _zero(inertia: LinkInertia, least: float, relative: float) -> bool:

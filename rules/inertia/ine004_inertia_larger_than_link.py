@@ -71,10 +71,11 @@ def _message(inertia: LinkInertia, reach: float, how: str) -> str:
 
 
 def _possible(inertia: LinkInertia) -> bool:
-    """Skip what INE002 (impossible values) and INE001 (missing values) report."""
+    """Skip what INE001 (missing), INE002 (impossible) and INE003 (zero values) report."""
     inertial = inertia.link.inertial
     stated = inertial is not None and any(moment.stated for moment in inertial.moments)
-    return stated and inertia.mass > 0.0 and inertia.pseudo_eigenvalue >= -1e-12
+    possible = inertia.has_moments and inertia.pseudo_eigenvalue >= -1e-12
+    return stated and inertia.mass > 0.0 and possible
 
 
 def _wheel(moment: float, mark: str = "", beside: float = 2.0) -> str:

@@ -14,6 +14,7 @@ Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 8
 
 from collections.abc import Iterator
 
+from checker.model.tree import rigid_bodies
 from checker.physics.mass.link_geometry import not_looked_at, volume_bounds
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -45,7 +46,7 @@ def check(
     """
     if masses.robot.is_static:
         return
-    large = _large(masses, volume_share)
+    large, carried = _large(masses, volume_share), _carried(masses)
     for name, inertia in masses.links.items():
         link = inertia.link
         counts = masses.share(name) > share or name in large
@@ -64,8 +65,21 @@ def check(
             grave = inertia.mass / most > impossible
             severity = Severity.ERROR if grave else Severity.WARNING
             yield from _say(inertia, most, f"at most {heaviest:g}", severity)
-        elif collisions[0] > 0.0 and inertia.mass / collisions[0] < lightest:
+        elif (
+            collisions[0] > 0.0 and inertia.mass / collisions[0] < lightest and name not in carried
+        ):
             yield from _say(inertia, collisions[0], f"at least {lightest:g}", Severity.WARNING)
+
+
+def _carried(masses: MassProperties) -> set[str]:
+    """Return the links that are fixed to a heavier one: it may hold the mass of both."""
+    bodies = rigid_bodies(masses.robot)
+    heaviest = {
+        body: max(masses.links[name].mass for name in names) for body, names in bodies.links.items()
+    }
+    return {
+        name for name, body in bodies.of_link.items() if masses.links[name].mass < heaviest[body]
+    }
 
 
 def _large(masses: MassProperties, share: float) -> set[str]:

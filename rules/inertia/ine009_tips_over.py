@@ -32,7 +32,7 @@ def check(
         warning_below_degrees: Tilt of the ground, degrees, at which the robot tips over; less is at
             least a warning.
     """
-    if masses.robot.is_static:
+    if masses.robot.is_static or not masses.robot.stands_alone:
         return
     unknown = masses.robot.missing_parts or masses.support_unknown
     if unknown:

@@ -33,6 +33,7 @@ def check(robot: Robot) -> Findings:
             f"{message}, but {plugin.class_name} drives it",
             severity=Severity.ERROR,
             related=[(plugin, "drives it")],
+            key="driven",
         )
 
 

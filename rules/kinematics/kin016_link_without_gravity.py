@@ -17,9 +17,7 @@ def check(robot: Robot) -> Findings:
     """Report links without gravity, and kinematic links."""
     for link in robot.links:
         if not link.gravity.value:
-            message = (
-                f"<gravity> of link {link.name.value!r} is {link.gravity.span.text}: remove it"
-            )
+            message = f"gravity does not act on link {link.name.value!r}: remove the setting"
             yield finding(link.gravity, message, key="gravity")
         if link.kinematic.value:
             message = (

@@ -1,7 +1,8 @@
 """A mesh in a format that Gazebo does not read.
 
 The part is invisible, or has no collision. Gazebo Dome and Gazebo Classic read COLLADA, STL and
-OBJ; Garden and later also read glTF and FBX.
+OBJ; Garden and later also read glTF and FBX. A URDF without a `<gazebo>` element may be for other
+tools: there it is a warning.
 
 Fix: export the mesh as COLLADA (.dae) or OBJ with its textures, or as STL for a collision.
 Source: gz-common, MeshManager: its list of file extensions in version 3 (Dome) and 5 (Garden).
@@ -42,6 +43,8 @@ def check(
                 f"{use.uri.value} is "
                 f"{f'a {suffix} file' if suffix else 'a file without extension'}, expected "
                 f"{', '.join(sorted(known))}{where}",
+                severity=None if robot.is_for_gazebo else Severity.WARNING,
+                key=suffix.lower(),
             )
 
 

@@ -1,6 +1,7 @@
 """A `gazebo` tag for a link or joint that does not exist, or one without effect.
 
-Gazebo prints no message: the friction, the sensor or the colour is missing.
+Gazebo prints no message: the friction, the sensor or the colour is missing. A tag that would only
+change a colour, or how a joint is computed, is a warning.
 
 Fix: write the exact name of the link or joint; put elements for links under a link, and elements
 for joints under a joint.
@@ -28,6 +29,13 @@ OF_JOINTS = frozenset(
         *("springStiffness", "stopCfm", "stopErp"),
     }
 )
+_WITHOUT_EFFECT = frozenset(
+    {
+        *("disableFixedJointLumping", "implicitSpringDamper", "laserRetro", "material"),
+        *("preserveFixedJoint", "provideFeedback", "provide_feedback", "visual"),
+    }
+)
+"""What changes neither how a robot moves nor what it senses."""
 
 
 @rule("URD006", "gazebo-tag-in-vain", Severity.ERROR, Concern.ROBOT)
@@ -44,10 +52,16 @@ def check(description: UrdfDescription) -> Findings:
             yield finding(
                 tag.reference,
                 f"<gazebo> refers to {name!r}, which is not a link or joint{names.hint(name)}",
+                severity=None if _simulates(tag) else Severity.WARNING,
                 key=name,
             )
         else:
             yield from _useless(tag, robot)
+
+
+def _simulates(tag: GazeboTag) -> bool:
+    """Say whether a tag changes what is simulated, not only how a link looks."""
+    return any(child.tag not in _WITHOUT_EFFECT for child in tag.element.children)
 
 
 def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
@@ -61,6 +75,8 @@ def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
             message = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"
         elif child.tag in OF_JOINTS and name and name not in robot.joints_by_name:
             message = f"<{child.tag}> is for a joint, but {name!r} is a link"
+        elif child.tag == "sensor" and child.get("type") == "force_torque":
+            continue  # measures at a joint
         elif child.tag in OF_LINKS and name and name not in robot.links_by_name:
             message = f"<{child.tag}> is for a link, but {name!r} is a joint"
         else:
@@ -78,6 +94,7 @@ _PLUGIN = '<plugin name="p" filename="libgazebo_ros_control.so"/>'
 GOOD = [
     {"@urdf": True},
     _tag("<mu1>1</mu1><own_extension/>", "upper_arm"),
+    _tag('<sensor name="s" type="force_torque"/>', "shoulder"),
     _tag("<provideFeedback>true</provideFeedback>", "shoulder"),
     _tag("<static>true</static>" + _PLUGIN),
     {"urdf/rviz.urdf": '<robot name="r"><link name="a"/><gazebo reference="b"/></robot>'},

@@ -1,8 +1,9 @@
 """A link that Gazebo drops, or a link with mass but without collision or visual.
 
-Gazebo Classic drops a link without `<inertial>`, with its sensors and all links below it, unless a
-fixed joint merges it into a link that has a mass. Frames of sensors are merged, so they need no
-inertial.
+Gazebo drops a link without `<inertial>`, or with a mass of zero, with its sensors and all links
+below it, unless a fixed joint merges it into a link that has a mass. Frames of sensors are merged,
+so they need no inertial. In a URDF without a `<gazebo>` element this is a warning: other tools keep
+such links.
 
 Fix: give each link that moves an `<inertial>`, a `<collision>` and a `<visual>`.
 Source: sdformat 6, parser_urdf.cc: "urdf2sdf: link has no inertia, … children links ignored".
@@ -32,7 +33,7 @@ def check(description: UrdfDescription, *, share: float = 0.01) -> Findings:
     for name, links in Lumping(description).groups.items():
         if name == _NO_LINK or name not in robot.links_by_name:
             continue
-        if not any(link.inertial is not None for link in links):
+        if not any(link.mass for link in links):
             yield _left_out(description, robot.links_by_name[name], links)
         elif robot.mass > 0 and sum(link.mass for link in links) >= share * robot.mass:
             yield from _without_shapes(robot.links_by_name[name], links)
@@ -50,10 +51,11 @@ def _left_out(description: UrdfDescription, link: Link, links: list[Link]) -> Fi
     lost += [f"link {below[0]!r} below it"] if below else []
     with_it = f", with {' and '.join(lost)}" if lost else ""
     missed = lost or any(link.collisions or link.visuals for link in links)
+    lacks = "<inertial>" if link.inertial is None else "mass"
     return finding(
         link,
-        f"link {link.name.value!r} has no <inertial>, so Gazebo drops it{with_it}",
-        severity=None if missed else Severity.WARNING,
+        f"link {link.name.value!r} has no {lacks}, so Gazebo drops it{with_it}",
+        severity=None if missed and description.robot.is_for_gazebo else Severity.WARNING,
     )
 
 

@@ -20,6 +20,8 @@ from checker.source.text import Located
 
 _MOVING = ("continuous", "prismatic", "revolute")
 _PREFIX = "hardware_interface/"
+_OF_ROS_CONTROL = "transmission_interface/"
+"""Types of other packages, such as the PR2's, have no `<hardwareInterface>`."""
 
 
 @rule("URD008", "broken-transmission", Severity.ERROR, Concern.INTERFACE)
@@ -66,6 +68,8 @@ def _joint(
         phrase = f"moves joint {name!r}, which is {joint.type.value}"
         yield finding(end.name, f"transmission {own!r} {phrase}", severity=Severity.WARNING)
     if not end.interfaces:
+        if not transmission.type.value.startswith(_OF_ROS_CONTROL):
+            return
         yield finding(end, f"joint {name!r} of transmission {own!r} has no <hardwareInterface>")
         return
     wanted = {_plain(interface) for interface in end.interfaces}

@@ -87,6 +87,18 @@ def test_a_concern_that_does_not_exist_is_an_error(tmp_path: Path) -> None:
         settings_from('select = ["concern:robots"]', tmp_path)
 
 
+def test_package_path_names_folders_below_the_settings(tmp_path: Path) -> None:
+    (tmp_path / "robots").mkdir()
+    settings = settings_from('package-path = ["robots", "."]', tmp_path)
+    assert settings.package_path == (tmp_path / "robots", tmp_path)
+
+
+@pytest.mark.parametrize("value", ['"robots"', '[".."]', '["/usr"]', '["nowhere"]', "[3]"])
+def test_a_package_path_elsewhere_is_refused(value: str, tmp_path: Path) -> None:
+    with pytest.raises(InvalidSettings, match="package-path"):
+        settings_from(f"package-path = {value}", tmp_path)
+
+
 def test_a_section_of_pyproject_toml_will_do(tmp_path: Path) -> None:
     text = '[tool.ruff]\nline-length = 9\n[tool.subt-check]\nignore = ["SEN"]\n'
     assert settings_from(text, tmp_path, "pyproject.toml").ignore == ("SEN",)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from checker.base.errors import UnreadableInput
-from checker.package.inputs import open_input
+from checker.package.inputs import open_input, with_package_path
 from checker.package.kind import PackageKind
 
 Write = Callable[[Mapping[str, str]], Path]
@@ -78,13 +78,23 @@ def test_what_is_left_out_beside_packages_is_said(write: Write) -> None:
         }
 
 
-def test_further_folders_are_searched_for_siblings(write: Write) -> None:
+@pytest.mark.parametrize("further", ["b", "b/other"])
+def test_packages_are_found_in_further_folders(further: str, write: Write) -> None:
     space = write({"a/rover/model.sdf": MODEL, "b/other/model.sdf": MODEL})
     with open_input(space / "a" / "rover") as opened:
-        assert opened.workspace.package("other") is None
-    with open_input(space / "a" / "rover", search=[space / "b"]) as opened:
-        assert opened.workspace.package("other") is not None
-        assert opened.packages[0].exists("../other/model.sdf")
+        (package,) = opened.packages
+        assert package.workspace.package("other") is None
+        seeing = with_package_path(package, [space / further])
+        assert seeing.workspace.package("other") is not None
+        assert seeing.exists("../other/model.sdf")
+
+
+def test_a_further_folder_that_is_not_there_is_told(write: Write) -> None:
+    space = write({"a/rover/model.sdf": MODEL})
+    with open_input(space / "a" / "rover") as opened:
+        for wrong in (space / "b", space / "a/rover/model.sdf"):
+            with pytest.raises(UnreadableInput):
+                with_package_path(opened.packages[0], [wrong])
 
 
 @pytest.mark.parametrize("suffix", ["sdf", "world", "urdf", "xacro", "xml", "SDF"])
@@ -106,6 +116,17 @@ def test_single_file_within_a_package_reaches_all_of_it(write: Write) -> None:
         assert package.exists("../meshes/wheel.dae")
         assert not package.exists("../../secret.dae")
         assert opened.workspace.package("rover") is not None
+
+
+def test_single_file_deep_in_a_package_reaches_all_of_it(write: Write) -> None:
+    deep = "robots/crane/urdf/crane.urdf"
+    files = {f"robots-data/{deep}": "<robot/>", "robots-data/meshes/hook.dae": "mesh"}
+    space = write({**files, "robots-data/package.xml": "<package><name>data</name></package>"})
+    with open_input(space / "robots-data" / deep) as opened:
+        (package,) = opened.packages
+        named = package.workspace.package("data")
+        assert named is not None
+        assert named.exists("meshes/hook.dae")
 
 
 def test_missing_path(tmp_path: Path) -> None:

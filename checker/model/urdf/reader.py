@@ -52,8 +52,14 @@ def read_link(element: Element, values: ValueReader) -> Link:
         name.value,
         Pose(Transform(), "", (), element.span),
         _read_inertial(element, values),
-        tuple(_read_collision(child, values) for child in element.all("collision")),
-        tuple(_read_visual(child, values) for child in element.all("visual")),
+        tuple(
+            _read_collision(child, shape, values)
+            for child, shape in _named(element, "collision", name.value)
+        ),
+        tuple(
+            _read_visual(child, shape, values)
+            for child, shape in _named(element, "visual", name.value)
+        ),
         (),
         (),
         Located(True, element.span, stated=False),
@@ -92,15 +98,20 @@ def _read_inertial(link: Element, values: ValueReader) -> Inertial | None:
     )
 
 
-def _read_collision(element: Element, values: ValueReader) -> Collision:
-    return Collision(
-        values.name(element), element, read_origin(element, values), _geometry(element, values)
-    )
+def _named(link: Element, tag: str, owner: str) -> Iterator[tuple[Element, Located[str]]]:
+    """Yield shapes with their names; those without one are called as libsdformat calls them."""
+    for number, element in enumerate(link.all(tag)):
+        default = f"{owner}_{tag}_{number}" if number else f"{owner}_{tag}"
+        yield element, element.attribute("name") or Located(default, element.span, stated=False)
 
 
-def _read_visual(element: Element, values: ValueReader) -> Visual:
+def _read_collision(element: Element, name: Located[str], values: ValueReader) -> Collision:
+    return Collision(name, element, read_origin(element, values), _geometry(element, values))
+
+
+def _read_visual(element: Element, name: Located[str], values: ValueReader) -> Visual:
     return Visual(
-        values.name(element),
+        name,
         element,
         read_origin(element, values),
         _geometry(element, values),

@@ -10,6 +10,9 @@ from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
 from checker.source.text import Span
 
+_NOISE = 1e-14
+"""kg·m²: a grain of sand has more."""
+
 
 class LinkInertia(Record, eq=False):
     """The inertia of one link.
@@ -22,6 +25,7 @@ class LinkInertia(Record, eq=False):
         pseudo_eigenvalue: The smallest eigenvalue of the 4×4 pseudo-inertia about the centre of
             mass, divided by the largest in size, in units in which the mass and the largest moment
             are 1: below 0 no distribution of mass has this inertia. NaN if a number is not finite.
+        piece_eigenvalue: The same of the rigid piece that fixed joints make of it and other links.
         gyration_radius: sqrt(largest principal moment / mass), metres; 0 without mass.
     """
 
@@ -30,7 +34,13 @@ class LinkInertia(Record, eq=False):
     centre: Vector | None
     principal: Vector
     pseudo_eigenvalue: float
+    piece_eigenvalue: float
     gyration_radius: float
+
+    @property
+    def has_moments(self) -> bool:
+        """Whether it has moments that are more than the noise of a CAD program's export."""
+        return not max(map(abs, self.principal)) <= _NOISE
 
     @property
     def moments_span(self) -> Span:

@@ -15,7 +15,7 @@ from checker.base.resources import version_of
 from checker.model.components import Joint, Link
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
-from checker.model.tree import WORLD
+from checker.model.tree import WORLD, rigid_bodies
 from checker.physics.mass.balance import stand_of, tip_angle
 from checker.physics.mass.inertia import (
     inertial_pose,
@@ -130,16 +130,18 @@ class Body(Record):
         mass: Kilograms.
         moments: Rows of the inertia about the centre of mass, kg·m².
         pose: The centre of mass and its axes in the robot's frame; None if unknown.
+        piece: Name of the rigid piece that it is part of.
     """
 
     mass: float
     moments: Rows
     pose: Transform | None
+    piece: str
 
     def as_json(self) -> list[Any]:
-        """Return all its numbers."""
+        """Return all that counts."""
         pose = None if self.pose is None else [self.pose.rotation, self.pose.translation]
-        return [self.mass, self.moments, pose]
+        return [self.mass, self.moments, pose, self.piece]
 
 
 class Weight(Record):
@@ -147,6 +149,7 @@ class Weight(Record):
 
     principal: Vector
     pseudo_eigenvalue: float
+    piece_eigenvalue: float
 
 
 class Weights(Record):
@@ -193,17 +196,22 @@ def _weighed(bodies: Sequence[Body]) -> Weights:
     import numpy as np
     import pinocchio as pin
 
-    weights = []
-    total = pin.Inertia.Zero()
+    own = []
+    pieces = {body.piece: pin.Inertia.Zero() for body in bodies}
     doubtful = False
     for body in bodies:
         moments = np.array(body.moments)
-        weight = Weight(principal_moments(moments), pseudo_eigenvalue(body.mass, moments))
-        weights.append(weight)
+        own.append((principal_moments(moments), pseudo_eigenvalue(body.mass, moments)))
         if body.pose is not None and 0.0 < body.mass < math.inf:
-            total += placed_inertia(body.mass, moments, body.pose)
-            doubtful |= math.isnan(weight.principal[0])
-    return Weights(tuple(weights), _centre(total), None if doubtful else _rows(total))
+            pieces[body.piece] += placed_inertia(body.mass, moments, body.pose)
+            doubtful |= math.isnan(own[-1][0][0])
+    together = {name: pseudo_eigenvalue(it.mass, it.inertia) for name, it in pieces.items()}
+    total = sum(pieces.values(), start=pin.Inertia.Zero())
+    weights = tuple(
+        Weight(principal, eigenvalue, together[body.piece])
+        for body, (principal, eigenvalue) in zip(bodies, own, strict=True)
+    )
+    return Weights(weights, _centre(total), None if doubtful else _rows(total))
 
 
 def _centre(total: pin.Inertia) -> Vector | None:
@@ -227,9 +235,10 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
         robot: What is weighed.
         cache: Where weights are kept.
     """
+    pieces = rigid_bodies(robot).of_link
     bodies = [
-        Body(link.mass, rows_of(link), inertial_pose(robot, link))
-        for link in robot.tree.links.values()
+        Body(link.mass, rows_of(link), inertial_pose(robot, link), pieces[name])
+        for name, link in robot.tree.links.items()
     ]
     weights = weights_of(bodies, cache)
     links = {
@@ -267,5 +276,6 @@ def _link_inertia(link: Link, body: Body, weight: Weight) -> LinkInertia:
         None if body.pose is None else body.pose.translation,
         weight.principal,
         weight.pseudo_eigenvalue,
+        weight.piece_eigenvalue,
         math.sqrt(largest / body.mass) if sound else 0.0,
     )

@@ -72,6 +72,8 @@ class Layout:
         forest: Which link hangs on which.
         poses: In the robot's frame.
         degrees: How each link moves against the one it hangs on.
+        held: The link that the trial holds in place, since nothing shows that the robot stands on
+            the ground by itself; empty without.
         welded: The link that each link moves with; `world` for what does not move.
         hulls: The corners of meshes and cones by the name of their asset, metres.
         geoms: Shapes that touch, each with its friction.
@@ -88,6 +90,7 @@ class Layout:
             child: degrees_of(robot, tie.joint, self.ledger)
             for child, tie in self.forest.spanning_tree.by.items()
         }
+        self.held = self._held()
         self.welded = self._welded()
         reader, friction = GeomReader(robot, self.poses, self.ledger), FrictionReader(robot)
         self.geoms = {
@@ -150,11 +153,21 @@ class Layout:
             poses[name] = pose
         return poses
 
+    def _held(self) -> str:
+        free = [name for name in self.forest.order if self.forest.tie(name) is None]
+        if self.robot.stands_alone or len(free) != 1:
+            return ""
+        self.ledger.note(_HELD, free[0])
+        return free[0]
+
     def _welded(self) -> dict[str, str]:
         welded: dict[str, str] = {WORLD: WORLD}
         for name in self.forest.order:
             tie = self.forest.tie(name)
-            welded[name] = name if tie is None or self.degrees[name] else welded[tie.parent]
+            if tie is None:
+                welded[name] = WORLD if name == self.held else name
+            else:
+                welded[name] = name if self.degrees[name] else welded[tie.parent]
         return welded
 
     def _say_what_is_cut(self) -> None:
@@ -168,6 +181,9 @@ class Layout:
             if link.kinematic.value:
                 sentence = "Links are kinematic; the trial lets forces move them"
                 self.ledger.note(sentence, link.scoped_name)
+
+
+_HELD = "The URDF has neither wheels nor a drive: the trial holds its base in place"
 
 
 # The links of a robot as nested bodies of MuJoCo.
@@ -223,6 +239,8 @@ class BodyWriter:
 
     def _joints(self, name: str) -> Iterator[str]:
         tie = self.layout.forest.tie(name)
+        if name == self.layout.held:
+            return
         if tie is None:
             yield f'<freejoint name="{self.names.free_joint(name)}"/>'
             return
