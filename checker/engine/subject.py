@@ -33,8 +33,9 @@ from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.includes import ModelIncludes, included_model
 from checker.model.sdf.links import read_plugin
-from checker.model.sdf.reader import ModelIncludes, read_sdf
+from checker.model.sdf.reader import read_sdf
 from checker.model.sensing.view import SensorViews
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.description import UrdfDescription
@@ -243,6 +244,9 @@ class Subject(Record, eq=False, dict=True):
         if not robots:
             nothing_to_see = self.model.root.child("world") is not None
             reason = f"{self.model.source.file} contains no model"
+            if (placed := self.model.root.child("include")) is not None:
+                missing = included_model(placed, ModelIncludes(self.package))
+                reason = missing if isinstance(missing, str) else reason
             return NotAvailable(reason, applicable=not nothing_to_see)
         return (self._with_spawned_plugins(robots[0]), *robots[1:])
 

@@ -35,6 +35,10 @@ class MeshTrouble(enum.StrEnum):
     """The checker gave up (limits of time, memory, size), or its place is beyond the workspace."""
 
 
+NOT_XML = "its XML is not well-formed"
+"""Begins the defect of a COLLADA file that only lenient parsers read."""
+
+
 class MeshFault(Record):
     """A mesh that is not known.
 

@@ -32,14 +32,10 @@ from checker.model.locomotion.drive import driven_joints, find_wheels
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
-from checker.model.sdf.document import sdf_version
 from checker.model.tree import LinkTree, link_tree
 from checker.model.unknowns import LooseParts, loose_parts, unknown_masses, unplaced_part
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
-
-_FRAMES_TOO = (1, 7)
-"""SDF version from which on joints tie frames of any kind; before, links alone."""
 
 
 class Robot(Part, dict=True):
@@ -53,6 +49,7 @@ class Robot(Part, dict=True):
         frame_graph: Where everything is.
         faults: What could not be read as it stands.
         unresolved_includes: URIs of includes whose model is not available.
+        merges_unknown: Whether such a model would have given its parts to the one around it.
         unread_plugins: Why plugins that the spawner adds are not among these; else empty.
         meshes: What its mesh files hold.
     """
@@ -69,6 +66,7 @@ class Robot(Part, dict=True):
     frame_graph: FrameGraph
     faults: tuple[Fault, ...] = ()
     unresolved_includes: tuple[Located[str], ...] = ()
+    merges_unknown: bool = False
     unread_plugins: str = ""
     meshes: Meshes = NoMeshes()
 
@@ -138,10 +136,10 @@ class Robot(Part, dict=True):
 
     @cached_property
     def attachable_names(self) -> frozenset[str]:
-        """Scoped names that a joint may tie: links, and in SDF 1.7 and later any frame."""
+        """Scoped names that a joint may tie: links, and in SDF any frame."""
         names = {link.scoped_name for link in self.links}
         names |= {frame.scoped_name for frame in self.frames}
-        if self.format == "sdf" and sdf_version(self.document) >= _FRAMES_TOO:
+        if self.format == "sdf":
             names |= {model.scoped_name for model in self.models}
             names |= {f"{model.scoped_name}::{MODEL_FRAME}" for model in self.models}
             names.add(MODEL_FRAME)
@@ -178,6 +176,10 @@ class Robot(Part, dict=True):
     def unweighed(self) -> str:
         """Why the mass of the whole is not known, as the end of a sentence; empty when it is."""
         return self.missing_parts or next(iter(self.unknown_masses.values()), "")
+
+    def may_be_included(self, name: str) -> bool:
+        """Whether a part of this name could come from an include that is not available."""
+        return self.merges_unknown or ("::" in name and bool(self.unresolved_includes))
 
     @staticmethod
     def folder_of(uri: Located[str]) -> str:

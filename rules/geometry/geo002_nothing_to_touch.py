@@ -26,6 +26,8 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
         body_share: Share of the robot's mass; links that are fixed together, weigh more, have
             visuals and have no collision are a warning.
     """
+    if robot.is_static:
+        return
     if robot.missing_parts or robot.unread_plugins:
         yield unchecked(robot.missing_parts or robot.unread_plugins)
     if robot.links and not any(link.collisions for link in robot.links):

@@ -24,6 +24,8 @@ def check(robot: Robot, *, gap: float = 0.02) -> Findings:
         gap: Metres between the boxes of two shapes, along each axis of the robot, up to which they
             count as connected.
     """
+    if robot.is_static:
+        return
     shapes, unknown = _shapes(robot)
     try:
         groups = clusters([shape.box for shape in shapes], gap)

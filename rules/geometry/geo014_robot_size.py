@@ -30,6 +30,8 @@ def check(
         lightest: Mass of all links of the robot, kilograms; less is reported.
         heaviest: Mass of all links of the robot, kilograms; more is reported.
     """
+    if robot.is_static:
+        return
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return

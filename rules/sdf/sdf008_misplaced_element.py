@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of
+from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of, type_of
 from checker.model.sdf.unread import is_appearance, is_unread
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
@@ -34,6 +34,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     for element, kind in sdf.typed_elements:
         parent = element.parent
         if kind is not None or parent is None or element.tag not in all_tags(sdf.version):
+            continue
+        if type_of(element, context.reads) is not None:
             continue
         around = parent.parent.tag if parent.parent is not None else ""
         path = (around, parent.tag, element.tag)

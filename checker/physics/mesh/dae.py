@@ -15,7 +15,7 @@ from typing import Any
 
 from lxml import etree
 
-from checker.model.mesh import MeshTrouble
+from checker.model.mesh import NOT_XML, MeshTrouble
 from checker.physics.mesh.content import MeshContent, NoSurface, Piece
 from checker.physics.mesh.dae_materials import DaeMaterials, local_name, places_in_picture
 
@@ -192,7 +192,7 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
             raise NoSurface(f"is not well-formed XML: {error.msg}") from None
         value = _BRACKET_IN_VALUE.search(data)
         shown = value[0].decode("utf-8", "replace")[:60] if value else ""
-        defects.append(f"its XML is not well-formed: `<` in an attribute's value {shown}")
+        defects.append(f"{NOT_XML}: `<` in an attribute's value {shown}")
     if root is None or local_name(root) != "COLLADA":
         raise NoSurface("is XML, but not a COLLADA file")
     return root, defects
