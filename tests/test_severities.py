@@ -21,6 +21,8 @@ LINKED = {SIBLING: "<package/>", "@links": {"shared.xml": SIBLING}}
 SHEET = "../acme_rover_sensor_config_2/specifications.md"
 HELD = {"specifications.md": None, SIBLING: "<package/>"}
 MESH = '<visual name="v"><geometry><mesh><uri>a.dae</uri></mesh></geometry></visual>'
+OTHER_MESH = "../acme_rover_sensor_config_2/meshes/a.dae"
+LEAVING = MESH.replace("a.dae", OTHER_MESH)
 WHEEL = """
 <link name="wheel">
   <collision name="c">
@@ -62,6 +64,14 @@ CASES: list[tuple[str, Example, str]] = [
     ("PKG016", {**LINKED, "package.xml": DEPENDS}, "info"),
     ("REF002", MESH, "error"),
     ("REF002", metal("<albedo_map>a.png</albedo_map>"), "warning"),
+    ("REF001", MESH.replace("a.dae", "/home/me/a.dae"), "error"),
+    ("REF001", metal("<albedo_map>/home/me/a.png</albedo_map>"), "warning"),
+    ("REF003", {"@fragment": LEAVING, OTHER_MESH: "", SIBLING: "<package/>"}, "error"),
+    (
+        "REF003",
+        {"@fragment": LEAVING, OTHER_MESH: "", SIBLING: "<package/>", "package.xml": DEPENDS},
+        "info",
+    ),
     ("SDF001", {"worlds/example.sdf": "<sdf><!-- a -- b --></sdf>"}, "info"),
     ("SDF001", {"launch/a.launch": "<launch><!-- a -- b --></launch>"}, "error"),
     ("SDF002", {"model.sdf": sdf("1.7")}, "warning"),
