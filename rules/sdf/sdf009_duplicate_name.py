@@ -29,7 +29,7 @@ from checker.source.xml import Element
 _RESERVED = re.compile(r"world|__.*__")
 _FRAMES = frozenset(KINDS)
 """Elements that are also frames, and so share one set of names in every version."""
-_PARTS = (_FRAMES - {"include"}) | {"world", "visual", "collision", "sensor", "light", "physics"}
+_PARTS = _FRAMES | {"world", "visual", "collision", "sensor", "light", "physics"}
 """Elements that may not have a reserved name."""
 
 NAME_OF_PHYSICS = "default_physics"
@@ -48,7 +48,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         if kind is None or kind.free:
             continue
         yield from _twins(element, kind, version)
-        name = element.attribute("name")
+        name = _name(element) if element.tag == "include" else element.attribute("name")
         if name is None:
             continue
         if element.tag in _PARTS and _RESERVED.fullmatch(name.value):

@@ -18,7 +18,8 @@ from checker.source.xml import XmlDocument
 
 REFUSING = (
     *("SDF001", "SDF002", "SDF005", "SDF006", "SDF009", "SDF012", "SDF017", "SDF018"),
-    *("KIN001", "KIN002", "KIN004", "KIN008", "KIN010", "KIN011", "INE002"),
+    *("KIN001", "KIN002", "KIN004", "KIN008", "KIN010", "KIN011", "INE002", "SEN001"),
+    "SEN027",
 )
 """Rules whose errors say that a parser does not load the file."""
 _SETTINGS = Settings(profile="sdf", profile_chosen=True, select=REFUSING, trial=False, cache=False)
