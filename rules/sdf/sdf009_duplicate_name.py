@@ -49,7 +49,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             continue
         yield from _twins(element, kind, version)
         name = _name(element) if element.tag == "include" else element.attribute("name")
-        if name is None:
+        if name is None or (element.tag != "include" and "name" not in kind.attributes):
             continue
         if element.tag in _PARTS and _RESERVED.fullmatch(name.value):
             yield finding(name, f"<{element.tag}> has the reserved name {name.value!r}")

@@ -33,7 +33,10 @@ REFUSED_BY_US: Sequence[Known] = (
         (r"KIN010 (the inertial|the axis|visual|collision|sensor|light) ",),
     ),
     Known("joints in nested models", ("KIN001 joint 'wrist' has (no )?parent",)),
-    Known("meshes without `<uri>`", ("SDF005 <mesh> lacks <uri>",)),
+    Known(
+        "required parts that are not asked for",
+        ("SDF005 <mesh> lacks <uri>", "SDF005 <use_parent_model_frame> of <axis> is empty"),
+    ),
 )
 """Errors of ours on files that libsdformat loads."""
 REFUSED_BY_THEM: Sequence[Known] = (
@@ -43,11 +46,16 @@ REFUSED_BY_THEM: Sequence[Known] = (
     Known("old axes without direction", ("Error reading element <xyz>",)),
     Known("includes in any place", ("<include> element missing",)),
     Known("colours above 1", ("Error reading element <(ambient|diffuse|specular|emissive)>",)),
-    Known("`__model__` as the end of a joint", (r".* name\[(.*::)?__model__\] specified by joint",)),
+    Known(
+        "`__model__` as the end of a joint", (r".* name\[(.*::)?__model__\] specified by joint",)
+    ),
 )
 """Files that libsdformat refuses, and the checker does not, by its first words."""
 READ_OTHERWISE: Sequence[Known] = (
-    Known("names that are truth values", (r"\w+: ours .*'(true|false)'",)),
+    Known(
+        "names that are truth values",
+        (r"\w+: ours .*'(true|false)'", r"pose of (.*::)?[01]: "),
+    ),
 )
 """Robots that both read, and that differ."""
 

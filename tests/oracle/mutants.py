@@ -21,7 +21,7 @@ ATTRIBUTES = (
     *("name", "type", "relative_to", "attached_to", "frame", "expressed_in", "degrees"),
     *("canonical_link", "placement_frame", "rotation_format", "unknown"),
 )
-VERSIONS = ("1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.20", "", "x")
+VERSIONS = ("1.5", "1.6", "1.7", "1.8", "1.9", "1.20", "", "x")
 
 
 def mutant(text: str, seed: int) -> str:
@@ -89,7 +89,9 @@ def _change_value(root: Element, chance: random.Random) -> None:
 def _take_another_name(root: Element, chance: random.Random) -> None:
     """Let a name, or what names one, be another name of the file."""
     names = [name for each in root.iter() if (name := each.get("name"))]
-    places = [each for each in root.iter() if "name" in each.attrib or each.tag in ("parent", "child")]
+    places = [
+        each for each in root.iter() if "name" in each.attrib or each.tag in ("parent", "child")
+    ]
     if not names or not places:
         return
     place, name = chance.choice(places), chance.choice((*names, *WORDS))

@@ -136,7 +136,7 @@ def _relative_to(element: Element) -> Located[str] | None:
 
 
 def _stated(attribute: Located[str] | None) -> Located[str] | None:
-    return attribute if attribute is not None and attribute.value else None
+    return attribute if attribute is not None and attribute.value.strip() else None
 
 
 def _fault(where: Located[str] | Element, message: str) -> Fault:

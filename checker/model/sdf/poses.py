@@ -28,7 +28,7 @@ def frame_of(pose: Element, version: tuple[int, int]) -> Located[str] | None:
     """
     old = pose.attribute("frame") if version < (1, 7) else None
     named = old if old is not None else pose.attribute("relative_to")
-    return named if named is not None and named.value else None
+    return named if named is not None and named.value.strip() else None
 
 
 def transform_of(pose: _HasAttributes, numbers: Iterable[float]) -> Transform:

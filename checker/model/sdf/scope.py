@@ -38,6 +38,7 @@ class Scope(Record):
 
     def scoped(self, name: str) -> str:
         """Return the unique name of a frame as written inside this model."""
+        name = name.strip()
         if name in (MODEL_FRAME, ""):
             return self.model_frame
         name = name.removesuffix(f"::{MODEL_FRAME}")
