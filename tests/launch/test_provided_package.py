@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -80,3 +81,15 @@ def test_no_other_package_above_is_looked_at(tmp_path: Path) -> None:
         assert package.workspace.package("other") is None
         assert package.workspace.package("subt_ros") is None
         assert package.workspace.package(NAME) is package
+
+
+def test_nothing_outside_an_archive_is_looked_at(tmp_path: Path) -> None:
+    package = write_example({}, tmp_path)
+    archive = shutil.make_archive(str(tmp_path / "upload"), "zip", tmp_path, package.name)
+    with open_input(Path(archive)) as opened:
+        workspace = opened.packages[0].workspace
+        (place,) = workspace.directories
+        beyond = place.parent / "subt_ros"
+        beyond.mkdir()
+        (beyond / "package.xml").write_text("<package/>")
+        assert workspace.package("subt_ros") is None
