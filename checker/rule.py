@@ -113,11 +113,14 @@ class Context(Record):
         profile: Name of the profile that judges the package (`subt`, `sdf`, …).
         release: Gazebo release that the profile aims at (`dome`, `harmonic`, `classic`).
         sdf_version: SDF version that the profile asks for; empty when the file's own counts.
+        reads: Newest SDF version that the target knows: it turns older files into that one, so
+            that what is new in it counts in them too.
     """
 
     profile: str = "subt"
     release: str = "dome"
     sdf_version: str = "1.6"
+    reads: str = "1.7"
 
 
 Check = Callable[..., Findings]

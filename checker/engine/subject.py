@@ -33,8 +33,9 @@ from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
 from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.includes import ModelIncludes, included_model
 from checker.model.sdf.links import read_plugin
-from checker.model.sdf.reader import ModelIncludes, read_sdf
+from checker.model.sdf.reader import read_sdf
 from checker.model.sensing.view import SensorViews
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.description import UrdfDescription
@@ -49,8 +50,9 @@ from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.robot_mass import weigh
 from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris, picked_parts
 from checker.physics.mesh.process import mesh_server
-from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
+from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.physics.trial.run import RobotTrials
+from checker.physics.trial.settling import unrest_of
 from checker.physics.views.sensor_views import RobotViews
 from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.source.xml import XmlDocument
@@ -107,7 +109,7 @@ class Subject(Record, eq=False, dict=True):
     def start(self, kinds: Collection[type]) -> None:
         """Begin with parts that take long, so that they come about while the rules run."""
         twice = RepeatedTrial in kinds
-        driven = twice or RobotTrial in kinds
+        driven = twice or any(issubclass(kind, RobotTrial) for kind in kinds)
         if driven or MassProperties in kinds:
             self._begin_meshes()
         if driven and not isinstance(self.trials, NotAvailable):
@@ -242,6 +244,9 @@ class Subject(Record, eq=False, dict=True):
         if not robots:
             nothing_to_see = self.model.root.child("world") is not None
             reason = f"{self.model.source.file} contains no model"
+            if (placed := self.model.root.child("include")) is not None:
+                missing = included_model(placed, ModelIncludes(self.package))
+                reason = missing if isinstance(missing, str) else reason
             return NotAvailable(reason, applicable=not nothing_to_see)
         return (self._with_spawned_plugins(robots[0]), *robots[1:])
 
@@ -284,6 +289,19 @@ class Subject(Record, eq=False, dict=True):
     def driven(self) -> tuple[RobotTrial, ...] | NotAvailable:
         """The robots and their trials."""
         return self.trials if isinstance(self.trials, NotAvailable) else self.trials.once
+
+    @property
+    def settled(self) -> tuple[SettledTrial, ...] | NotAvailable:
+        """The same, if the robots come to rest before they drive."""
+        # Whoever asks for these has the figures shown, too.
+        self.part(RobotTrial)
+        driven = self.driven
+        if isinstance(driven, NotAvailable):
+            return driven
+        for robot_trial in driven:
+            if reason := robot_trial.unlike or unrest_of(robot_trial.trial):
+                return NotAvailable(reason)
+        return tuple(SettledTrial(each.robot, each.trial) for each in driven)
 
     @property
     def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAvailable:
@@ -405,6 +423,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     FirstConfiguration: lambda subject: subject.first_configuration,
     MassProperties: lambda subject: subject.masses,
     RobotTrial: lambda subject: subject.driven,
+    SettledTrial: lambda subject: subject.settled,
     RepeatedTrial: lambda subject: subject.driven_twice,
     Spawner: lambda subject: subject.spawner,
     SpawnedXml: lambda subject: subject.spawned,

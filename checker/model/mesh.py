@@ -29,6 +29,8 @@ class MeshTrouble(enum.StrEnum):
     """A format that the checker does not read."""
     UNREADABLE = "unreadable"
     """Empty or corrupt."""
+    MISSCALED = "misscaled"
+    """Its unit is wrong (MSH005 says so), so that its size means nothing."""
     NOT_LOOKED_AT = "not checked"
     """The checker gave up (limits of time, memory, size), or its place is beyond the workspace."""
 

@@ -24,6 +24,7 @@ from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.geometry.boxes import Box, box_around
 from checker.model.geometry.convex import support
+from checker.model.geometry.mesh_units import ScaledMeshes
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
@@ -31,13 +32,10 @@ from checker.model.locomotion.drive import driven_joints, find_wheels
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
-from checker.model.sdf.document import sdf_version
 from checker.model.tree import LinkTree, link_tree
+from checker.model.unknowns import LooseParts, loose_parts, unknown_masses, unplaced_part
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
-
-_FRAMES_TOO = (1, 7)
-"""SDF version from which on joints tie frames of any kind; before, links alone."""
 
 
 class Robot(Part, dict=True):
@@ -51,6 +49,7 @@ class Robot(Part, dict=True):
         frame_graph: Where everything is.
         faults: What could not be read as it stands.
         unresolved_includes: URIs of includes whose model is not available.
+        merges_unknown: Whether such a model would have given its parts to the one around it.
         unread_plugins: Why plugins that the spawner adds are not among these; else empty.
         meshes: What its mesh files hold.
     """
@@ -67,6 +66,7 @@ class Robot(Part, dict=True):
     frame_graph: FrameGraph
     faults: tuple[Fault, ...] = ()
     unresolved_includes: tuple[Located[str], ...] = ()
+    merges_unknown: bool = False
     unread_plugins: str = ""
     meshes: Meshes = NoMeshes()
 
@@ -136,10 +136,10 @@ class Robot(Part, dict=True):
 
     @cached_property
     def attachable_names(self) -> frozenset[str]:
-        """Scoped names that a joint may tie: links, and in SDF 1.7 and later any frame."""
+        """Scoped names that a joint may tie: links, and in SDF any frame."""
         names = {link.scoped_name for link in self.links}
         names |= {frame.scoped_name for frame in self.frames}
-        if self.format == "sdf" and sdf_version(self.document) >= _FRAMES_TOO:
+        if self.format == "sdf":
             names |= {model.scoped_name for model in self.models}
             names |= {f"{model.scoped_name}::{MODEL_FRAME}" for model in self.models}
             names.add(MODEL_FRAME)
@@ -156,6 +156,30 @@ class Robot(Part, dict=True):
         """Why parts of the robot are not known, as the end of a sentence; empty when all are."""
         uris = [uri.value or "a model without <uri>" for uri in self.unresolved_includes]
         return f"{uris[0]} is included, but not available" if uris else ""
+
+    @cached_property
+    def loose_parts(self) -> LooseParts:
+        """What no joint connects to the robot."""
+        return loose_parts(self)
+
+    @cached_property
+    def unplaced_part(self) -> str:
+        """Why a part has no place on the robot, as the end of a sentence; empty when all have."""
+        return unplaced_part(self)
+
+    @cached_property
+    def unknown_masses(self) -> dict[str, str]:
+        """Links whose mass is none, with the reason as the end of a sentence."""
+        return unknown_masses(self)
+
+    @property
+    def unweighed(self) -> str:
+        """Why the mass of the whole is not known, as the end of a sentence; empty when it is."""
+        return self.missing_parts or next(iter(self.unknown_masses.values()), "")
+
+    def may_be_included(self, name: str) -> bool:
+        """Whether a part of this name could come from an include that is not available."""
+        return self.merges_unknown or ("::" in name and bool(self.unresolved_includes))
 
     @staticmethod
     def folder_of(uri: Located[str]) -> str:
@@ -220,7 +244,7 @@ class Robot(Part, dict=True):
 
     def support_of(self, geometry: Geometry, pose: Transform, direction: Vector) -> float | None:
         """Return how far a shape reaches in a direction, metres; see `support`."""
-        return support(geometry, pose, direction, self.meshes)
+        return support(geometry, pose, direction, self.scaled_meshes)
 
     def box_of(self, link: Link, *, visuals_too: bool = True) -> Box | None:
         """Return the box around a link's collisions and visuals, in the robot's frame.
@@ -240,7 +264,7 @@ class Robot(Part, dict=True):
         if shape not in self._shape_boxes:
             pose = self.pose_of_part(link, shape.pose)
             placed = [] if pose is None else [(shape.geometry, pose)]
-            self._shape_boxes[shape] = box_around(placed, self.meshes)
+            self._shape_boxes[shape] = box_around(placed, self.scaled_meshes)
         return self._shape_boxes[shape]
 
     @cached_property
@@ -261,11 +285,16 @@ class Robot(Part, dict=True):
             if frame is None or pose is None:
                 return None
             placed.append((shape.geometry, frame.inverse @ pose))
-        return box_around(placed, self.meshes)
+        return box_around(placed, self.scaled_meshes)
 
     def mesh_of(self, shape: Collision | Visual) -> Mesh | MeshFault | None:
         """Return the mesh that a collision or visual consists of; None for other shapes."""
-        return mesh_of(shape.geometry, self.meshes)
+        return mesh_of(shape.geometry, self.scaled_meshes)
+
+    @cached_property
+    def scaled_meshes(self) -> ScaledMeshes:
+        """What its mesh files hold, without those whose unit is wrong."""
+        return ScaledMeshes(self)
 
     @cached_property
     def mesh_uses(self) -> tuple[MeshUse, ...]:

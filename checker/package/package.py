@@ -37,6 +37,7 @@ from checker.package.references import (
     loaded_files,
     spawner_references,
 )
+from checker.package.unused_model import unused_model
 from checker.package.walk import build_index, entry_at
 from checker.source.text import SourceText
 from checker.source.text_file import read_text
@@ -99,6 +100,11 @@ class Package(Record, eq=False, dict=True):
             return self.kind is PackageKind.URDF_DESCRIPTION
         document = self.xml(self.only)
         return isinstance(document, XmlDocument) and document.root.tag == "robot"
+
+    @cached_property
+    def unloaded_files(self) -> frozenset[str]:
+        """Files that nothing loads, as the package itself says."""
+        return frozenset(filter(None, (unused_model(self),)))
 
     def folder_place(self) -> Place:
         """Return the place of the package as a whole, for findings about what is missing."""

@@ -55,7 +55,7 @@ def profile(name: str) -> Profile:
     return Profile(
         name,
         entry["title"],
-        Context(name, entry["release"], entry["sdf_version"]),
+        Context(name, entry["release"], entry["sdf_version"], entry["reads"]),
         tuple(entry["rules"]),
         tuple(entry["without"]),
         {rule: Severity(level) for rule, level in entry["severity"].items()},

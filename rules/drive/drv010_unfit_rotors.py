@@ -75,8 +75,8 @@ def check(
         if not by_themselves and not strangers:
             yield from _order(copter.entries, own)
         yield from _control(copter.plugin, own, imbalance)
-    if rotors and robot.missing_parts:
-        yield unchecked(robot.missing_parts)
+    if rotors and robot.unweighed:
+        yield unchecked(robot.unweighed)
     elif not robot.unread_plugins:
         yield from _thrust(robot, least_thrust, most_thrust)
 

@@ -26,6 +26,8 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
         body_share: Share of the robot's mass; links that are fixed together, weigh more, have
             visuals and have no collision are a warning.
     """
+    if robot.is_static:
+        return
     if robot.missing_parts or robot.unread_plugins:
         yield unchecked(robot.missing_parts or robot.unread_plugins)
     if robot.links and not any(link.collisions for link in robot.links):
@@ -40,7 +42,10 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
                 related=[(part.by, "the plugin that drives it")],
             )
     yield from _others(robot)
-    yield from _bodies(robot, body_share * robot.mass)
+    if robot.unknown_masses:
+        yield unchecked(robot.unweighed)
+    else:
+        yield from _bodies(robot, body_share * robot.mass)
 
 
 def _without_any(robot: Robot) -> Finding:

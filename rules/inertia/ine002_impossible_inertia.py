@@ -49,7 +49,8 @@ def check(
         # Without mass it is a frame; without moments, INE003 reports it.
         if robot.format == "urdf" and (inertia.mass == 0.0 or not inertia.has_moments):
             continue
-        yield from _mass(inertia, inertial, readable)
+        if inertia.mass < 0.0 or not robot.is_static:
+            yield from _mass(inertia, inertial, readable)
         # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
         merged = robot.format == "urdf" and inertia.piece_eigenvalue >= -share
         possible = Severity.WARNING if merged else Severity.ERROR

@@ -38,6 +38,11 @@ def check(
         share: Share of the robot's mass; a link with no more is often a placeholder: a moment that
             is too large is information, one that is too small is skipped.
     """
+    if masses.robot.is_static:
+        return
+    if masses.robot.unknown_masses:
+        yield unchecked(masses.robot.unweighed)
+        return
     for name, inertia in masses.links.items():
         if inertia.link.inertial is None or inertia.centre is None or not _possible(inertia):
             continue

@@ -34,6 +34,11 @@ def check(
             outside is a warning, a closer one is skipped.
         share: Share of the robot's mass; a link with no more may be a placeholder and is skipped.
     """
+    if masses.robot.is_static:
+        return
+    if masses.robot.unknown_masses:
+        yield unchecked(masses.robot.unweighed)
+        return
     for name, inertia in masses.links.items():
         inertial, centre = inertia.link.inertial, inertia.centre
         if inertial is None or centre is None or not masses.share(name) > share:

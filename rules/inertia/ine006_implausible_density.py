@@ -44,6 +44,11 @@ def check(
         volume_share: Share of the sum of all links' largest collisions, by volume; a link with more
             is judged whatever its mass.
     """
+    if masses.robot.is_static:
+        return
+    if masses.robot.unknown_masses:
+        yield unchecked(masses.robot.unweighed)
+        return
     large, carried = _large(masses, volume_share), _carried(masses)
     for name, inertia in masses.links.items():
         link = inertia.link

@@ -26,6 +26,8 @@ def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -
         share: Share of the robot's mass; a joint is judged only if the parts on each side of it
             have more than that.
     """
+    if masses.robot.is_static:
+        return
     spanning_tree = spanning_tree_of(masses.robot)
     body = rigid_bodies(masses.robot).of_link
     weight = dict.fromkeys(body.values(), 0.0)

@@ -24,7 +24,7 @@ def check(robot: Robot) -> Findings:
     suggestions = Suggestions(names)
     for joint in robot.joints:
         for role, end in (("parent", joint.parent), ("child", joint.child)):
-            if _exists(joint, role, end, names) or _may_be_included(robot, end):
+            if _exists(joint, role, end, names) or robot.may_be_included(end.value):
                 continue
             hint = suggestions.hint(end.value)
             phrase = f"{role} {end.value!r}, which does not exist" if end.value else f"no {role}"
@@ -35,10 +35,6 @@ def _exists(joint: Joint, role: str, end: Located[str], names: frozenset[str]) -
     if end.value == "world" and role == "parent":
         return True
     return joint.scope + end.value in names
-
-
-def _may_be_included(robot: Robot, end: Located[str]) -> bool:
-    return "::" in end.value and bool(robot.unresolved_includes)
 
 
 GOOD = [

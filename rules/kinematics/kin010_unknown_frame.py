@@ -30,7 +30,7 @@ def check(robot: Robot) -> Findings:
         # A joint stands at its child unless it says otherwise; an unknown child is KIN001's.
         if id(fault.span) in by_default:
             continue
-        if robot.missing_parts and "::" in fault.message:
+        if robot.may_be_included(fault.message):
             yield unchecked(robot.missing_parts)
         else:
             yield finding(fault.span, fault.message)

@@ -42,7 +42,7 @@ def _canonical(robot: Robot) -> Findings:
         if canonical is None or canonical.value == "":
             continue
         name = scope + canonical.value
-        if name not in robot.links_by_name and not (robot.missing_parts and "::" in name):
+        if name not in robot.links_by_name and not robot.may_be_included(name):
             message = f"canonical link {canonical.value!r} does not exist{names.hint(name)}"
             yield finding(canonical, message, severity=Severity.ERROR)
 

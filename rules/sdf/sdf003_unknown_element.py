@@ -1,8 +1,12 @@
 """An element that SDFormat does not know.
 
-Simulators skip unknown elements, so their content has no effect: a misspelt `<horizontal_fov>`
-leaves the camera at its default. Elements below `<plugin>` and elements with a namespace prefix are
-ignored. SDF008 reports a known element in the wrong place.
+libsdformat copies unknown elements with a warning, and nothing asks for them, so their content has
+no effect: a misspelt `<horizontal_fov>` leaves the camera at its default. It is an error if the
+name resembles a known one, or if the part would move otherwise; what only changes the look of a
+part, and what resembles an element that the target does not read (such as `<always_on>`), is a
+warning. A file of an older version is read as one of the newest version: elements of that version
+are known, too. Elements below `<plugin>` and elements with a namespace prefix are ignored. SDF008
+reports a known element in the wrong place.
 
 Fix: spell it as the specification does, or move what belongs to a plugin into that plugin.
 Source: SDFormat specification, the version that the file states.
@@ -13,8 +17,9 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import all_tags
-from checker.rule import Concern, Findings, Safety, Severity, finding, rule
+from checker.model.sdf.schema import all_tags, type_of
+from checker.model.sdf.unread import is_appearance, is_unread
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 
 GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
@@ -22,19 +27,22 @@ GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
 
 
 @rule("SDF003", "unknown-element", Severity.WARNING, Concern.ROBOT)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report elements that no place of this SDF version knows."""
     unknown = [
         element
         for element, kind in sdf.typed_elements
-        if kind is None and element.tag not in all_tags(sdf.version)
+        if kind is None
+        and element.tag not in all_tags(sdf.version)
+        and type_of(element, context.reads) is None
     ]
     anywhere = Suggestions(all_tags(sdf.version))
     for element, siblings in _with_known_siblings(sdf, unknown):
         fitting = siblings.near(element.tag)
         near = fitting or anywhere.near(element.tag)
         parent = element.parent or sdf.root
-        grave = near is not None or parent.tag in GRAVE_PARENTS
+        meant = near is not None and not is_unread(near, context.release)
+        grave = (meant or parent.tag in GRAVE_PARENTS) and not is_appearance(element)
         hint = f"; did you mean <{near}>?" if near else ""
         yield finding(
             element,

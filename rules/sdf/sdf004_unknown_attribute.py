@@ -1,8 +1,10 @@
 """An attribute that the element does not have.
 
 Parsers skip unknown attributes, so they have no effect: a misspelt `relative_to` leaves a part in
-the wrong place. SDF014 reports the attribute `frame` of a pose. Attributes with a namespace prefix
-are ignored. None of the accepted packages that we checked shows this.
+the wrong place. libsdformat reads a file of an older version as one of its own newest version, so
+attributes of that version have an effect in any file. SDF014 reports the attribute `frame` of a
+pose. Attributes with a namespace prefix are ignored. None of the accepted packages that we checked
+shows this.
 
 Fix: spell it as the specification does, or remove it.
 Source: SDFormat specification, the version that the file states.
@@ -10,14 +12,15 @@ Source: SDFormat specification, the version that the file states.
 
 from checker.base.words import Suggestions
 from checker.model.sdf.document import SdfDocument
-from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
+from checker.model.sdf.schema import type_of
+from checker.rule import Concern, Context, Findings, Severity, finding, replace_text, rule
 
 ELSEWHERE = {("pose", "frame")}
 """Attributes, with their elements, that another rule judges."""
 
 
 @rule("SDF004", "unknown-attribute", Severity.WARNING, Concern.ROBOT)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report attributes that this SDF version does not know at this element."""
     for element, kind in sdf.typed_elements:
         if kind is None:
@@ -25,6 +28,9 @@ def check(sdf: SdfDocument) -> Findings:
         known = kind.attributes
         for name in element.attributes:
             if name in known or ":" in name or (element.tag, name) in ELSEWHERE:
+                continue
+            later = type_of(element, context.reads)
+            if later is not None and name in later.attributes:
                 continue
             near = Suggestions(known).near(name)
             place = element.attribute_name_span(name)

@@ -1,8 +1,9 @@
 """A required element or attribute that is missing or empty.
 
 A part without a default cannot be invented: the parser refuses the file, or builds an incomplete
-part. A visual without geometry shows nothing, and a part without a name cannot be found. KIN001
-reports the ends of joints. None of the accepted packages that we checked shows this.
+part. A part without a name cannot be found. A visual without geometry loads and shows nothing, so
+that is a warning where the profile names no Gazebo release. KIN001 reports the ends of joints. None
+of the accepted packages that we checked shows this.
 
 Fix: add the element or attribute that the message names.
 Source: SDFormat specification, "Required: 1" at the element or attribute.
@@ -11,8 +12,8 @@ Source: SDFormat specification, "Required: 1" at the element or attribute.
 from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.model.sdf.schema import ElementType, type_of
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.xml import Element
 
 CHOICES = frozenset({"geometry"})
@@ -24,19 +25,24 @@ ENDS = ("parent", "child")
 
 
 @rule("SDF005", "required-part-missing", Severity.ERROR, Concern.ROBOT)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report required parts that are missing."""
+    without = Severity.ERROR if context.release else Severity.WARNING
     if sdf.root.tag != "sdf":
         yield finding(sdf.root, f"the root element is <{sdf.root.tag}>, expected <sdf>")
     for element, kind in sdf.typed_elements:
-        if kind is not None:
-            yield from _attributes(element, kind)
-            yield from _children(element, kind)
+        if kind is None:
+            continue
+        findings = [*_attributes(element, kind), *_children(element, kind, without)]
+        # What has no place in the version that the file is read as, the parser only copies.
+        if findings and type_of(element, context.reads) is not None:
+            yield from findings
 
 
 def _attributes(element: Element, kind: ElementType) -> Iterator[Finding]:
     for name, (_, _, required) in kind.attributes.items():
-        if required == "1" and (element.tag, name) not in ELSEWHERE and not element.get(name):
+        stated = (element.get(name) or "").strip()
+        if required == "1" and (element.tag, name) not in ELSEWHERE and not stated:
             state = "is empty" if name in element.attributes else "is missing"
             yield finding(
                 element.attribute(name) or element,
@@ -45,7 +51,8 @@ def _attributes(element: Element, kind: ElementType) -> Iterator[Finding]:
             )
 
 
-def _children(element: Element, kind: ElementType) -> Iterator[Finding]:
+def _children(element: Element, kind: ElementType, without: Severity) -> Iterator[Finding]:
+    """Report the children of an element; `without` says how grave a missing geometry is."""
     ends = ENDS if element.parent is not None and element.parent.tag == "model" else ()
     for child in kind.required_children:
         name = child.name
@@ -53,7 +60,12 @@ def _children(element: Element, kind: ElementType) -> Iterator[Finding]:
             continue
         stated = element.all(name)
         if not stated and _has_to_be_stated(child):
-            yield finding(element, f"{_named(element)} lacks <{name}>", key=f"{element.tag}/{name}")
+            yield finding(
+                element,
+                f"{_named(element)} lacks <{name}>",
+                severity=without if name in CHOICES else None,
+                key=f"{element.tag}/{name}",
+            )
         for part in stated:
             if child.value_type and not part.text.stated:
                 message = f"<{name}> of {_named(element)} is empty"

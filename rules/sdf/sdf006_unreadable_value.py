@@ -1,41 +1,68 @@
 """A value that is not of its type.
 
-Examples are `1.O1e2` with a letter O, `nan`, seven numbers in a pose, or `yes` for a boolean. Some
-parsers refuse the file; others read only the first part, so the robot weighs 1 kg instead of 101
-kg. This rule also checks numbers that the specification limits (a stddev below 0) and words that it
-lists (the type of a light).
+Examples are `1.O1e2` with a letter O, `nan`, seven numbers in a pose, or `yes` for a boolean.
+Parsers refuse the file, or read only the first part, so that the robot weighs 1 kg instead of 101
+kg. Words after the numbers that are expected have no effect: a warning; from libsdformat 12 on a
+pose may not have any. This rule also checks numbers that the specification limits (a stddev below
+0) and words that it lists (the type of a light).
 
 Fix: write the value as the message says. Numbers have a decimal point, no unit, and spaces between
 them.
-Source: SDFormat specification, type, min and max of each element.
+Source: SDFormat specification, type, min and max of each element; what libsdformat 12 loads.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 
 from checker.base.resources import table
-from checker.model.sdf.document import QUATERNION_POSE, SdfDocument, misread, out_of_bounds
+from checker.model.sdf.document import (
+    QUATERNION_POSE,
+    SdfDocument,
+    misread,
+    out_of_bounds,
+    parse_version,
+)
 from checker.model.sdf.poses import in_degrees
-from checker.model.sdf.schema import ElementType
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.model.sdf.schema import ElementType, type_of
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
+_Attributes = Mapping[str, Sequence[str]]
+"""Attribute name → type, default, required, as the schema has them."""
+
 
 @rule("SDF006", "unreadable-value", Severity.ERROR, Concern.ROBOT)
-def check(sdf: SdfDocument) -> Findings:
+def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report texts and attributes that are not values of their type."""
     words = table("sdf_words")
     for element, kind in sdf.typed_elements:
         if kind is None:
             continue
-        yield from _text(element, kind)
+        attributes = _attribute_types(element, kind, context)
+        yield from _text(element, kind, attributes, context)
         above = element.parent.tag if element.parent is not None else ""
         choice = words["elements"].get(f"{above}/{element.tag}")
         yield from _word(element.text, f"<{element.tag}>", choice)
-        yield from _attributes(element, kind, words["attributes"])
+        yield from _attributes(element, attributes, words["attributes"])
 
 
-def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
+def _attribute_types(element: Element, kind: ElementType, context: Context) -> _Attributes:
+    """Return what attributes may stand at an element, with those of the version it is read as."""
+    if not element.attributes.keys() - kind.attributes.keys():
+        return kind.attributes
+    later = type_of(element, context.reads)
+    return kind.attributes if later is None else {**later.attributes, **kind.attributes}
+
+
+def _counts_words_of_poses(context: Context) -> bool:
+    """Whether the target refuses a pose of too many words, as libsdformat 12 and later do."""
+    reads = parse_version(context.reads)
+    return reads is not None and reads >= (1, 9)
+
+
+def _text(
+    element: Element, kind: ElementType, attributes: _Attributes, context: Context
+) -> Iterator[Finding]:
     text, value_type = element.text, kind.value_type
     if not text.stated:
         # An empty element that is required is for SDF005.
@@ -46,21 +73,21 @@ def _text(element: Element, kind: ElementType) -> Iterator[Finding]:
                 severity=Severity.WARNING,
             )
         return
-    if value_type == "pose" and "rotation_format" in kind.attributes:
+    if value_type == "pose" and "rotation_format" in attributes:
         quaternion = element.get("rotation_format") == "quat_xyzw"
         value_type = QUATERNION_POSE if quaternion else value_type
         if quaternion and in_degrees(element):
             yield finding(element, "<pose> gives a quaternion, but says that it is in degrees")
     faults = misread(text, value_type) or out_of_bounds(text, kind.bounds)
+    taken = kind.value_type != "pose" or not _counts_words_of_poses(context)
     for fault in faults:
-        severity = Severity.WARNING if fault.lossy else None
+        severity = Severity.WARNING if fault.lossy and taken else None
         yield finding(fault.span, f"<{element.tag}> {fault.problem}", severity=severity)
 
 
 def _attributes(
-    element: Element, kind: ElementType, words: Mapping[str, Sequence[str]]
+    element: Element, known: _Attributes, words: Mapping[str, Sequence[str]]
 ) -> Iterator[Finding]:
-    known = kind.attributes
     for name in element.attributes:
         written = element.attribute(name) if name in known else None
         if written is None or not written.value.strip():
@@ -68,7 +95,8 @@ def _attributes(
         text = Located(written.value.strip(), written.span)
         label = f"{name!r} of <{element.tag}>"
         for fault in misread(text, known[name][0]):
-            yield finding(fault.span, f"{label} {fault.problem}")
+            severity = Severity.WARNING if fault.lossy else None
+            yield finding(fault.span, f"{label} {fault.problem}", severity=severity)
         yield from _word(text, label, words.get(f"{element.tag}/{name}"))
 
 

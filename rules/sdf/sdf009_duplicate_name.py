@@ -1,28 +1,35 @@
 """A name that two siblings share, or a reserved name.
 
-Plugins, bridges and joints find a part by its name. If two parts have the same name only the first
-is found, and newer parsers refuse the file. Since SDF 1.7 no two siblings may share a name; before,
-a visual and a collision could. Names of the form `__x__`, the name `world`, and names with `::`
-have a special meaning for the parser. Plugins may share a name.
+Plugins, bridges and joints find a part by its name. libsdformat refuses a file in which two parts
+of one kind share a name, or in which two children of a world do. Links, joints, frames and nested
+models of a model have one set of names: in files before SDF 1.7 libsdformat renames the second
+(joint `arm` beside a link `arm` becomes `arm_joint`), so that nothing finds it by the name that is
+written; from 1.7 on it refuses the file. That other siblings share a name is against the
+specification since SDF 1.7, and works. Names of the form `__x__`, the name `world`, and names with
+`::` have a special meaning for the parser. Plugins may share a name, and what stands inside a
+plugin is its own.
 
 None of the accepted packages that we checked shows this.
 
 Fix: give each sibling its own name.
-Source: SDFormat specification 1.7, "unique sibling names" and "reserved names".
+Source: SDFormat specification 1.7, "unique sibling names" and "reserved names"; libsdformat 12 and
+15: what they load, rename and refuse.
 """
 
 import re
 from collections.abc import Iterator
 
 from checker.model.sdf.document import SdfDocument, sdf_version
+from checker.model.sdf.names import KINDS, UNIQUE_SINCE, renamed
+from checker.model.sdf.schema import ElementType
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
 _RESERVED = re.compile(r"world|__.*__")
-_FRAMES = frozenset({"link", "joint", "frame", "model"})
+_FRAMES = frozenset(KINDS)
 """Elements that are also frames, and so share one set of names in every version."""
-_PARTS = _FRAMES | {"world", "visual", "collision", "sensor", "light", "physics"}
+_PARTS = (_FRAMES - {"include"}) | {"world", "visual", "collision", "sensor", "light", "physics"}
 """Elements that may not have a reserved name."""
 
 NAME_OF_PHYSICS = "default_physics"
@@ -37,10 +44,12 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     version = sdf_version(sdf.document)
     # Names of parts that nested models once had, flattened: SDFormat took them until 1.8.
     divided = Severity.ERROR if context.release or version >= (1, 8) else Severity.WARNING
-    for element in sdf.elements():
-        yield from _twins(element, version)
+    for element, kind in sdf.typed_elements:
+        if kind is None or kind.free:
+            continue
+        yield from _twins(element, kind, version)
         name = element.attribute("name")
-        if name is None or element.tag == "plugin":
+        if name is None:
             continue
         if element.tag in _PARTS and _RESERVED.fullmatch(name.value):
             yield finding(name, f"<{element.tag}> has the reserved name {name.value!r}")
@@ -51,26 +60,37 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             yield finding(name, message, severity=divided)
 
 
-def _twins(parent: Element, version: Version) -> Iterator[Finding]:
+def _twins(parent: Element, kind: ElementType, version: Version) -> Iterator[Finding]:
+    new_names = renamed(parent, version) if parent.tag == "model" else {}
     alike: dict[tuple[str, str], Element] = {}
     sharing: dict[str, Element] = {}
     for child in parent.children:
         name = _name(child)
-        if name is None or child.tag == "plugin" or ":" in child.tag:
+        if name is None or child.tag == "plugin" or child.tag not in kind.children:
             continue
         first = alike.setdefault((child.tag, name.value), child)
-        shares = version >= (1, 7) or child.tag in _FRAMES
+        shares = version >= UNIQUE_SINCE or child.tag in _FRAMES or parent.tag == "world"
         other = sharing.setdefault(name.value, child) if shares else child
-        if first is not child or other is not child:
-            twin = first if first is not child else other
-            whose = f"another <{twin.tag}>" if twin.tag == child.tag else f"a <{twin.tag}>"
-            forbidden = twin.tag == child.tag or version >= (1, 7)
-            yield finding(
-                name,
-                f"<{child.tag}> {name.value!r} has the same name as {whose}",
-                severity=None if forbidden else Severity.WARNING,
-                related=[(_name(twin) or twin, "the first with this name")],
-            )
+        if first is child and other is child:
+            continue
+        twin = first if first is not child else other
+        whose = f"another <{twin.tag}>" if twin.tag == child.tag else f"a <{twin.tag}>"
+        message = f"<{child.tag}> {name.value!r} has the same name as {whose}"
+        changed = child if child in new_names else twin
+        if changed in new_names:
+            message += f": the simulator calls the {changed.tag} {new_names[changed]!r}"
+        yield finding(
+            name,
+            message,
+            severity=None if _is_refused(parent, child, twin, version) else Severity.WARNING,
+            related=[(_name(twin) or twin, "the first with this name")],
+        )
+
+
+def _is_refused(parent: Element, child: Element, twin: Element, version: Version) -> bool:
+    if child.tag == twin.tag or parent.tag == "world":
+        return True
+    return version >= UNIQUE_SINCE and {child.tag, twin.tag} <= _FRAMES
 
 
 def _name(element: Element) -> Located[str] | None:
@@ -93,6 +113,12 @@ GOOD = [
 <plugin name="p" filename="liba.so"/>
 """,
     '<link name="arm"><visual name="body"/><collision name="body"/></link>',
+    """
+<plugin name="p" filename="libp.so">
+  <light name="red"/>
+  <light name="red"/>
+</plugin>
+""",
 ]
 BAD = [
     """
@@ -113,6 +139,14 @@ BAD = [
       <sensor name="body" type="contact"/>  <!-- ^ SDF009 -->
     </link>
   </model>
+</sdf>
+""",
+    """
+<sdf version="1.6">
+  <world name="hall">
+    <model name="lamp"><link name="base_link"/></model>
+    <light name="lamp" type="point"/>  <!-- ^ SDF009 -->
+  </world>
 </sdf>
 """,
 ]

@@ -14,13 +14,13 @@ import re
 
 from checker.model.components import Joint
 from checker.model.specification.sheet import Specification
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI009", "effort-limit-exceeded", Severity.WARNING, Concern.ROBOT)
 def check(
-    driven: RobotTrial, specification: Specification | None, *, warning_above: float = 1.0
+    driven: SettledTrial, specification: Specification | None, *, warning_above: float = 1.0
 ) -> Findings:
     """Report joints that need more torque or force than their effort limit.
 
@@ -70,7 +70,7 @@ def _is_explained(joint: Joint, sheet: Specification | None) -> bool:
 _ANY_JOINT = frozenset({"joint", "link", "front", "rear", "left", "right", "back", "base"})
 
 
-def _unit(driven: RobotTrial, name: str) -> str:
+def _unit(driven: SettledTrial, name: str) -> str:
     joint = driven.robot.joints_by_name.get(name)
     return "N" if joint is not None and joint.type.value == "prismatic" else "N·m"
 

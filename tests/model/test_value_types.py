@@ -98,3 +98,11 @@ def test_bounds(number: float, low: float, high: float) -> None:
 
 def test_a_long_value_of_nonsense_is_reported_in_brief() -> None:
     assert len(faults("x " * 100_000, "pose")) <= 4
+
+
+@pytest.mark.parametrize(
+    ("value_type", "text", "lossy"),
+    [("double", "3.6 kg", True), ("vector3", "1 0 0 0", True), ("vector3", "1 0 x 0", False)],
+)
+def test_words_after_enough_numbers_are_only_lossy(value_type: str, text: str, lossy: bool) -> None:
+    assert {fault.lossy for fault in faults(text, value_type)} == {lossy}

@@ -73,18 +73,21 @@ def _numbers(
     text: Located[str], *, counts: tuple[int, ...], finite: bool = True
 ) -> Iterator[Misread]:
     values = numbers_of_words(text.value)
-    if len(values) in counts and all(_reads_well(value, finite=finite) for value in values):
+    well = [_reads_well(value, finite=finite) for value in values]
+    if len(values) in counts and all(well):
         return
+    # Parsers stop when they have enough.
+    lossy = len(values) > counts[-1] and all(well[: counts[-1]])
     reader = ValueReader()
     numbers = reader.numbers_in(text)
     for fault in reader.faults[:_MOST]:
-        yield Misread(fault.span, f"contains {_short(fault.span.text)}, which is not a number")
+        problem = f"contains {_short(fault.span.text)}, which is not a number"
+        yield Misread(fault.span, problem, lossy)
     if len(numbers) not in counts:
         expected = " or ".join(str(count) for count in counts)
         plural = "" if expected == "1" else "s"
-        yield Misread(
-            text.span, f"contains {len(numbers)} words, expected {expected} number{plural}"
-        )
+        problem = f"contains {len(numbers)} words, expected {expected} number{plural}"
+        yield Misread(text.span, problem, lossy)
     elif finite:
         infinite = (number for number in numbers if not math.isfinite(number.value))
         yield from (

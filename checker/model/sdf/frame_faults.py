@@ -194,8 +194,6 @@ def _attachments(robot: Robot) -> Iterator[Fault]:
 
 
 def _poses(link: Link) -> Iterator[tuple[str, Pose]]:
-    if link.inertial is not None:
-        yield f"the inertial of link {link.name.value!r}", link.inertial.pose
     parts: tuple[tuple[Part, Pose], ...] = (
         *((part, part.pose) for part in link.collisions),
         *((part, part.pose) for part in link.visuals),

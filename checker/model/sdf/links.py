@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from msgspec.structs import replace
+
 from checker.model.components import (
     UNLIMITED,
     Axis,
@@ -18,6 +20,7 @@ from checker.model.components import (
     Sensor,
     Visual,
 )
+from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameNode
 from checker.model.geometry.shapes import Geometry, Material
 from checker.model.sdf.scope import Scope
@@ -99,7 +102,7 @@ _MOMENTS = {"ixx": 1.0, "ixy": 0.0, "ixz": 0.0, "iyy": 1.0, "iyz": 0.0, "izz": 1
 
 def read_link(element: Element, scope: Scope) -> Link:
     """Read a `<link>` and enter its frame into the graph."""
-    name = scope.values.name(element)
+    name = scope.name(element)
     pose = scope.pose(element)
     scoped_name = scope.scoped(name.value)
     scope.graph.add(
@@ -113,7 +116,7 @@ def read_link(element: Element, scope: Scope) -> Link:
         element,
         scoped_name,
         pose,
-        _read_inertial(element, scope),
+        _read_inertial(element, scoped_name, scope),
         tuple(_read_collision(child, scope) for child in element.all("collision")),
         tuple(_read_visual(child, scope) for child in element.all("visual")),
         tuple(read_sensor(child, scoped_name, scope) for child in element.all("sensor")),
@@ -123,7 +126,8 @@ def read_link(element: Element, scope: Scope) -> Link:
     )
 
 
-def _read_inertial(link: Element, scope: Scope) -> Inertial | None:
+def _read_inertial(link: Element, frame: str, scope: Scope) -> Inertial | None:
+    """Read where a link has how much mass: always in the link's own frame."""
     element = link.child("inertial")
     if element is None:
         return None
@@ -132,7 +136,12 @@ def _read_inertial(link: Element, scope: Scope) -> Inertial | None:
         scope.values.number(inertia, name, default) for name, default in _MOMENTS.items()
     )
     mass = scope.values.number(element, "mass", 1.0)
-    return Inertial(scope.pose(element), mass, moments, element.span)
+    pose = scope.pose(element)
+    if pose.relative_to not in ("", frame):
+        message = f"the inertial of link {frame!r} is posed relative to {pose.relative_to!r}"
+        message += ", but simulators read it in the link's frame"
+        scope.values.fault(FaultKind.FRAME, pose.span, message)
+    return Inertial(replace(pose, relative_to=""), mass, moments, element.span)
 
 
 def _read_collision(element: Element, scope: Scope) -> Collision:
@@ -181,7 +190,7 @@ def read_plugin(element: Element, nested_in: str = "", owner: str = "") -> Plugi
 
 def read_joint(element: Element, scope: Scope) -> Joint:
     """Read a `<joint>` and enter its frame into the graph: posed in its child by default."""
-    name = scope.values.name(element)
+    name = scope.name(element)
     scoped_name = scope.scoped(name.value)
     child = _end(element, "child", scope)
     pose = scope.pose(element)
@@ -203,7 +212,7 @@ def read_joint(element: Element, scope: Scope) -> Joint:
         _end(element, "parent", scope),
         child,
         pose,
-        tuple(_read_axis(axis, scope) for axis in element.children if axis.tag in _AXES),
+        tuple(_read_axis(axis, scope) for tag in _AXES if (axis := element.child(tag)) is not None),
         tuple(read_sensor(sensor, scoped_name, scope) for sensor in element.all("sensor")),
     )
 
@@ -241,17 +250,16 @@ def _read_axis(element: Element, scope: Scope) -> Axis:
 def _expressed_in(axis: Element, scope: Scope) -> str:
     """Return the frame of the axis: empty for the joint's own.
 
-    SDF 1.4 always means the model's frame, 1.5 and 1.6 say so by `use_parent_model_frame`,
-    1.7 and later by `expressed_in`.
+    `expressed_in` counts in any version: libsdformat reads old files as if they were new. Before
+    SDF 1.7 `use_parent_model_frame` comes first, which is true by default up to 1.4.
     """
-    if scope.version >= (1, 7):
-        xyz = axis.child("xyz")
-        written = xyz.get("expressed_in") if xyz is not None else None
-        return scope.scoped(written) if written else ""
-    in_model_frame = scope.values.boolean(
-        axis, "use_parent_model_frame", scope.version <= (1, 4)
-    ).value
-    return scope.scoped(MODEL_FRAME) if in_model_frame else ""
+    if scope.version < (1, 7):
+        of_model = scope.values.boolean(axis, "use_parent_model_frame", scope.version <= (1, 4))
+        if of_model.value:
+            return scope.scoped(MODEL_FRAME)
+    xyz = axis.child("xyz")
+    written = xyz.get("expressed_in") if xyz is not None else None
+    return scope.scoped(written) if written else ""
 
 
 def _bound(limit: Located[float]) -> Located[float]:
@@ -269,7 +277,7 @@ def _maximum(limit: Located[float]) -> Located[float]:
 
 def read_frame(element: Element, scope: Scope) -> Frame:
     """Read a `<frame>`: posed in the frame it is attached to by default."""
-    name = scope.values.name(element)
+    name = scope.name(element)
     attached = element.get("attached_to") or ""
     pose = scope.pose(element)
     scope.graph.add(

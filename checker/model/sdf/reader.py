@@ -2,93 +2,35 @@
 
 from __future__ import annotations
 
-import posixpath
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from msgspec.structs import replace
 
-from checker.base.record import Record
 from checker.model.components import Frame, Joint, Link, Model, Plugin
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
 from checker.model.geometry.transform import Transform
 from checker.model.robot import Robot
-from checker.model.sdf.document import parse_version, sdf_version
+from checker.model.sdf.document import sdf_version
 from checker.model.sdf.frame_faults import unknown_frames
+from checker.model.sdf.includes import IncludeReader, included_model, not_at_hand
 from checker.model.sdf.links import read_frame, read_joint, read_link, read_plugin
+from checker.model.sdf.names import KINDS, name_of, renamed
 from checker.model.sdf.scope import Scope
 from checker.model.values import ValueReader
-from checker.package.fuel import is_on_fuel, path_from_fuel
-from checker.package.manifests import SdfEntry, read_model_config
-from checker.package.package import Package
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
-
-# The models that a package's model includes.
-
-
-class ModelIncludes(Record):
-    """Finds the model file behind the URI of an `<include>`: an `IncludeReader`."""
-
-    package: Package
-
-    def __call__(self, uri: Located[str]) -> XmlDocument | str:
-        """Return the file, or say why it cannot be read; relative URIs start at the includer."""
-        path = self._path(uri.value, posixpath.dirname(uri.span.source.file))
-        if path is None:
-            return f"{uri.value} is not available"
-        document = self.package.xml(path)
-        return document if isinstance(document, XmlDocument) else f"{path} cannot be read"
-
-    def _path(self, uri: str, folder: str) -> str | None:
-        """Return the path of a model: of an available package, of a folder, or as it is named."""
-        if is_on_fuel(uri):
-            on_fuel = path_from_fuel(self.package, uri)
-            return self._model_in(on_fuel) if on_fuel is not None else None
-        if uri.startswith("model://"):
-            name, _, uri = uri.removeprefix("model://").partition("/")
-            holder = self.package.workspace.package(name)
-            if holder is None:
-                return None
-            folder = "" if holder is self.package else f"../{holder.name}"
-        path = posixpath.normpath(posixpath.join(folder, uri or "."))
-        entry = self.package.resolve(path)
-        if path in (".", folder) or (entry is not None and entry.is_folder):
-            return self._model_in(path)
-        return path if entry is not None else None
-
-    def _model_in(self, folder: str) -> str:
-        """Return the model file of a folder: the newest that its model.config names."""
-        config = self.package.xml(posixpath.normpath(f"{folder}/model.config"))
-        entries = read_model_config(config).sdf if isinstance(config, XmlDocument) else ()
-        newest = max(entries, key=_version, default=None)
-        named = newest.file.value if newest is not None else "model.sdf"
-        return posixpath.normpath(f"{folder}/{named}")
-
-
-def _version(entry: SdfEntry) -> tuple[int, int]:
-    return parse_version(entry.version.value) or (0, 0)
-
 
 MAX_NESTING = 40
 MAX_INCLUDES = 100
 """Of one robot in all: files that include one another twice would double at each level."""
 
-IncludeReader = Callable[[Located[str]], "XmlDocument | str"]
-"""Gives the model file behind the URI of an `<include>`, or says why it cannot be read.
-
-The URI's place tells the file that includes, where relative URIs start.
-"""
-
-
-def not_at_hand(uri: Located[str]) -> XmlDocument | str:
-    """Read no include at all."""
-    return f"{uri.value} is not available"
-
 
 def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tuple[Robot, ...]:
-    """Read the models that stand at the top of a file or directly in its worlds."""
+    """Read the models that stand at the top of a file or directly in its worlds.
+
+    A model that is included at the top is the file's own; what worlds include is not.
+    """
     root = document.root
     holders = [root, *root.all("world")]
     if root.tag == "world":
@@ -96,20 +38,32 @@ def read_sdf(document: XmlDocument, include: IncludeReader = not_at_hand) -> tup
     models = [model for holder in holders for model in holder.all("model")]
     if root.tag == "model":
         models = [root]
-    return tuple(read_robot(model, include) for model in models)
+    robots = [read_robot(model, include) for model in models]
+    included = [(each, included_model(each, include)) for each in root.all("include")]
+    robots += [
+        read_robot(model, include, placed)
+        for placed, model in included
+        if isinstance(model, Element) and root.tag == "sdf"
+    ]
+    return tuple(robots)
 
 
-def read_robot(element: Element, include: IncludeReader = not_at_hand) -> Robot:
-    """Read one `<model>` as a robot of its own."""
+def read_robot(
+    element: Element, include: IncludeReader = not_at_hand, placed: Element | None = None
+) -> Robot:
+    """Read one `<model>` as a robot of its own; an include places it and may name it anew."""
     document = element.document
     values, graph = ValueReader(), FrameGraph()
-    scope = Scope("", MODEL_FRAME, sdf_version(document), values, graph)
-    pose = scope.pose(element)
+    version = sdf_version(document)
+    scope = Scope("", MODEL_FRAME, version, values, graph, renamed(element, version))
+    pose = scope.pose(element if placed is None else _posing(element, placed))
     graph.add(MODEL_FRAME, FrameNode(None, Transform(), pose.span, "the model"))
     collected = _Collected(include, [document])
     collected.read(element, scope, 0)
+    if placed is not None:
+        collected.plugins.extend(read_plugin(plugin) for plugin in placed.all("plugin"))
     robot = Robot(
-        values.name(element),
+        values.name(element) if placed is None else _name_of(element, placed, scope),
         element,
         document,
         "sdf",
@@ -122,6 +76,7 @@ def read_robot(element: Element, include: IncludeReader = not_at_hand) -> Robot:
         tuple(collected.plugins),
         graph,
         unresolved_includes=tuple(collected.unresolved),
+        merges_unknown=collected.merges_unknown,
     )
     for name in graph.nodes:
         graph.pose(name)
@@ -141,6 +96,9 @@ class _Collected:
     models: list[Model] = field(default_factory=list)
     plugins: list[Plugin] = field(default_factory=list)
     unresolved: list[Located[str]] = field(default_factory=list)
+    merges_unknown: bool = False
+    merging: list[Element] = field(default_factory=list)
+    entered: dict[str, tuple[Element | None, Element | None]] = field(default_factory=dict)
 
     def read(self, model: Element, scope: Scope, depth: int) -> None:
         """Read the inside of a model."""
@@ -159,12 +117,26 @@ class _Collected:
                     self._read_nested(child, child, scope, depth + 1)
                 case "include":
                     self._read_include(child, scope, depth + 1)
+            if child.tag in KINDS:
+                self._enter(child, scope)
+
+    def _enter(self, part: Element, scope: Scope) -> None:
+        """Remember a name; one of two models that is given twice comes by a merge."""
+        name = scope.prefix + (scope.renamed.get(part) or name_of(part))
+        merge = self.merging[-1] if self.merging else None
+        parent, earlier = self.entered.setdefault(name, (part.parent, merge))
+        at = merge or earlier
+        elsewhere = parent is not part.parent or earlier is not merge
+        if elsewhere and at is not None and name != scope.prefix:
+            message = f"brings {part.tag} {name!r}, but there is another part of this name"
+            scope.values.fault(FaultKind.INCLUDE, at.span, f"the merged model {message}")
 
     def _read_include(self, include: Element, scope: Scope, depth: int) -> None:
         uri = scope.values.text(include, "uri")
         document = self.include(uri) if uri.stated else "an <include> without <uri>"
         if isinstance(document, str):
             self.unresolved.append(uri)
+            self.merges_unknown |= _merges(include)
             return
         self.includes += 1
         model = next(iter(document.root.all("model")), None)
@@ -172,8 +144,11 @@ class _Collected:
             scope.values.fault(FaultKind.INCLUDE, uri.span, f"{uri.value} {refusal}")
         elif model is not None:
             self.open_files.append(document)
+            self.merging += [include] if _merges(include) else []
             self._read_nested(model, include, scope, depth, uri)
             self.open_files.pop()
+            if _merges(include):
+                self.merging.pop()
 
     def _refusal(self, document: XmlDocument, model: Element | None) -> str:
         """Say why an include is not read; empty when it is."""
@@ -200,8 +175,7 @@ class _Collected:
             return
         name = _name_of(model, placed, scope)
         inside = self._scope_inside(model, placed, name.value, scope)
-        pose_holder = placed if placed.child("pose") is not None else model
-        pose = scope.pose(pose_holder)
+        pose = scope.pose(_posing(model, placed))
         self.read(model, inside, depth)
         if placed is not model:
             names = inside.prefix.removesuffix("::")
@@ -228,11 +202,22 @@ class _Collected:
     def _scope_inside(model: Element, placed: Element, name: str, scope: Scope) -> Scope:
         """Return the scope of a nested model; a merged one (SDF 1.9) shares its parent's names."""
         version = sdf_version(model.document)
-        if placed.get("merge") in ("true", "1"):
+        new_names = renamed(model, version)
+        if _merges(placed):
             frame = f"{scope.prefix}_merged__{name}__model__"
-            return Scope(scope.prefix, frame, version, scope.values, scope.graph)
+            return Scope(scope.prefix, frame, version, scope.values, scope.graph, new_names)
         frame = scope.scoped(name)
-        return Scope(f"{frame}::", frame, version, scope.values, scope.graph)
+        return Scope(f"{frame}::", frame, version, scope.values, scope.graph, new_names)
+
+
+def _merges(include: Element) -> bool:
+    """Whether an include gives its parts to the model around it, as SDF 1.9 and later allow."""
+    return (include.get("merge") or "").lower() in ("true", "1")
+
+
+def _posing(model: Element, placed: Element) -> Element:
+    """Return the element whose pose places a model: that of an include comes first."""
+    return placed if placed.child("pose") is not None else model
 
 
 def _name_of(model: Element, placed: Element, scope: Scope) -> Located[str]:

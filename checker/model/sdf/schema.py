@@ -68,7 +68,11 @@ class ElementType(Record, dict=True):
     @cached_property
     def children(self) -> dict[str, ElementType]:
         """Elements that may stand directly inside, by tag."""
-        return {child.name: child for child in self._children()}
+        children = {child.name: child for child in self._children()}
+        if not self.enclosing and (world := children.get("world")) is not None:
+            # No description says so, but libsdformat takes a model that is included at the top.
+            children["include"] = world.children["include"]
+        return children
 
     @cached_property
     def required_children(self) -> tuple[ElementType, ...]:
@@ -151,6 +155,19 @@ def _triples(version: str) -> frozenset[tuple[str, str, str]]:
             if not kind:
                 stack.append((entry["name"], kid))
     return frozenset(triples)
+
+
+def type_of(element: Element, version: str) -> ElementType | None:
+    """Return the type of an element in a version, by what it stands in; None without a place."""
+    above: list[Element] = []
+    at: Element | None = element
+    while at is not None:
+        above.append(at)
+        at = at.parent
+    kind = sdf_root(version) if above.pop().tag == "sdf" else None
+    while above and kind is not None and not kind.free:
+        kind = kind.children.get(above.pop().tag)
+    return kind
 
 
 def walk(root: Element, version: str) -> Iterator[tuple[Element, ElementType | None]]:

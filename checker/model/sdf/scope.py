@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from checker.base.record import Record
 from checker.model.components import Pose
 from checker.model.faults import FaultKind
@@ -24,6 +26,7 @@ class Scope(Record):
         version: SDF version of the file, as (1, 6).
         values: Reads values, collects faults.
         graph: Takes the frames.
+        renamed: Parts inside that libsdformat calls otherwise than they are written.
     """
 
     prefix: str
@@ -31,6 +34,7 @@ class Scope(Record):
     version: tuple[int, int]
     values: ValueReader
     graph: FrameGraph
+    renamed: Mapping[Element, str] = {}
 
     def scoped(self, name: str) -> str:
         """Return the unique name of a frame as written inside this model."""
@@ -39,17 +43,25 @@ class Scope(Record):
         name = name.removesuffix(f"::{MODEL_FRAME}")
         return name if name == "world" else self.prefix + name
 
+    def name(self, part: Element) -> Located[str]:
+        """Return the name of a link, joint or frame inside this model."""
+        written = self.values.name(part)
+        return Located(self.renamed[part], written.span) if part in self.renamed else written
+
     def pose(self, parent: Element) -> Pose:
         """Read the `<pose>` of an element; zeros when it has none.
 
-        SDF 1.5 and 1.6 name the other frame in `frame`, 1.7 and later in `relative_to`.
+        The other frame is named by `relative_to`, in any version: libsdformat turns the `frame`
+        of files before SDF 1.7 into it, in place of one that is written, and then reads them all
+        alike.
         """
         element = parent.child("pose")
         if element is None:
             numbers = tuple(Located(0.0, parent.span, stated=False) for _ in _ZEROS)
             return Pose(Transform(), "", numbers, parent.span)
-        attribute = "relative_to" if self.version >= (1, 7) else "frame"
-        written = element.get(attribute) or ""
+        written = element.get("relative_to") or ""
+        if self.version < (1, 7):
+            written = element.attributes.get("frame", written)
         numbers, transform = self._numbers(element)
         frame = self.scoped(written) if written else ""
         in_radians = len(numbers) == len(_ZEROS) and not in_degrees(element)

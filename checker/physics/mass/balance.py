@@ -196,7 +196,7 @@ def stand_of(robot: Robot) -> Stand:
     points = [
         (x, y)
         for _, _, collision, pose in touching
-        for x, y, z in contact_points(collision.geometry, pose, robot.meshes)
+        for x, y, z in contact_points(collision.geometry, pose, robot.scaled_meshes)
         if z <= ground + _TOUCHES
     ]
     names = frozenset(link.scoped_name for _, link, _, _ in touching)

@@ -137,7 +137,7 @@ def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
     """
     reaches = []
     for shape, pose in _placed(robot, link):
-        reach = farthest(shape.geometry, pose, point, robot.meshes)
+        reach = farthest(shape.geometry, pose, point, robot.scaled_meshes)
         if reach is None:
             return None
         reaches.append(reach)
@@ -150,7 +150,7 @@ def volume_bounds(robot: Robot, shapes: Iterable[_Shape]) -> tuple[float, float]
     They may lie in one another: the largest alone, and all side by side. None without shapes, and
     where one is not known.
     """
-    volumes = [volume_of(shape.geometry, robot.meshes) for shape in solid(shapes)]
+    volumes = [volume_of(shape.geometry, robot.scaled_meshes) for shape in solid(shapes)]
     known = [volume for volume in volumes if volume is not None]
     if not known or len(known) < len(volumes):
         return None

@@ -171,7 +171,7 @@ class GeomReader:
         """Return the part of a mesh that a collision picks; the whole one where that is unknown."""
         uri = collision.geometry.uri
         used = self.robot.mesh_of(collision)
-        whole = self.robot.meshes.of(uri) if uri is not None else None
+        whole = self.robot.scaled_meshes.of(uri) if uri is not None else None
         return whole if isinstance(used, MeshFault) else used
 
     def _leave_out(
