@@ -11,8 +11,6 @@ Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins f
 packages (`subt_plugins.json`). None of the accepted packages that we checked shows this.
 """
 
-import re
-
 from checker.base.words import Suggestions
 from checker.model.plugin_library import (
     classic_plugin,
@@ -24,11 +22,6 @@ from checker.model.robot import Robot
 from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
-
-_CARRIES_NO_PLUGIN = re.compile(
-    r"(?:ignition-|gz-|ros_|subt_).*|.*_msgs|catkin|genmsg|message_\w*|nodelet|python.*"
-    r"|robot_state_publisher|joint_state_publisher|ros\w*|rviz|std_srvs|tf2?(?:_ros)?|urdf|xacro"
-)
 
 
 _SUBMISSIONS = "dome"
@@ -45,7 +38,7 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
         return
     lenders = lenders_of(package)
     known = lenders.libraries() | of_release.keys()
-    absent = [name for name in lenders.missing if not _CARRIES_NO_PLUGIN.fullmatch(name)]
+    absent = lenders.unknown
     suggestions = Suggestions(sorted(known))
     for plugin in robot.all_plugins:
         stem = library_stem(plugin.filename.value)
