@@ -13,7 +13,7 @@ Source: definition of the moment of inertia.
 
 import math
 
-from checker.physics.mass.link_geometry import known_reach, not_looked_at
+from checker.physics.mass.link_geometry import known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -50,7 +50,7 @@ def check(
         ratio = inertia.gyration_radius / reach if reach else math.inf
         if warning_below <= ratio <= warning_above:
             continue
-        unknown = not_looked_at(masses.robot, inertia.link)
+        unknown = unknown_mesh(masses.robot, inertia.link)
         if unknown:
             yield unchecked(unknown)
         elif reach and (ratio > warning_above or masses.share(name) > share):

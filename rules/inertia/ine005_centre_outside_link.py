@@ -12,7 +12,7 @@ Source: definition of the centre of mass; SDFormat specification, inertial/pose.
 import math
 
 from checker.model.geometry.boxes import Box
-from checker.physics.mass.link_geometry import known_box, not_looked_at
+from checker.physics.mass.link_geometry import known_box, unknown_mesh
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -47,7 +47,7 @@ def check(
         outside = math.inf if box is None else box.gap(Box(centre, centre))
         if box is not None and outside <= warning_above * box.diagonal:
             continue
-        unknown = not_looked_at(masses.robot, inertia.link)
+        unknown = unknown_mesh(masses.robot, inertia.link)
         if unknown:
             yield unchecked(unknown)
         elif box is not None and box.diagonal > 0.0:

@@ -29,7 +29,7 @@ _NAMED = {Link: "link", Joint: "joint"}
 
 @rule("SDF011", "name-with-prefix", Severity.WARNING, Concern.PAPERWORK)
 def check(robot: Robot, package: Package) -> Findings:
-    """Report names with a slash; they are errors if all links have the same prefix."""
+    """Report names with a slash in which the prefix stands for the robot."""
     if robot.format != "sdf":
         return  # In URDF files for RViz the prefix is asked for.
     prefixes = _of_robot(robot)
@@ -42,7 +42,6 @@ def check(robot: Robot, package: Package) -> Findings:
                 f"every link has the prefix {prefix + '/'!r}"
                 if everywhere
                 else f"{_NAMED[type(part)]} {part.name.value!r} has the prefix {prefix + '/'!r}",
-                severity=Severity.ERROR if everywhere else None,
                 fix=fix,
             )
 

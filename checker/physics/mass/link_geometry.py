@@ -97,17 +97,23 @@ def solid(shapes: Iterable[_Shape]) -> list[_Shape]:
     return [shape for shape in shapes if shape.geometry.shape not in _NOTHING]
 
 
-def not_looked_at(robot: Robot, link: Link) -> str:
-    """Return why a mesh of a link is not known, as the end of a sentence.
+def unknown_mesh(robot: Robot, link: Link) -> str:
+    """Return why a mesh of a link is not known, as the end of a sentence; empty when all are."""
+    return next((reason for reason, _ in _unknown_meshes(robot, link)), "")
 
-    Empty when all are, and for files that are missing or broken: other rules say so.
-    """
+
+def not_looked_at(robot: Robot, link: Link) -> str:
+    """Return the same, but nothing for files that other rules report: missing or broken ones."""
+    reasons = _unknown_meshes(robot, link)
+    return next((why for why, trouble in reasons if trouble is MeshTrouble.NOT_LOOKED_AT), "")
+
+
+def _unknown_meshes(robot: Robot, link: Link) -> Iterator[tuple[str, MeshTrouble]]:
     for shape in solid((*link.collisions, *link.visuals)):
         mesh = robot.mesh_of(shape)
-        if isinstance(mesh, MeshFault) and mesh.trouble is MeshTrouble.NOT_LOOKED_AT:
+        if isinstance(mesh, MeshFault):
             uri = shape.geometry.uri
-            return f"the mesh {uri.value if uri else ''} {mesh.reason}"
-    return ""
+            yield f"the mesh {uri.value if uri else ''} {mesh.reason}", mesh.trouble
 
 
 def _placed(robot: Robot, link: Link) -> Iterator[tuple[_Shape, Transform]]:
