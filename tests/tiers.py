@@ -20,6 +20,7 @@ MARKS: Mapping[str, str] = {
     "service": "needs a network port, a database server or workers of the service",
     "install": "needs a second installation of the project: a wheel, an image, a hook",
     "programs": "needs what `make dev` does not install: ruby, git, OpenGL, published schemas",
+    "oracle": "needs other programs that read robots: libsdformat, drake",
     "corpus": "needs real packages",
 }
 BY_FIXTURE: Mapping[str, str] = {
@@ -34,6 +35,7 @@ BY_FIXTURE: Mapping[str, str] = {
     "corpus": "corpus",
 }
 BY_PLACE: Mapping[str, str] = {
+    "oracle": "oracle",
     "deployment/test_image.py": "install",
     "deployment/test_postgres.py": "service",
     "deployment/test_running.py": "install",

@@ -179,7 +179,8 @@ class Robot(Part, dict=True):
 
     def may_be_included(self, name: str) -> bool:
         """Whether a part of this name could come from an include that is not available."""
-        return self.merges_unknown or ("::" in name and bool(self.unresolved_includes))
+        known = not name or not self.unresolved_includes
+        return not known and (self.merges_unknown or "::" in name)
 
     @staticmethod
     def folder_of(uri: Located[str]) -> str:

@@ -34,9 +34,11 @@ class Workspace(Record, eq=False, dict=True):
     Attributes:
         directories: Links resolved. The first is where the checked packages lie; further ones
             come from the user, to find siblings in.
+        within: The folder that an archive was unpacked into, which nothing leaves; else None.
     """
 
     directories: tuple[Path, ...]
+    within: Path | None = None
     _packages: dict[Path, Package] = field(default_factory=dict)
     _found: dict[str, Package | None] = field(default_factory=dict)
 
@@ -106,7 +108,8 @@ class Workspace(Record, eq=False, dict=True):
         for directory in self.directories:
             for above in islice(directory.parents, LEVELS_ABOVE):
                 folder = above / name
-                if not folder.is_symlink() and _is_package(folder):
+                inside = self.within is None or above.is_relative_to(self.within)
+                if inside and not folder.is_symlink() and _is_package(folder):
                     return self.at(folder)
         return None
 

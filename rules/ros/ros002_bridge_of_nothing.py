@@ -13,6 +13,8 @@ bridged from `base_link` but had a link of their own. Bridges of the launch file
 assumed (`models_common.json`).
 """
 
+from collections.abc import Callable
+
 from checker.base.words import Suggestions
 from checker.expand.launch.bridge import Bridge, SensorTopic
 from checker.expand.launch.graph import LaunchGraph
@@ -22,23 +24,28 @@ from checker.model.robot import Robot
 from checker.model.ros.topics import comparable, suffixes
 from checker.model.sdf.links import read_plugin
 from checker.model.sensing.kind import SensorType
+from checker.package.dependencies import lenders_of
+from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+
+_Own = Callable[[Plugin], bool]
 
 
 @rule("ROS002", "bridge-of-nothing", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
+def check(robot: Robot, launch: LaunchGraph, package: Package, context: Context) -> Findings:
     """Report bridges of sensor topics that no sensor of the robot publishes."""
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
     for reason in launch.unread:
         yield unchecked(reason)
+    own = _own_libraries(package, context.release)
     names = Suggestions([*robot.links_by_name, *(sensor.name.value for sensor in robot.sensors)])
     for bridge in launch.bridges:
         fault = _fault(robot, bridge, names)
         if any(_names(plugin, bridge.ign_topic) for plugin in robot.plugins):
             continue
-        if fault and (plugin := _publisher(robot, bridge, context.release)):
+        if fault and (plugin := _publisher(robot, bridge, own, context.release)):
             yield unchecked(f"plugin {plugin.filename.value} may publish {bridge.ign_topic} itself")
         elif fault:
             yield finding(bridge, _message(bridge, "listens", fault), key=bridge.ign_topic)
@@ -66,21 +73,35 @@ def _fault(robot: Robot, bridge: Bridge, names: Suggestions) -> str | None:
     return _nothing_at(robot, topic, names)
 
 
-def _publisher(robot: Robot, bridge: Bridge, release: str) -> Plugin | None:
-    """Return a plugin of unknown source that may publish what is bridged.
+def _own_libraries(package: Package, release: str) -> _Own:
+    """Return what says whether a plugin is one that the package, or a dependency, holds itself.
+
+    What nobody holds publishes nothing: PLG002 reports it.
+    """
+    lenders, known = lenders_of(package), plugin_libraries(release)
+    held, anywhere = lenders.libraries(), bool(lenders.unknown)
+
+    def is_own(plugin: Plugin) -> bool:
+        stem = library_stem(plugin.filename.value)
+        return bool(stem) and stem not in known and (anywhere or stem in held)
+
+    return is_own
+
+
+def _publisher(robot: Robot, bridge: Bridge, own: _Own, release: str) -> Plugin | None:
+    """Return a plugin of unknown behaviour that may publish what is bridged.
 
     The plugins of the challenge publish what their parameters say, those in sensors excepted.
     """
     topic = bridge.sensor
     link = robot.links_by_name.get(topic.link) if topic else None
-    known, of_gazebo = plugin_libraries(release), gazebo_libraries(release)
-    for plugin in robot.plugins if link is None else (*robot.plugins, *_plugins_in(link)):
-        if library_stem(plugin.filename.value) not in known:
-            return plugin
+    around = robot.plugins if link is None else (*robot.plugins, *_plugins_in(link))
     sensors = link.sensors if link else ()
     named = topic.sensor if topic else ""
-    own = (plugin for s in sensors if s.name.value == named for plugin in s.plugins)
-    return next((p for p in own if library_stem(p.filename.value) not in of_gazebo), None)
+    inside = [plugin for s in sensors if s.name.value == named for plugin in s.plugins]
+    of_challenge = plugin_libraries(release).keys() - gazebo_libraries(release).keys()
+    special = (p for p in inside if library_stem(p.filename.value) in of_challenge)
+    return next((plugin for plugin in (*around, *inside) if own(plugin)), next(special, None))
 
 
 def _plugins_in(link: Link) -> list[Plugin]:

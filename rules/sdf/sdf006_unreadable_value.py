@@ -78,7 +78,9 @@ def _text(
         value_type = QUATERNION_POSE if quaternion else value_type
         if quaternion and in_degrees(element):
             yield finding(element, "<pose> gives a quaternion, but says that it is in degrees")
-    faults = misread(text, value_type) or out_of_bounds(text, kind.bounds)
+    faults = misread(text, value_type)
+    if all(fault.lossy for fault in faults):
+        faults += out_of_bounds(text, kind.bounds)
     taken = kind.value_type != "pose" or not _counts_words_of_poses(context)
     for fault in faults:
         severity = Severity.WARNING if fault.lossy and taken else None

@@ -29,7 +29,7 @@ from checker.source.xml import Element
 _RESERVED = re.compile(r"world|__.*__")
 _FRAMES = frozenset(KINDS)
 """Elements that are also frames, and so share one set of names in every version."""
-_PARTS = (_FRAMES - {"include"}) | {"world", "visual", "collision", "sensor", "light", "physics"}
+_PARTS = _FRAMES | {"world", "visual", "collision", "sensor", "light", "physics"}
 """Elements that may not have a reserved name."""
 
 NAME_OF_PHYSICS = "default_physics"
@@ -48,8 +48,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         if kind is None or kind.free:
             continue
         yield from _twins(element, kind, version)
-        name = element.attribute("name")
-        if name is None:
+        name = _name(element) if element.tag == "include" else element.attribute("name")
+        if name is None or (element.tag != "include" and "name" not in kind.attributes):
             continue
         if element.tag in _PARTS and _RESERVED.fullmatch(name.value):
             yield finding(name, f"<{element.tag}> has the reserved name {name.value!r}")

@@ -1,10 +1,11 @@
 """An image format that the simulator does not support.
 
 A camera of Gazebo Dome publishes only R8G8B8: with another format it prints an error, and the
-pixels do not match the topic. A name that SDFormat does not know is not a format.
+pixels do not match the topic. With a name that SDFormat does not know, the file does not load.
 
 Fix: write `<format>R8G8B8</format>`; for grey images, convert them on the robot.
-Source: `camera_formats.json`; the formats of each release are from memory of gz-sensors.
+Source: `camera_formats.json`; what libsdformat 12 refuses; the formats of each release are from
+memory of gz-sensors.
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,16 +24,15 @@ def check(robot: Robot, context: Context) -> Findings:
     """Report unknown formats, and formats of colour cameras that the release lacks."""
     formats = table("camera_formats")
     names: Mapping[str, str] = formats["names"]
-    rendered = formats["rendered"].get(context.release)
-    if rendered is None:
-        return
+    rendered = formats["rendered"].get(context.release, names.values())
     suggestions = Suggestions(names)
     for sensor in robot.sensors:
         camera = sensor.camera
         if camera is None or not sensor.kind.takes_pictures or not camera.format.stated:
             continue
-        format_name = camera.format.value
+        format_name, severity = camera.format.value, Severity.WARNING
         if format_name not in names:
+            severity = Severity.ERROR
             fault = f", which SDFormat does not know{suggestions.hint(format_name)}"
         elif sensor.kind is SensorType.CAMERA and names[format_name] not in rendered:
             release = f"Gazebo {context.release.capitalize()}"
@@ -40,7 +40,7 @@ def check(robot: Robot, context: Context) -> Findings:
         else:
             continue
         message = f"camera {sensor.name.value!r} has format {format_name[:_SHOWN]!r}{fault}"
-        yield finding(camera.format, message, key=format_name)
+        yield finding(camera.format, message, severity=severity, key=format_name)
 
 
 def _listed(formats: Sequence[str], names: Mapping[str, str]) -> str:

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
 
 from checker.base.parts import NotAvailable
+from checker.engine.run import run_rules
 from checker.engine.subject import Subject
 from checker.expand.launch.graph import LaunchGraph
+from checker.finding import Severity
 from checker.package.inputs import open_input
 from checker.rule_testing import NAME, write_example
+from checker.rulebook.discovery import all_rules
+from checker.rulebook.profiles import profile
+from checker.settings import Settings
 
 IMU = """<launch>
   <arg name="gazebo_topic"/>
@@ -57,6 +63,14 @@ def test_beside_and_above_the_submissions(place: str, tmp_path: Path) -> None:
     assert graph.unseen_bridges == ()
 
 
+def test_it_is_no_undeclared_sibling(tmp_path: Path) -> None:
+    graph_in(tmp_path, tmp_path)
+    rules = [rule for rule in all_rules() if rule.id == "PKG007"]
+    with open_input(tmp_path / NAME) as opened:
+        outcome = run_rules(rules, Subject(opened.packages[0]), profile("subt"), Settings())
+    assert [found.severity for found in outcome.findings] == [Severity.INFO]
+
+
 def test_no_other_package_above_is_looked_at(tmp_path: Path) -> None:
     workspace = tmp_path / "submitted_models"
     workspace.mkdir()
@@ -67,3 +81,15 @@ def test_no_other_package_above_is_looked_at(tmp_path: Path) -> None:
         assert package.workspace.package("other") is None
         assert package.workspace.package("subt_ros") is None
         assert package.workspace.package(NAME) is package
+
+
+def test_nothing_outside_an_archive_is_looked_at(tmp_path: Path) -> None:
+    package = write_example({}, tmp_path)
+    archive = shutil.make_archive(str(tmp_path / "upload"), "zip", tmp_path, package.name)
+    with open_input(Path(archive)) as opened:
+        workspace = opened.packages[0].workspace
+        (place,) = workspace.directories
+        beyond = place.parent / "subt_ros"
+        beyond.mkdir()
+        (beyond / "package.xml").write_text("<package/>")
+        assert workspace.package("subt_ros") is None

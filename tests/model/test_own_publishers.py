@@ -15,6 +15,7 @@ from checker.rulebook.profiles import profile
 from checker.settings import Settings
 
 OWN = '<plugin filename="libacme.so" name="acme::Publisher"/>'
+NOBODYS = '<plugin filename="libnowhere.so" name="acme::Publisher"/>'
 GAS = '<plugin filename="libGasEmitterDetectorPlugin.so" name="subt::GasDetector"/>'
 MONO = '<plugin filename="mono-camera-system" name="subt::MonoCameraSystem"/>'
 LAUNCH = """<launch>
@@ -33,6 +34,7 @@ LAUNCH = """<launch>
         ("", OWN, "", False),
         ("", "", OWN, False),
         ("", "", MONO, False),
+        (NOBODYS, "", NOBODYS, True),
     ],
 )
 def test_who_else_may_publish(
@@ -42,6 +44,7 @@ def test_who_else_may_publish(
     files = {
         "@fragment": f'{in_model}<link name="mast">{in_link}{sensor}</link>',
         "launch/vehicle_topics.launch": LAUNCH,
+        "lib/libacme.so": "",
     }
     rules = [rule for rule in all_rules() if rule.id == "ROS002"]
     with open_input(write_example(files, tmp_path)) as opened:

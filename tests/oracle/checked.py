@@ -17,7 +17,7 @@ from checker.source.xml import XmlDocument
 
 REFUSING = (
     *("SDF001", "SDF002", "SDF005", "SDF006", "SDF009", "SDF012", "SDF017", "SDF018"),
-    *("KIN001", "KIN002", "KIN004", "KIN008", "KIN010", "KIN011", "INE002"),
+    *("KIN001", "KIN002", "KIN004", "KIN008", "KIN010", "KIN011", "INE002", "SEN001", "SEN027"),
 )
 """Rules whose errors say that a parser does not load the file."""
 _SETTINGS = Settings(profile="sdf", profile_chosen=True, select=REFUSING, trial=False, cache=False)
@@ -29,16 +29,15 @@ class Checked:
 
     Attributes:
         errors: Why it says that the file is refused; each begins with the rule.
-        robots: The models at the top of the file and in its worlds.
-        missing: What is included and not at hand.
+        robots: The models at the top of the file and in its worlds, by name.
+        merges: Whether a model gives its parts to another one.
+        more: Whether worlds include models, which are no robots of the file.
     """
 
     errors: tuple[str, ...]
-    robots: tuple[Robot, ...]
-
-    @property
-    def missing(self) -> str:
-        return next((robot.missing_parts for robot in self.robots if robot.missing_parts), "")
+    robots: dict[str, Robot]
+    merges: bool
+    more: bool
 
 
 def checked(file: Path) -> Checked:
@@ -46,11 +45,13 @@ def checked(file: Path) -> Checked:
     with open_input(file) as opened:
         (package,) = opened.packages
         findings = findings_of(package, _SETTINGS, NO_CACHE)
-        errors = [
-            f"{each.rule} {each.message}" for each in findings if each.severity is Severity.ERROR
-        ]
+        errors = [each for each in findings if each.severity is Severity.ERROR]
         document = package.xml(file.name)
-        robots = ()
-        if isinstance(document, XmlDocument) and document.root.tag == "sdf":
-            robots = read_sdf(document, ModelIncludes(package))
-        return Checked(tuple(errors), robots)
+        is_sdf = isinstance(document, XmlDocument) and document.root.tag == "sdf"
+        robots = read_sdf(document, ModelIncludes(package)) if is_sdf else ()
+        return Checked(
+            tuple(f"{error.rule} {error.message}" for error in errors),
+            {robot.name.value: robot for robot in robots},
+            any("_merged__" in model.scoped_name for each in robots for model in each.models),
+            is_sdf and any(world.child("include") for world in document.root.all("world")),
+        )

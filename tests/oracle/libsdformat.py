@@ -37,18 +37,20 @@ def compiled(folder: Path) -> Path:
     """Compile the program, unless a folder holds it already."""
     program = folder / f"load_sdf-{hashlib.sha256(SOURCE.read_bytes()).hexdigest()[:16]}"
     if not program.exists():
-        found = subprocess.check_output(
-            ["pkg-config", "--cflags", "--libs", "sdformat12"], text=True
-        )
+        asked = ["pkg-config", "--cflags", "--libs", "sdformat12"]
+        flags = shlex.split(subprocess.check_output(asked, text=True))
         new = program.with_suffix(f".{os.getpid()}")
-        subprocess.run(["g++", "-std=c++17", SOURCE, "-o", new, *shlex.split(found)], check=True)
+        subprocess.run(["g++", "-std=c++17", SOURCE, "-o", new, *flags], check=True)
         new.replace(program)
     return program
 
 
-def load(program: Path, files: Sequence[Path]) -> Iterator[Loaded]:
+def load(program: Path, files: Sequence[Path]) -> list[Loaded]:
     """Load files, in their order; one that ends the library itself counts as refused."""
-    rest = list(files)
+    return list(_answers(program, list(files)))
+
+
+def _answers(program: Path, rest: list[Path]) -> Iterator[Loaded]:
     while rest:
         names = "".join(f"{file}\n" for file in rest)
         done = subprocess.run([program], input=names, capture_output=True, text=True, check=False)

@@ -21,7 +21,7 @@ ATTRIBUTES = (
     *("name", "type", "relative_to", "attached_to", "frame", "expressed_in", "degrees"),
     *("canonical_link", "placement_frame", "rotation_format", "unknown"),
 )
-VERSIONS = ("1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.20", "", "x")
+VERSIONS = ("1.5", "1.6", "1.7", "1.8", "1.9", "1.20", "", "x")
 
 
 def mutant(text: str, seed: int) -> str:

@@ -12,13 +12,13 @@ from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME
 from checker.model.robot import Robot
 from checker.model.sdf.document import sdf_version
+from checker.model.sdf.poses import frame_of
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
 # Frames that worlds and outermost models refer to; those inside a model are the robot's.
 #
-# SDF 1.7 gave worlds frames of their own. A name with `::` leads into a model; what an include
-# brings is not looked into.
+# A name with `::` leads into a model; what an include brings is not looked into.
 
 
 _WORLD = "world"
@@ -30,8 +30,6 @@ _IN_MODEL = frozenset({"link", "joint", "frame", "model", "include"})
 def world_frame_faults(document: XmlDocument) -> Iterator[Fault]:
     """Yield a fault for each reference to a frame that does not exist, and for circles."""
     root = document.root
-    if sdf_version(document) < (1, 7):
-        return
     scopes = _Scopes()
     for world in root.all("world"):
         yield from _in_world(world, scopes)
@@ -99,7 +97,8 @@ def _in_world(world: Element, scopes: _Scopes) -> Iterator[Fault]:
         if frame := relative_to or at:
             posed[name] = frame.value
     named = scopes.named(world)
-    for name in dict.fromkeys((*_circular(attached), *_circular(posed))):
+    circles = (*_circles(attached), *_circles(posed))
+    for name in dict.fromkeys(circle[0] for circle in circles):
         yield _fault(named[name], f"{named[name].tag} {name!r} refers to itself for its place")
 
 
@@ -109,8 +108,8 @@ def _placement(model: Element, scopes: _Scopes) -> Iterator[Fault]:
         yield _fault(frame, f"placement frame {frame.value!r} does not exist in the model")
 
 
-def _circular(edges: Mapping[str, str]) -> Iterator[str]:
-    """Yield one name of each circle."""
+def _circles(edges: Mapping[str, str]) -> Iterator[list[str]]:
+    """Yield the names of each circle."""
     done: set[str] = set()
     for start in edges:
         path: dict[str, None] = {}
@@ -119,7 +118,8 @@ def _circular(edges: Mapping[str, str]) -> Iterator[str]:
             path[at] = None
             at = edges[at]
         if at in path:
-            yield at
+            names = list(path)
+            yield names[names.index(at) :]
         done.update(path)
 
 
@@ -132,11 +132,11 @@ def _name(element: Element) -> str:
 
 def _relative_to(element: Element) -> Located[str] | None:
     pose = element.child("pose")
-    return _stated(pose.attribute("relative_to")) if pose is not None else None
+    return frame_of(pose, sdf_version(element.document)) if pose is not None else None
 
 
 def _stated(attribute: Located[str] | None) -> Located[str] | None:
-    return attribute if attribute is not None and attribute.value else None
+    return attribute if attribute is not None and attribute.value.strip() else None
 
 
 def _fault(where: Located[str] | Element, message: str) -> Fault:
@@ -169,28 +169,26 @@ def _attachments(robot: Robot) -> Iterator[Fault]:
     A frame that states no other frame for its pose is posed in the one it is attached to: then
     the graph has found it.
     """
-    frames = {frame.scoped_name: frame for frame in reversed(robot.frames)}
     attached = {
-        name: name.removesuffix(frame.name.value) + frame.attached_to
-        for name, frame in frames.items()
+        frame.scoped_name: frame.scoped_name.removesuffix(frame.name.value) + frame.attached_to
+        for frame in reversed(robot.frames)
         if frame.attached_to not in ("", MODEL_FRAME)
     }
+    frames = {frame.scoped_name: frame for frame in reversed(robot.frames)}
     known = robot.frame_graph.nodes
     for name, other in attached.items():
         if frames[name].pose.relative_to and other not in known:
             message = f"frame {name!r} is attached to {other!r}, which does not exist"
             yield Fault(FaultKind.FRAME, frames[name].span, message)
-    done: set[str] = set()
-    for name in attached:
-        path: dict[str, None] = {}
-        at = name
-        while at in attached and at not in done and at not in path:
-            path[at] = None
-            at = attached[at]
-        done.update(path)
-        if at in path and any(frames[step].pose.relative_to for step in path):
-            message = f"frame {at!r} is attached to itself through {attached[at]!r}"
-            yield Fault(FaultKind.FRAME, frames[at].span, message)
+    # A joint is attached to its child.
+    tied = {joint.scoped_name: joint.scope + joint.child.value for joint in reversed(robot.joints)}
+    posed = {joint.scoped_name: joint.pose for joint in robot.joints}
+    posed |= {frame.scoped_name: frame.pose for frame in robot.frames}
+    for circle in _circles({**tied, **attached}):
+        named = [name for name in circle if name in frames]
+        if named and any(posed[name].relative_to for name in circle):
+            message = f"frame {named[0]!r} is attached to itself through {attached[named[0]]!r}"
+            yield Fault(FaultKind.FRAME, frames[named[0]].span, message)
 
 
 def _poses(link: Link) -> Iterator[tuple[str, Pose]]:

@@ -258,7 +258,7 @@ def _expressed_in(axis: Element, scope: Scope) -> str:
         if of_model.value:
             return scope.scoped(MODEL_FRAME)
     xyz = axis.child("xyz")
-    written = xyz.get("expressed_in") if xyz is not None else None
+    written = (xyz.get("expressed_in") or "").strip() if xyz is not None else ""
     return scope.scoped(written) if written else ""
 
 
@@ -278,7 +278,7 @@ def _maximum(limit: Located[float]) -> Located[float]:
 def read_frame(element: Element, scope: Scope) -> Frame:
     """Read a `<frame>`: posed in the frame it is attached to by default."""
     name = scope.name(element)
-    attached = element.get("attached_to") or ""
+    attached = (element.get("attached_to") or "").strip()
     pose = scope.pose(element)
     scope.graph.add(
         scope.scoped(name.value),

@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from typing import Protocol
 
 from checker.model.geometry.transform import Transform
+from checker.source.text import Located
+from checker.source.xml import Element
 
 
 class _HasAttributes(Protocol):
@@ -16,6 +18,17 @@ class _HasAttributes(Protocol):
 def in_degrees(pose: _HasAttributes) -> bool:
     """Whether the angles of a `<pose>` are in degrees, as SDF 1.9 and later allow."""
     return pose.get("degrees") in ("true", "1")
+
+
+def frame_of(pose: Element, version: tuple[int, int]) -> Located[str] | None:
+    """Return the frame that a `<pose>` names; None where it names none.
+
+    It is `relative_to` in any version: libsdformat turns the `frame` of files before SDF 1.7 into
+    it, in place of one that is written, and then reads them all alike.
+    """
+    old = pose.attribute("frame") if version < (1, 7) else None
+    named = old if old is not None else pose.attribute("relative_to")
+    return named if named is not None and named.value.strip() else None
 
 
 def transform_of(pose: _HasAttributes, numbers: Iterable[float]) -> Transform:

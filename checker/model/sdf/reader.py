@@ -140,6 +140,9 @@ class _Collected:
             return
         self.includes += 1
         model = next(iter(document.root.all("model")), None)
+        if include.child("placement_frame") is not None and include.child("pose") is None:
+            message = f"{uri.value} is placed by one of its frames, but the include has no <pose>"
+            scope.values.fault(FaultKind.INCLUDE, uri.span, message)
         if refusal := self._refusal(document, model):
             scope.values.fault(FaultKind.INCLUDE, uri.span, f"{uri.value} {refusal}")
         elif model is not None:

@@ -9,7 +9,7 @@ from checker.model.components import Pose
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.geometry.transform import Transform, Vector, rotation_from_quaternion
-from checker.model.sdf.poses import in_degrees, transform_of
+from checker.model.sdf.poses import frame_of, in_degrees, transform_of
 from checker.model.values import ValueReader
 from checker.source.text import Located
 from checker.source.xml import Element
@@ -38,6 +38,7 @@ class Scope(Record):
 
     def scoped(self, name: str) -> str:
         """Return the unique name of a frame as written inside this model."""
+        name = name.strip()
         if name in (MODEL_FRAME, ""):
             return self.model_frame
         name = name.removesuffix(f"::{MODEL_FRAME}")
@@ -49,21 +50,14 @@ class Scope(Record):
         return Located(self.renamed[part], written.span) if part in self.renamed else written
 
     def pose(self, parent: Element) -> Pose:
-        """Read the `<pose>` of an element; zeros when it has none.
-
-        The other frame is named by `relative_to`, in any version: libsdformat turns the `frame`
-        of files before SDF 1.7 into it, in place of one that is written, and then reads them all
-        alike.
-        """
+        """Read the `<pose>` of an element; zeros when it has none."""
         element = parent.child("pose")
         if element is None:
             numbers = tuple(Located(0.0, parent.span, stated=False) for _ in _ZEROS)
             return Pose(Transform(), "", numbers, parent.span)
-        written = element.get("relative_to") or ""
-        if self.version < (1, 7):
-            written = element.attributes.get("frame", written)
+        named = frame_of(element, self.version)
         numbers, transform = self._numbers(element)
-        frame = self.scoped(written) if written else ""
+        frame = self.scoped(named.value) if named is not None else ""
         in_radians = len(numbers) == len(_ZEROS) and not in_degrees(element)
         return Pose(transform, frame, numbers, element.span, in_radians)
 
