@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise, product
 
+from msgspec.structs import replace
+
 from checker.base.record import Record
 from checker.model.components import Collision, Link
 from checker.model.geometry.shapes import Geometry
@@ -225,11 +227,10 @@ _LEANS = math.cos(math.radians(5.0))
 """Cosine of the greatest lean of a robot that still stands, as on wheels of two sizes."""
 
 
-def leaning_tip_angle(robot: Robot, centre: Vector) -> float | None:
-    """Return the tip angle of a robot that leans a little until other parts carry it, too.
+def leaning_tip_angle(robot: Robot, stand: Stand, centre: Vector) -> float | None:
+    """Return the tip angle of a robot that may lean a little until other parts carry it, too.
 
-    These are the flat sides of the hull around its collisions that point down. None where none of
-    them lies below its centre of mass.
+    It rests on the sides of the hull around its collisions that are nearly level and face down.
     """
     points = [
         point
@@ -237,43 +238,22 @@ def leaning_tip_angle(robot: Robot, centre: Vector) -> float | None:
         if (pose := robot.pose_of_part(link, collision.pose)) is not None
         for point in contact_points(collision.geometry, pose, robot.scaled_meshes)
     ]
-    # What only wheels carry touches in one plane: with the centre of mass above, there is a hull.
-    angles = [_angle_on(side, points, centre) for side in _lower_sides([*points, centre])]
-    return max((angle for angle in angles if angle > 0.0), default=None)
+    polygon = convex_hull((x, y) for x, y, _ in _lower_points(points, centre))
+    return tip_angle(replace(stand, polygon=polygon), centre)
 
 
-_Side = tuple[float, float, float, float]
-"""A plane: its normal, of length 1, and its offset."""
-
-
-def _lower_sides(points: Sequence[Vector]) -> Iterator[_Side]:
-    """Yield the planes of the hull's sides that are nearly level and face down."""
+def _lower_points(points: Sequence[Vector], centre: Vector) -> Iterator[Vector]:
+    """Yield the corners of the hull's lower sides, and the points near these sides."""
     # Few robots need it, and it takes long to load.
     from scipy.spatial import ConvexHull, QhullError
 
     try:
-        hull = ConvexHull(points)
+        # What only wheels carry touches in one plane: with the centre of mass above, it has a hull.
+        hull = ConvexHull([*points, centre])
     except (QhullError, ValueError):
         return
     for x, y, z, offset in hull.equations.tolist():
         if -z >= _LEANS:
-            yield x, y, z, offset
-
-
-def _angle_on(side: _Side, points: Sequence[Vector], centre: Vector) -> float:
-    """Return the tip angle of what stands on a plane."""
-    x, y, z, offset = side
-    across = (0.0, -z, y)
-    length = math.hypot(*across)
-    u = (0.0, -z / length, y / length)
-    v = (y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0])
-
-    def above(point: Vector) -> float:
-        return -(x * point[0] + y * point[1] + z * point[2] + offset)
-
-    def flat(point: Vector) -> Point:
-        a, b, c = point
-        return (u[0] * a + u[1] * b + u[2] * c, v[0] * a + v[1] * b + v[2] * c)
-
-    polygon = convex_hull(flat(point) for point in points if above(point) <= _TOUCHES)
-    return math.atan2(margin(polygon, flat(centre)), above(centre))
+            for a, b, c in points:
+                if -(x * a + y * b + z * c + offset) <= _TOUCHES:
+                    yield a, b, c

@@ -266,12 +266,17 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
     )
 
 
+_STABLE = math.radians(30.0)
+"""A tip angle from which on nobody asks whether the robot stands even better."""
+
+
 def _tip_angle(robot: Robot, stand: Stand, centre: Vector | None) -> float | None:
     """Return how far the ground can tilt; a robot may first lean until more of it stands."""
     level = tip_angle(stand, centre)
-    if level is None or centre is None or level > 0.0 or stand.unknown:
+    if level is None or centre is None or level > _STABLE:
         return level
-    return leaning_tip_angle(robot, centre) or level
+    leaning = leaning_tip_angle(robot, stand, centre)
+    return level if leaning is None else max(level, leaning)
 
 
 def _link_inertia(link: Link, body: Body, weight: Weight) -> LinkInertia:
