@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
+from typing import Protocol
 
 import pytest
 
 from tests.oracle.libsdformat import Loaded, compiled, load
 
-Load = Callable[[Sequence[Path]], Sequence[Loaded]]
+
+class Load(Protocol):
+    """Loads files, in their order; on demand with all their elements."""
+
+    def __call__(self, files: Sequence[Path], elements: bool = False) -> Sequence[Loaded]: ...
 
 
 @pytest.fixture(scope="session")

@@ -22,10 +22,12 @@ class Loaded:
     Attributes:
         errors: Why it refuses the file; empty when it loads it.
         robots: The models at the top of the file and in its worlds, as the program prints them.
+        elements: All that the file holds, as SDF of the library's newest version, if asked for.
     """
 
     errors: tuple[str, ...]
     robots: tuple[dict[str, Any], ...]
+    elements: str = ""
 
     @property
     def reason(self) -> str:
@@ -45,15 +47,16 @@ def compiled(folder: Path) -> Path:
     return program
 
 
-def load(program: Path, files: Sequence[Path]) -> list[Loaded]:
+def load(program: Path, files: Sequence[Path], elements: bool = False) -> list[Loaded]:
     """Load files, in their order; one that ends the library itself counts as refused."""
-    return list(_answers(program, list(files)))
+    command = [program, "--elements"] if elements else [program]
+    return list(_answers(command, list(files)))
 
 
-def _answers(program: Path, rest: list[Path]) -> Iterator[Loaded]:
+def _answers(command: Sequence[str | Path], rest: list[Path]) -> Iterator[Loaded]:
     while rest:
         names = "".join(f"{file}\n" for file in rest)
-        done = subprocess.run([program], input=names, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, input=names, capture_output=True, text=True, check=False)
         lines = done.stdout.splitlines()
         yield from map(_loaded, lines)
         rest = rest[len(lines) :]
@@ -64,4 +67,5 @@ def _answers(program: Path, rest: list[Path]) -> Iterator[Loaded]:
 
 def _loaded(line: str) -> Loaded:
     answer = json.loads(line)
-    return Loaded(tuple(error["message"] for error in answer["errors"]), tuple(answer["robots"]))
+    errors = tuple(error["message"] for error in answer["errors"])
+    return Loaded(errors, tuple(answer["robots"]), answer["elements"])
