@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+ASKED = ("pkg-config", "sdformat12")
 SOURCE = Path(__file__).parent / "load_sdf.cpp"
 
 
@@ -39,8 +40,8 @@ def compiled(folder: Path) -> Path:
     """Compile the program, unless a folder holds it already."""
     program = folder / f"load_sdf-{hashlib.sha256(SOURCE.read_bytes()).hexdigest()[:16]}"
     if not program.exists():
-        asked = ["pkg-config", "--cflags", "--libs", "sdformat12"]
-        flags = shlex.split(subprocess.check_output(asked, text=True))
+        wanted = [*ASKED, "--cflags", "--libs"]
+        flags = shlex.split(subprocess.check_output(wanted, text=True))
         new = program.with_suffix(f".{os.getpid()}")
         subprocess.run(["g++", "-std=c++17", SOURCE, "-o", new, *flags], check=True)
         new.replace(program)

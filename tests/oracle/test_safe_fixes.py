@@ -36,6 +36,10 @@ ABOUT: Mapping[str, str] = {
     "PLG003": r"/plugin\[[^]]*\]@name",
 }
 """The values that a rule's fix is about: how their paths end; `tags` are those of its message."""
+OF_SUBT = {"SEN014"}
+"""Rules whose fixes follow SubT's rules, and are made nowhere else."""
+WITHOUT_TRACE = ("GEO001", "SDF002", "SDF007", "SDF014")
+"""Rules whose fixes change nothing, or angles by a trace."""
 MODELS = (".sdf", ".world", ".urdf")
 _TURNED = 2e-3
 """Radians by which GEO001 may turn something."""
@@ -45,7 +49,7 @@ def packages(variable: str) -> Iterator[Path]:
     """Yield the folders of packages below a folder of real ones."""
     top = named_folder(variable)
     for path in sorted(top.rglob("*")) if top is not None else ():
-        if path.name in ("package.xml", "model.config") and not path.parent.match("*/after/**"):
+        if path.name in ("package.xml", "model.config") and "after" not in path.parts:
             yield path.parent
 
 
@@ -95,8 +99,10 @@ def fixed_otherwise(package: Path, profile: str, libsdformat: Load) -> list[str]
     """Fix a package, and return what its models say otherwise that no fix was about."""
     files = sorted(path for path in package.rglob("*") if path.suffix in MODELS)
     before = libsdformat(files, elements=True)
-    fixes = fix_paths([package], {"profile": profile}, (Safety.SAFE,), write=True)
-    meant = about(finding for each in fixes for finding in each.fixed.findings)
+    settings = {"profile": profile, "select": (*ABOUT, *WITHOUT_TRACE)}
+    fixes = fix_paths([package], settings, (Safety.SAFE,), write=True)
+    found = [finding for each in fixes for finding in each.fixed.findings]
+    meant = about(each for each in found if profile == "subt" or each.rule not in OF_SUBT)
     wrong = []
     for file, old, new in zip(files, before, libsdformat(files, elements=True), strict=True):
         if new.errors and not old.errors:
