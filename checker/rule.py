@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
-from typing import Any, Protocol, get_type_hints
+from typing import Any, Protocol, get_args, get_type_hints
 
 from msgspec.structs import replace
 
@@ -162,12 +162,22 @@ class Rule(Record, dict=True):
     @cached_property
     def needs(self) -> dict[str, type]:
         """Parts of the package that the function asks for, by parameter name."""
-        hints = get_type_hints(self.check)
         return {
-            name: hints[name]
-            for name, parameter in inspect.signature(self.check).parameters.items()
-            if parameter.kind is not inspect.Parameter.KEYWORD_ONLY
+            name: get_args(hint)[0] if _may_be_none(hint) else hint for name, hint in self._hints
         }
+
+    @cached_property
+    def spares(self) -> frozenset[str]:
+        """Names of the parameters for parts that a rule can do without: `Specification | None`."""
+        return frozenset(name for name, hint in self._hints if _may_be_none(hint))
+
+    @property
+    def _hints(self) -> list[tuple[str, Any]]:
+        """The types of the parameters that ask for parts."""
+        hints = get_type_hints(self.check)
+        parameters = inspect.signature(self.check).parameters.items()
+        keyword = inspect.Parameter.KEYWORD_ONLY
+        return [(name, hints[name]) for name, each in parameters if each.kind is not keyword]
 
     @cached_property
     def options(self) -> dict[str, Any]:
@@ -177,6 +187,10 @@ class Rule(Record, dict=True):
             for name, parameter in inspect.signature(self.check).parameters.items()
             if parameter.kind is inspect.Parameter.KEYWORD_ONLY
         }
+
+
+def _may_be_none(hint: Any) -> bool:
+    return type(None) in get_args(hint)
 
 
 def rule(id: str, name: str, severity: Severity, concern: Concern) -> Callable[[Check], Rule]:

@@ -25,6 +25,7 @@ from checker.base.cache import Cache, code_hash, key_of
 from checker.base.resources import version_of
 from checker.package.kind import looks_like_package
 from checker.package.package import Package
+from checker.package.references import PROVIDED
 from checker.package.walk import SKIPPED_FOLDERS
 from checker.report.report import PackageReport
 from checker.settings import Settings
@@ -110,6 +111,9 @@ def _beside(package: Package) -> Iterator[str]:
             yield str(folder)
             if folder != package.root and looks_like_package(folder):
                 yield from _below(folder)
+    for other in map(package.workspace.package, sorted(PROVIDED)):
+        if other is not None and other.root.parent not in package.workspace.directories:
+            yield from _below(other.root)
 
 
 def _folders(directory: Path) -> list[Path]:

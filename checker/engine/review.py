@@ -58,7 +58,8 @@ def run_and_set_aside(
 
     held = settings.baseline.packages.get(subject.package.name, ())
     matcher = SuppressionMatcher(subject.package, settings.suppress, all_rules(), held)
-    outcome = run_rules(first, subject, profile, settings, matcher)
+    unloaded = subject.package.unloaded_files
+    outcome = run_rules(first, subject, profile, settings, matcher, unloaded)
     used = matcher.suppressions(_looked(outcome), settings.source)
     added = run_rules(of_suppressions, _With(subject, used), profile, settings, matcher)
     outcome = joined(outcome, added)

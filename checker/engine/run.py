@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import product
 from typing import Any
@@ -56,8 +56,18 @@ def run_rules(
     profile: Profile,
     settings: Settings,
     matcher: SuppressionMatcher | None = None,
+    unloaded: Collection[str] = (),
 ) -> Outcome:
-    """Run the rules that profile and settings want; one that crashes stops no other."""
+    """Run the rules that profile and settings want; one that crashes stops no other.
+
+    Args:
+        rules: Of which those run that are wanted.
+        parts: What they ask for.
+        profile: What it judges, and how gravely.
+        settings: The user's.
+        matcher: Tells what does not count.
+        unloaded: Files that nothing loads: what is found in them is information.
+    """
     findings: list[ReportedFinding] = []
     suppressed: list[Suppressed] = []
     not_checked: list[NotChecked] = []
@@ -72,7 +82,7 @@ def run_rules(
             not_checked.append(replace(result, severity=severity, concern=rule.concern))
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
-        own = [item for item in result if isinstance(item, Finding)]
+        own = [_graded(item, unloaded) for item in result if isinstance(item, Finding)]
         spot_of = partial(_spot, rule, profile, settings)
         for suppression, group in parted(rule.id, own, matcher, spot_of).items():
             reported = _report(rule, group, profile, settings)
@@ -90,6 +100,13 @@ def run_rules(
             for reason in reasons
         ]
     return _outcome(_sorted(findings), suppressed, not_checked, looked)
+
+
+def _graded(finding: Finding, unloaded: Collection[str]) -> Finding:
+    """Return a finding as information, if it is about a file that nothing loads."""
+    if finding.places[0].file in unloaded:
+        return replace(finding, severity=Severity.INFO)
+    return finding
 
 
 def _outcome(
@@ -144,7 +161,7 @@ def _asked_for(rule: Rule, profile: Profile, settings: Settings) -> bool:
 
 
 def _needs_trial(rule: Rule) -> bool:
-    return bool({RobotTrial, RepeatedTrial} & set(rule.needs.values()))
+    return any(issubclass(kind, RobotTrial) for kind in rule.needs.values())
 
 
 def _switched_off(rule: Rule, profile: Profile, settings: Settings) -> Iterator[NotChecked]:
@@ -178,13 +195,20 @@ def crashed(what: str, error: Exception) -> NotChecked:
 
 
 def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any]] | NotAvailable:
-    """Return one set of arguments for each combination of the parts that a rule asks for."""
+    """Return one set of arguments for each combination of the parts that a rule asks for.
+
+    None stands for a part that the package has not and the rule can do without; one that only
+    cannot be had is missed all the same.
+    """
     wanted: dict[str, Sequence[object]] = {}
     for name, kind in rule.needs.items():
         had = (context,) if kind is Context else parts.part(kind)
-        if isinstance(had, NotAvailable):
+        if not isinstance(had, NotAvailable):
+            wanted[name] = had
+        elif name in rule.spares and not had.applicable:
+            wanted[name] = (None,)
+        else:
             return had
-        wanted[name] = had
     return [dict(zip(wanted, choice, strict=True)) for choice in product(*wanted.values())]
 
 

@@ -48,10 +48,11 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.robot_mass import weigh
-from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris
+from checker.physics.mesh.package_meshes import PackageMeshes, mesh_uris, picked_parts
 from checker.physics.mesh.process import mesh_server
-from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
+from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial, SettledTrial
 from checker.physics.trial.run import RobotTrials
+from checker.physics.trial.settling import unrest_of
 from checker.physics.views.sensor_views import RobotViews
 from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.source.xml import XmlDocument
@@ -108,7 +109,7 @@ class Subject(Record, eq=False, dict=True):
     def start(self, kinds: Collection[type]) -> None:
         """Begin with parts that take long, so that they come about while the rules run."""
         twice = RepeatedTrial in kinds
-        driven = twice or RobotTrial in kinds
+        driven = twice or any(issubclass(kind, RobotTrial) for kind in kinds)
         if driven or MassProperties in kinds:
             self._begin_meshes()
         if driven and not isinstance(self.trials, NotAvailable):
@@ -218,8 +219,8 @@ class Subject(Record, eq=False, dict=True):
         return tuple(replace(robot, meshes=self._meshes(robot)) for robot in robots)
 
     def _meshes(self, robot: Robot) -> PackageMeshes:
-        uris = mesh_uris(robot)
-        return PackageMeshes(self.package, uris, self.cache, self.stages, self.mesh_server)
+        uris, picks, server = mesh_uris(robot), picked_parts(robot), self.mesh_server
+        return PackageMeshes(self.package, uris, self.cache, self.stages, server, picks)
 
     @cached_property
     def mesh_server(self) -> Server:
@@ -288,6 +289,19 @@ class Subject(Record, eq=False, dict=True):
     def driven(self) -> tuple[RobotTrial, ...] | NotAvailable:
         """The robots and their trials."""
         return self.trials if isinstance(self.trials, NotAvailable) else self.trials.once
+
+    @property
+    def settled(self) -> tuple[SettledTrial, ...] | NotAvailable:
+        """The same, if the robots come to rest before they drive."""
+        # Whoever asks for these has the figures shown, too.
+        self.part(RobotTrial)
+        driven = self.driven
+        if isinstance(driven, NotAvailable):
+            return driven
+        for robot_trial in driven:
+            if reason := robot_trial.unlike or unrest_of(robot_trial.trial):
+                return NotAvailable(reason)
+        return tuple(SettledTrial(each.robot, each.trial) for each in driven)
 
     @property
     def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAvailable:
@@ -376,7 +390,9 @@ class Subject(Record, eq=False, dict=True):
             return NotAvailable("the package needs no specifications.md", applicable=False)
         part = self.package.part("specifications.md")
         if isinstance(part, Missing):
-            return NotAvailable(part.reason)
+            # PKG003 reports a sheet that is nowhere; one of a sibling may say anything.
+            elsewhere = part.package_not_at_hand is not None
+            return NotAvailable(part.reason, applicable=elsewhere)
         source = self.package.read(part.path)
         if isinstance(source, NotReadable):
             return NotAvailable(f"{part.path} {source.reason}")
@@ -407,6 +423,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     FirstConfiguration: lambda subject: subject.first_configuration,
     MassProperties: lambda subject: subject.masses,
     RobotTrial: lambda subject: subject.driven,
+    SettledTrial: lambda subject: subject.settled,
     RepeatedTrial: lambda subject: subject.driven_twice,
     Spawner: lambda subject: subject.spawner,
     SpawnedXml: lambda subject: subject.spawned,

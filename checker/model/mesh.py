@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import enum
 import itertools
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
+
+from msgspec import field
+from msgspec.structs import replace
 
 from checker.base.record import Record
 
@@ -25,8 +29,14 @@ class MeshTrouble(enum.StrEnum):
     """A format that the checker does not read."""
     UNREADABLE = "unreadable"
     """Empty or corrupt."""
+    MISSCALED = "misscaled"
+    """Its unit is wrong (MSH005 says so), so that its size means nothing."""
     NOT_LOOKED_AT = "not checked"
     """The checker gave up (limits of time, memory, size), or its place is beyond the workspace."""
+
+
+NOT_XML = "its XML is not well-formed"
+"""Begins the defect of a COLLADA file that only lenient parsers read."""
 
 
 class MeshFault(Record):
@@ -60,6 +70,7 @@ class Mesh(Record):
         materials: Material files as named inside (`mtllib` of OBJ).
         defects: What is not valid for the format though loaders cope, as clauses.
         parts: Names of the parts inside, which SDF's `<submesh>` picks.
+        picks: Those parts that the robot picks, each by itself.
     """
 
     path: str
@@ -77,6 +88,7 @@ class Mesh(Record):
     materials: tuple[str, ...] = ()
     defects: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
+    picks: Mapping[str, Mesh] = field(default_factory=dict)
 
     @property
     def corners(self) -> tuple[Vector, ...]:
@@ -108,18 +120,36 @@ def mesh_of(geometry: Geometry, meshes: Meshes) -> Mesh | MeshFault | None:
     return _as_used(geometry, meshes.of(geometry.uri))
 
 
-def _as_used(geometry: Geometry, file: Mesh | MeshFault) -> Mesh | MeshFault:
-    """Return what a shape takes of a file: SDF's `<submesh>` names one part of it.
-
-    How far one of several parts reaches is not known.
-    """
+def picked_part(geometry: Geometry) -> tuple[str, bool] | None:
+    """Return the part of a mesh that a shape picks, and whether its middle becomes its origin."""
     submesh = geometry.element.child("submesh")
-    if submesh is None or isinstance(file, MeshFault):
-        return file
+    if submesh is None:
+        return None
     name, center = submesh.child("name"), submesh.child("center")
     centred = center is not None and center.text.value.strip() in ("true", "1")
-    if name is not None and file.parts == (name.text.value.strip(),) and not centred:
+    return name.text.value.strip() if name is not None else "", centred
+
+
+def _centred(mesh: Mesh) -> Mesh:
+    """Return a mesh moved so that the middle of its box is its origin."""
+    x, y, z = ((low + high) / 2 for low, high in zip(mesh.low, mesh.high, strict=True))
+
+    def moved(point: Vector) -> Vector:
+        return point[0] - x, point[1] - y, point[2] - z
+
+    hull = tuple(map(moved, mesh.hull))
+    return replace(mesh, low=moved(mesh.low), high=moved(mesh.high), hull=hull)
+
+
+def _as_used(geometry: Geometry, file: Mesh | MeshFault) -> Mesh | MeshFault:
+    """Return what a shape takes of a file: SDF's `<submesh>` names one part of it."""
+    submesh = picked_part(geometry)
+    if submesh is None or isinstance(file, MeshFault):
         return file
+    name, centred = submesh
+    part = file if file.parts == (name,) else file.picks.get(name)
+    if part is not None:
+        return _centred(part) if centred else part
     return MeshFault(MeshTrouble.NOT_LOOKED_AT, "is only partly used (<submesh>)")
 
 

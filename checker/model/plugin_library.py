@@ -47,14 +47,19 @@ def library_stem(filename: str) -> str:
 @cache
 def plugin_libraries(release: str) -> Mapping[str, PluginLibrary]:
     """Return the libraries available in a release by their stem; none for an unknown release."""
+    of_subt = _subt_libraries() if release == SUBT_RELEASE else {}
+    return {**gazebo_libraries(release), **of_subt}
+
+
+@cache
+def gazebo_libraries(release: str) -> Mapping[str, PluginLibrary]:
+    """Return those of them that Gazebo has itself."""
     libraries: dict[str, PluginLibrary] = {}
     systems = table("gazebo_plugins")["releases"].get(release, {"plugins": ()})["plugins"]
     for system in systems:
         parameters = frozenset({*system["params"], *system.get("attrs", ())})
         library = PluginLibrary(system["filenames"][1], tuple(system["classes"]), parameters)
         libraries.update(dict.fromkeys(map(library_stem, system["filenames"]), library))
-    if release == SUBT_RELEASE:
-        libraries.update(_subt_libraries())
     return libraries
 
 

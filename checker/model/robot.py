@@ -24,6 +24,7 @@ from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME, FrameGraph
 from checker.model.geometry.boxes import Box, box_around
 from checker.model.geometry.convex import support
+from checker.model.geometry.mesh_units import ScaledMeshes
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
@@ -32,6 +33,7 @@ from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
 from checker.model.tree import LinkTree, link_tree
+from checker.model.unknowns import LooseParts, loose_parts, unknown_masses, unplaced_part
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
@@ -155,6 +157,26 @@ class Robot(Part, dict=True):
         uris = [uri.value or "a model without <uri>" for uri in self.unresolved_includes]
         return f"{uris[0]} is included, but not available" if uris else ""
 
+    @cached_property
+    def loose_parts(self) -> LooseParts:
+        """What no joint connects to the robot."""
+        return loose_parts(self)
+
+    @cached_property
+    def unplaced_part(self) -> str:
+        """Why a part has no place on the robot, as the end of a sentence; empty when all have."""
+        return unplaced_part(self)
+
+    @cached_property
+    def unknown_masses(self) -> dict[str, str]:
+        """Links whose mass is none, with the reason as the end of a sentence."""
+        return unknown_masses(self)
+
+    @property
+    def unweighed(self) -> str:
+        """Why the mass of the whole is not known, as the end of a sentence; empty when it is."""
+        return self.missing_parts or next(iter(self.unknown_masses.values()), "")
+
     def may_be_included(self, name: str) -> bool:
         """Whether a part of this name could come from an include that is not available."""
         known = not name or not self.unresolved_includes
@@ -223,7 +245,7 @@ class Robot(Part, dict=True):
 
     def support_of(self, geometry: Geometry, pose: Transform, direction: Vector) -> float | None:
         """Return how far a shape reaches in a direction, metres; see `support`."""
-        return support(geometry, pose, direction, self.meshes)
+        return support(geometry, pose, direction, self.scaled_meshes)
 
     def box_of(self, link: Link, *, visuals_too: bool = True) -> Box | None:
         """Return the box around a link's collisions and visuals, in the robot's frame.
@@ -243,7 +265,7 @@ class Robot(Part, dict=True):
         if shape not in self._shape_boxes:
             pose = self.pose_of_part(link, shape.pose)
             placed = [] if pose is None else [(shape.geometry, pose)]
-            self._shape_boxes[shape] = box_around(placed, self.meshes)
+            self._shape_boxes[shape] = box_around(placed, self.scaled_meshes)
         return self._shape_boxes[shape]
 
     @cached_property
@@ -264,11 +286,16 @@ class Robot(Part, dict=True):
             if frame is None or pose is None:
                 return None
             placed.append((shape.geometry, frame.inverse @ pose))
-        return box_around(placed, self.meshes)
+        return box_around(placed, self.scaled_meshes)
 
     def mesh_of(self, shape: Collision | Visual) -> Mesh | MeshFault | None:
         """Return the mesh that a collision or visual consists of; None for other shapes."""
-        return mesh_of(shape.geometry, self.meshes)
+        return mesh_of(shape.geometry, self.scaled_meshes)
+
+    @cached_property
+    def scaled_meshes(self) -> ScaledMeshes:
+        """What its mesh files hold, without those whose unit is wrong."""
+        return ScaledMeshes(self)
 
     @cached_property
     def mesh_uses(self) -> tuple[MeshUse, ...]:

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
 
 _OUTPUT_NAME = "OUTPUT_NAME"
+_CARRIES_NO_PLUGIN = re.compile(
+    r"(?:ignition-|gz-|ros_|subt_).*|.*_msgs|catkin|genmsg|message_\w*|nodelet|python.*"
+    r"|robot_state_publisher|joint_state_publisher|ros\w*|rviz|std_srvs|tf2?(?:_ros)?|urdf|xacro"
+)
 
 
 class Lenders(Record):
@@ -34,6 +38,11 @@ class Lenders(Record):
 
     at_hand: tuple[Package, ...]
     missing: tuple[str, ...]
+
+    @property
+    def unknown(self) -> list[str]:
+        """Names of the missing ones that may hold plugins; tools and messages of ROS hold none."""
+        return [name for name in self.missing if not _CARRIES_NO_PLUGIN.fullmatch(name)]
 
     def libraries(self) -> frozenset[str]:
         """Return the names of all libraries, without `lib` and `.so`."""
@@ -105,7 +114,7 @@ def uses_of(package: Package) -> Iterator[Use]:
     Launch files that are not well-formed are left out.
     """
     for reference in package.references:
-        if reference.kind is not ReferenceKind.DEPENDENCY:
+        if reference.kind is not ReferenceKind.DEPENDENCY and not reference.by_sibling:
             how = f"{reference.kind} {reference.package_name} {reference.file}".strip()
             yield Use(reference.package_name, reference.place, how)
     for file in package.index.with_suffix(".launch", ".sdf"):

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 from checker.base.record import Record
 from checker.finding import Place
 from checker.package.model_file import own_model
-from checker.package.references import Reference, ReferenceKind
+from checker.package.references import Reference, ReferenceKind, descriptions_named
+from checker.source.xml import XmlDocument
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -22,7 +23,9 @@ if TYPE_CHECKING:
 SPAWNER = "launch/spawner.rb"
 SUBMISSION_NAME = re.compile(r"_sensor_config_\d+\Z")
 NEVER_INHERITED = frozenset({"package.xml", "CMakeLists.txt", SPAWNER})
-ROBOT_LAUNCH_FILES = frozenset({"description.launch", "vehicle_topics.launch"})
+_DESCRIPTION = "description.launch"
+ROBOT_LAUNCH_FILES = frozenset({_DESCRIPTION, "vehicle_topics.launch"})
+URDF_FOLDER = "urdf"
 
 
 class Part(StrEnum):
@@ -91,11 +94,12 @@ def base_of(package: Package) -> Reference | None:
     """
     if own_model(package) is not None or not package.exists(SPAWNER):
         return None
+    kinds = (ReferenceKind.ROSLAUNCH, ReferenceKind.REQUIRE, ReferenceKind.DEPENDENCY)
     others = [other for other in package.references if other.package_name != package.name]
-    for kind in (ReferenceKind.ROSLAUNCH, ReferenceKind.REQUIRE, ReferenceKind.DEPENDENCY):
-        for other in others:
-            if other.kind is kind and _may_lend_model(package, other):
-                return other
+    # What the package says itself counts before what the Ruby files of siblings say.
+    for other in sorted(others, key=lambda other: (other.by_sibling, kinds.index(other.kind))):
+        if _may_lend_model(package, other):
+            return other
     return None
 
 
@@ -114,6 +118,8 @@ def lender_of(package: Package, part: str) -> Reference | None:
     """Return the mention of the sibling that a part comes from when the package lacks it."""
     if part in NEVER_INHERITED:
         return None
+    if part == URDF_FOLDER:
+        return next(_describing(package), None) or package.base
     folder, _, file = part.rpartition("/")
     if folder == "launch":
         for other in package.references:
@@ -122,6 +128,17 @@ def lender_of(package: Package, part: str) -> Reference | None:
             if (loaded or started) and other.package_name != package.name:
                 return other
     return package.base
+
+
+def _describing(package: Package) -> Iterator[Reference]:
+    """Yield the mentions of siblings whose URDF file the package's launch files load."""
+    own = [(file.path, package.xml(file.path)) for file in package.index.with_suffix(".launch")]
+    for path, document in own:
+        if path.startswith("launch/") and isinstance(document, XmlDocument):
+            yield from descriptions_named(document)
+    for other in package.references:
+        if other.kind is ReferenceKind.ROSLAUNCH and other.file == _DESCRIPTION:
+            yield other
 
 
 Holding = Callable[["Package"], str | None]
@@ -134,7 +151,7 @@ def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:
     seen = [package.name]
     while (path := holding(holder)) is None:
         reference = lender_of(holder, part)
-        if reference is None:
+        if reference is None or reference.package_name == holder.name:
             return Missing(
                 part, f"{' and '.join(seen)} {'has' if len(seen) == 1 else 'have'} no {part}"
             )

@@ -78,7 +78,7 @@ def open_input(
             target = Path(own).resolve() / _archive_stem(shown)
             target.mkdir()
             _unpack(path, real, target, shown, limits)
-            yield _open_folder(path, _unwrapped(target))
+            yield _open_folder(path, _unwrapped(target), target)
     elif real.is_file() and shown.lower().endswith(SINGLE_FILE_SUFFIXES):
         yield _open_single(path, real)
     else:
@@ -128,7 +128,7 @@ def _unwrapped(folder: Path) -> Path:
     return folder
 
 
-def _open_folder(path: Path, folder: Path) -> Opened:
+def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened:
     try:
         if not any(folder.iterdir()):
             raise UnreadableInput(path, "is an empty folder", _WHAT_TO_GIVE)
@@ -136,23 +136,23 @@ def _open_folder(path: Path, folder: Path) -> Opened:
         reason = f"cannot be listed: {error.strerror}"
         raise UnreadableInput(path, reason, "check its permissions") from None
     if looks_like_package(folder):
-        return _opened(folder.parent, [folder])
-    if found := _packages_below(folder):
+        return _opened(folder.parent, [folder], within)
+    if found := _packages_below(folder, within):
         return found
     if holds_loose_models(folder):
-        return _opened(folder.parent, [folder])
+        return _opened(folder.parent, [folder], within)
     around = enclosing_package(folder)
     advice = f"give the package folder {around}" if around else _WHAT_TO_GIVE
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     raise UnreadableInput(path, missing, advice)
 
 
-def _opened(home: Path, folders: list[Path]) -> Opened:
-    workspace = Workspace((home,))
+def _opened(home: Path, folders: list[Path], within: Path | None) -> Opened:
+    workspace = Workspace((home,), within)
     return Opened(workspace, tuple(workspace.at(folder) for folder in folders))
 
 
-def _packages_below(folder: Path) -> Opened | None:
+def _packages_below(folder: Path, within: Path | None) -> Opened | None:
     """Open the packages in a folder, else those one level deeper; `submitted_models/` first."""
     submissions = folder / SUBMISSIONS
     inner = _subfolders(folder)
@@ -164,7 +164,7 @@ def _packages_below(folder: Path) -> Opened | None:
         homes = [home for home in inner if any(map(looks_like_package, _subfolders(home)))]
     if not homes:
         return None
-    workspace = Workspace(tuple(homes))
+    workspace = Workspace(tuple(homes), within)
     packages: dict[str, Package] = {}
     skipped: list[Skipped] = []
     for home in homes:
@@ -212,7 +212,9 @@ def with_package_path(package: Package, folders: Sequence[Path]) -> Package:
     homes = tuple(home for home in dict.fromkeys(map(_home, folders)) if home not in known)
     if not homes:
         return package
-    return Package(package.root, Workspace((*known, *homes)), package.only)
+    return Package(
+        package.root, Workspace((*known, *homes), package.workspace.within), package.only
+    )
 
 
 def _home(folder: Path) -> Path:

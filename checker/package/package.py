@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import field
+from msgspec.structs import replace
 
 from checker.base.files import NotReadable, read_bytes
 from checker.base.record import Record
@@ -30,7 +31,13 @@ from checker.package.inheritance import (
 from checker.package.kind import PackageKind, kind_of
 from checker.package.mentions import mentioned_names
 from checker.package.model_file import own_model
-from checker.package.references import Reference, dependencies, spawner_references
+from checker.package.references import (
+    Reference,
+    dependencies,
+    loaded_files,
+    spawner_references,
+)
+from checker.package.unused_model import unused_model
 from checker.package.walk import build_index, entry_at
 from checker.source.text import SourceText
 from checker.source.text_file import read_text
@@ -42,6 +49,8 @@ if TYPE_CHECKING:
 
 XML_SUFFIXES = (".sdf", ".world", ".config", ".launch", ".xml", ".urdf", ".xacro")
 BYTES_LIMIT = 200_000_000
+RUBY_FILES = 20
+"""That a spawner may load."""
 
 
 class Package(Record, eq=False, dict=True):
@@ -91,6 +100,11 @@ class Package(Record, eq=False, dict=True):
             return self.kind is PackageKind.URDF_DESCRIPTION
         document = self.xml(self.only)
         return isinstance(document, XmlDocument) and document.root.tag == "robot"
+
+    @cached_property
+    def unloaded_files(self) -> frozenset[str]:
+        """Files that nothing loads, as the package itself says."""
+        return frozenset(filter(None, (unused_model(self),)))
 
     def folder_place(self) -> Place:
         """Return the place of the package as a whole, for findings about what is missing."""
@@ -186,12 +200,24 @@ class Package(Record, eq=False, dict=True):
         return () if self.only else tuple(self._references())
 
     def _references(self) -> Iterator[Reference]:
-        spawner = self.read(SPAWNER)
-        if isinstance(spawner, SourceText):
-            yield from spawner_references(spawner)
+        for ruby in self._ruby_files():
+            by_sibling = ruby.file.startswith("../")
+            for reference in spawner_references(ruby):
+                yield replace(reference, by_sibling=by_sibling)
         manifest = self.xml("package.xml")
         if isinstance(manifest, XmlDocument):
             yield from dependencies(manifest)
+
+    def _ruby_files(self) -> Iterator[SourceText]:
+        """Yield the spawner and the Ruby files that it loads, siblings' among them."""
+        waiting, seen = [SPAWNER], {SPAWNER}
+        while waiting and len(seen) <= RUBY_FILES:
+            source = self.read(waiting.pop(0))
+            if isinstance(source, SourceText):
+                yield source
+                loaded = [path for path in loaded_files(source) if path not in seen]
+                waiting += loaded
+                seen.update(loaded)
 
     @cached_property
     def mentioned_names(self) -> frozenset[str]:

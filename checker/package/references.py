@@ -6,6 +6,7 @@ found elsewhere.
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections.abc import Iterator
 from enum import StrEnum
@@ -64,6 +65,7 @@ class ReferenceKind(StrEnum):
 
     ROSLAUNCH = "roslaunch"
     REQUIRE = "require"
+    LAUNCH = "launch file"
     DEPENDENCY = "dependency"
 
 
@@ -75,12 +77,14 @@ class Reference(Record):
         kind: How.
         place: Where.
         file: The launch file that roslaunch is to start, such as `description.launch`.
+        by_sibling: Whether it stands in another package's Ruby file, which the spawner loads.
     """
 
     package_name: str
     kind: ReferenceKind
     place: Place
     file: str = ""
+    by_sibling: bool = False
 
 
 # Every repetition is bounded, so that no text makes the search slow.
@@ -94,6 +98,26 @@ _SIBLING_FILE = re.compile(
     r"(?:/|['\"]\s{0,8},\s{0,8}['\"])(?:launch|config)\b"
 )
 _ROSPACK = re.compile(r"(?:`|%x.)\s{0,8}rospack\s{1,8}find\s{1,8}(?P<package>[A-Za-z][\w-]{0,199})")
+
+
+_QUOTED = re.compile(r"""["']([^"'\n]{1,300})["']""")
+_COMPUTED = re.compile(r"#\{[^}\n]{0,200}\}")
+_FILE_BEHIND = re.compile(r"[^\n]{0,20}?/([\w./-]{1,200}\.rb)\b")
+
+
+def loaded_files(source: SourceText) -> Iterator[str]:
+    """Yield the Ruby files that one loads, as paths from the package; they may not exist."""
+    text, folder = blank_comments(source.text), posixpath.dirname(source.file)
+    for line in _REQUIRE_LINE.finditer(text):
+        written = (_COMPUTED.sub("", part) for part in _QUOTED.findall(line.group()))
+        parts = [part.strip("/") for part in written if part]
+        if parts:
+            path = posixpath.normpath(posixpath.join(folder, *parts))
+            yield path if path.endswith(".rb") else f"{path}.rb"
+    for match in _ROSPACK.finditer(text):
+        behind = _FILE_BEHIND.match(text, match.end())
+        if behind is not None:
+            yield f"../{match['package']}/{posixpath.normpath(behind.group(1))}"
 
 
 def spawner_references(source: SourceText) -> Iterator[Reference]:
@@ -112,6 +136,22 @@ def _reference(
     source: SourceText, match: re.Match[str], kind: ReferenceKind, file: str = ""
 ) -> Reference:
     return Reference(match["package"], kind, source.place(*match.span("package")), file)
+
+
+_URDF_FILE = re.compile(
+    r"\$\(find\s{1,8}([A-Za-z][\w-]{0,199})\s{0,8}\)/[^\s'\"]{1,300}\.(?:urdf|xacro)\b"
+)
+
+
+def descriptions_named(launch: XmlDocument) -> Iterator[Reference]:
+    """Yield the packages whose URDF files a launch file loads."""
+    for element in launch.elements:
+        for name in ("command", "textfile", "default", "value"):
+            attribute = element.attribute(name)
+            match = _URDF_FILE.search(attribute.value) if attribute is not None else None
+            if match is not None:
+                place = (element.attribute(name) or element).span.place()
+                yield Reference(match[1], ReferenceKind.LAUNCH, place, posixpath.basename(match[0]))
 
 
 def dependencies(manifest: XmlDocument) -> Iterator[Reference]:

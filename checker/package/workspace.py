@@ -14,23 +14,31 @@ from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.package.kind import looks_like_package
 from checker.package.package import Package
+from checker.package.references import PROVIDED
 from checker.package.walk import build_index
 from checker.source.text_file import read_text
 
 MAX_FOLDERS = 5_000
 MANIFEST_LIMIT = 1_000_000
+LEVELS_ABOVE = 2
+"""Folders above a workspace in which packages of the challenge are looked for."""
 THUMBNAILS = "thumbnails"
 
 
 class Workspace(Record, eq=False, dict=True):
-    """Folders whose direct subfolders are packages; nothing above them is ever looked at.
+    """Folders whose direct subfolders are packages.
+
+    Nothing above them is ever looked at, but for the challenge's own packages: in its repository
+    they lie beside the folder of all submissions.
 
     Attributes:
         directories: Links resolved. The first is where the checked packages lie; further ones
             come from the user, to find siblings in.
+        within: The folder that an archive was unpacked into, which nothing leaves; else None.
     """
 
     directories: tuple[Path, ...]
+    within: Path | None = None
     _packages: dict[Path, Package] = field(default_factory=dict)
     _found: dict[str, Package | None] = field(default_factory=dict)
 
@@ -46,6 +54,8 @@ class Workspace(Record, eq=False, dict=True):
         for directory in self.directories:
             if found := self._at(directory / name):
                 return found
+        if name in PROVIDED:
+            return self._above(name)
         folder = self._folder_by_declared_name.get(name)
         return self.at(folder) if folder else None
 
@@ -93,6 +103,16 @@ class Workspace(Record, eq=False, dict=True):
             return None
         return self.at(real) if is_package and self.holds(real) else None
 
+    def _above(self, name: str) -> Package | None:
+        """Return a package that lies up to `LEVELS_ABOVE` folders above; links are not followed."""
+        for directory in self.directories:
+            for above in islice(directory.parents, LEVELS_ABOVE):
+                folder = above / name
+                inside = self.within is None or above.is_relative_to(self.within)
+                if inside and not folder.is_symlink() and _is_package(folder):
+                    return self.at(folder)
+        return None
+
     @cached_property
     def _folder_by_declared_name(self) -> dict[str, Path]:
         names: dict[str, Path] = {}
@@ -101,6 +121,13 @@ class Workspace(Record, eq=False, dict=True):
                 if name := _declared_name(folder):
                     names.setdefault(name, folder)
         return names
+
+
+def _is_package(folder: Path) -> bool:
+    try:
+        return looks_like_package(folder)
+    except OSError:
+        return False
 
 
 def _subfolders(directory: Path) -> list[Path]:

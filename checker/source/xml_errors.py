@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from difflib import get_close_matches
+from xml.parsers import expat
 
 from checker.source.text import SourceText, Span
 from checker.source.xml_positions import XmlFault
@@ -13,6 +14,9 @@ from checker.source.xml_positions import XmlFault
 #
 # Each function blanks the forgiven characters out, so that offsets stay the same, and reports them.
 
+
+GAZEBO_FILES = (".sdf", ".world", ".config")
+"""Endings of files that only Gazebo reads."""
 
 _LATE_DECLARATION = re.compile(r"\s+(<\?xml\s[^>]*?\?>)")
 _HYPHENS = re.compile(r"-{2,}|-\Z")
@@ -49,6 +53,68 @@ def mend_comments(source: SourceText, text: str) -> tuple[str, list[XmlFault]]:
             if len(faults) < _REPORTED:
                 faults.append(XmlFault(Span(source, first, last), *_TWO_HYPHENS))
     return "".join([*parts, text[at:]]), faults
+
+
+_ENTITY = r"&(?!(?:amp|lt|gt|quot|apos);|#[0-9]+;|#x[0-9A-Fa-f]+;)"
+_FORGIVEN = re.compile(
+    rf"<!--.*?-->|<!\[CDATA\[.*?]]>|{_ENTITY}|[\x01-\x08\x0b\x0c\x0e-\x1f]", re.S
+)
+_ENTITY_FAULT = ("an '&' that starts no entity", "write &amp; for &")
+
+
+def mend_characters(source: SourceText, text: str) -> tuple[str, list[XmlFault]]:
+    """Forgive `&` that starts no entity, and control characters; the first ones are reported."""
+    faults: list[XmlFault] = []
+
+    def blanked(match: re.Match[str]) -> str:
+        found = match.group()
+        if len(found) > 1:
+            return found
+        if len(faults) < _REPORTED:
+            character = (f"the character U+{ord(found):04X} is not allowed in XML", "remove it")
+            words = _ENTITY_FAULT if found == "&" else character
+            faults.append(XmlFault(Span(source, *match.span()), *words))
+        return " "
+
+    return _FORGIVEN.sub(blanked, text), faults
+
+
+_SECOND_ROOT = "junk after document element"
+
+
+def mend_roots(text: str, fault: XmlFault) -> tuple[str, list[XmlFault]]:
+    """Forgive further elements behind the root: tinyxml2 keeps them, and Gazebo reads the first."""
+    at = fault.span.start
+    if fault.message != _SECOND_ROOT or not _holds_elements_alone(text[at:]):
+        return text, []
+    return text[:at] + re.sub(r"[^\r\n]", " ", text[at:]), [fault]
+
+
+def _holds_elements_alone(text: str) -> bool:
+    """Whether a text is a row of well-formed elements, without text between them."""
+    depth = 0
+    stray = False
+    parser = expat.ParserCreate()
+
+    def start(*_: object) -> None:
+        nonlocal depth
+        depth += 1
+
+    def end(*_: object) -> None:
+        nonlocal depth
+        depth -= 1
+
+    def characters(data: str) -> None:
+        nonlocal stray
+        stray |= depth == 1 and bool(data.strip())
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler = characters
+    try:
+        parser.Parse(f"<roots>{text}</roots>", True)
+    except expat.ExpatError:
+        return False
+    return not stray
 
 
 def _comment_bodies(text: str) -> Iterator[tuple[int, int]]:

@@ -15,7 +15,14 @@ from xml.parsers import expat
 
 from checker.base.record import Record
 from checker.source.text import SourceText, Span
-from checker.source.xml_errors import explain, mend_comments, mend_declaration
+from checker.source.xml_errors import (
+    GAZEBO_FILES,
+    explain,
+    mend_characters,
+    mend_comments,
+    mend_declaration,
+    mend_roots,
+)
 from checker.source.xml_positions import LocatedTags, TagPosition, XmlFault
 
 if TYPE_CHECKING:
@@ -102,6 +109,14 @@ def locate_tags(source: SourceText, max_depth: int) -> LocatedTags | XmlFault:
         text, faults = mend_comments(source, text)
         tolerated += faults
         result = _TagReader(source, text, max_depth).run() if faults else result
+    if isinstance(result, XmlFault) and source.file.endswith(GAZEBO_FILES):
+        text, faults = mend_characters(source, text)
+        tolerated += faults
+        result = _TagReader(source, text, max_depth).run() if faults else result
+        if isinstance(result, XmlFault):
+            text, faults = mend_roots(text, result)
+            tolerated += faults
+            result = _TagReader(source, text, max_depth).run() if faults else result
     return result if isinstance(result, XmlFault) else LocatedTags(text, result, tuple(tolerated))
 
 

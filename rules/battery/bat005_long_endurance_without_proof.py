@@ -2,7 +2,8 @@
 
 Above one hour on the ground and ten minutes in the air, the organisers ask for proof from the real
 robot: a video or a log of an endurance test, linked in the specification sheet. Without proof they
-ask for the standard endurance.
+ask for the standard endurance. A sheet whose section on validation refers to that of another
+configuration has its proof there.
 
 Fix: link the video or the data in the section "Validation and Specification Links". Without a
 measurement, raise `power_load`.
@@ -37,7 +38,7 @@ def check(
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
-    if specification.validation_links:
+    if specification.validation_links or specification.other_validation:
         return
     if context.release != RELEASE:
         yield unchecked(f"how fast a battery drains is known for Gazebo {RELEASE.title()} only")
@@ -72,12 +73,16 @@ def _battery(load: str, charge: str = "78.4", mark: str = "") -> str:
 
 _COPTER = '<plugin filename="libm.so" name="gz::sim::systems::MulticopterVelocityControl"/>'
 _LINK = "## Validation and Specification Links\n* Endurance test: https://youtu.be/H15Kpvpepv4\n"
+_PLAIN = "# Rover\n## Validation\n* https://acme.com/rover/endurance.csv\n"
+_REFERS = "# Rover\n## Validation\nSee [there](../acme_rover_sensor_config_2/specifications.md).\n"
 _MARK = "<!-- ^ BAT005 -->"
 
 GOOD = [
     _battery("9.9"),
     {"@fragment": _battery("4.95"), "specifications.md": f"# Rover\n{_LINK}"},
     _battery("13.2", "18") + _COPTER,
+    {"@fragment": _battery("4.95"), "specifications.md": _PLAIN},
+    {"@fragment": _battery("4.95"), "specifications.md": _REFERS},
 ]
 BAD = [
     _battery("4.95", mark=f" {_MARK}"),

@@ -2,7 +2,8 @@
 
 A team drops a relay with `breadcrumb/deploy` and reads from `breadcrumb/remaining` how many are
 left. Launch files bridge both only when the spawner passes `breadcrumbs:=1`; without the bridges no
-relay is ever dropped. If only the count is missing, this is a warning.
+relay is ever dropped. If only the count is missing, this is a warning; on a robot without
+breadcrumbs it is information, since another configuration may start the same launch file.
 
 Fix: bridge the plugin's topic and its `/remaining` in vehicle_topics.launch, or include
 `breadcrumbs.launch` of `subt_ros`, and pass `breadcrumbs:=1` in the spawner.
@@ -37,7 +38,8 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
             yield unchecked(unread[0])
         else:
             yield from _unbridged(plugin, launch)
-    yield from _uncounted((*launch.bridges, *launch.dormant_bridges))
+    carried = bool(robot.unread_plugins or breadcrumbs(robot))
+    yield from _uncounted((*launch.bridges, *launch.dormant_bridges), carried=carried)
 
 
 def _is_included(launch: LaunchGraph) -> bool:
@@ -64,8 +66,11 @@ def _unbridged(plugin: Breadcrumbs, launch: LaunchGraph) -> Iterator[Finding]:
         )
 
 
-def _uncounted(bridges: Iterable[Bridge]) -> Iterator[Finding]:
-    """Report launch files that drop breadcrumbs and do not tell how many remain."""
+def _uncounted(bridges: Iterable[Bridge], *, carried: bool) -> Iterator[Finding]:
+    """Report launch files that drop breadcrumbs and do not tell how many remain.
+
+    Where the robot carries none, only another configuration can miss the number.
+    """
     known = list(bridges)
     counting = {bridge.ign_topic.removesuffix(REMAINING) for bridge in known if _counts(bridge)}
     for bridge in known:
@@ -74,7 +79,7 @@ def _uncounted(bridges: Iterable[Bridge]) -> Iterator[Finding]:
                 bridge,
                 "breadcrumb/deploy is bridged, but breadcrumb/deploy/remaining is not: bridge "
                 "both, so that teams can read how many are left",
-                severity=Severity.WARNING,
+                severity=Severity.WARNING if carried else Severity.INFO,
                 key="remaining is not bridged",
             )
 

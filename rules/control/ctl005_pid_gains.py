@@ -1,8 +1,8 @@
 """PID gains that are missing or cannot hold a joint.
 
-A position controller without `pid` does not load. One without a proportional gain does not follow
-its command. A negative gain drives the joint away from its target. A derivative or integral gain of
-zero is common.
+A position controller without `pid` does not load: this is an error. One without a proportional gain
+does not follow its command. A negative gain drives the joint away from its target. A derivative or
+integral gain of zero is common.
 
 Fix: give `pid: {p: …, i: …, d: …}` with p > 0 and the others 0 or more.
 Source: ros_controllers (effort_controllers, velocity_controllers); control_toolbox, `Pid::init`.
@@ -58,6 +58,7 @@ def _missing(controller: Controller) -> Findings:
                 controller,
                 f"controller {controller.name!r} has no gains for joint {joint.value!r}, "
                 f"expected p, i and d below {key}",
+                severity=Severity.ERROR,
                 key=f"missing {controller.full_name}",
             )
 

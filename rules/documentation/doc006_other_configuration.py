@@ -51,7 +51,7 @@ def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
     numbers = [int(text) for text in _TITLE.findall(title.text)]
     if len(numbers) == 1 and numbers[0] != number:
         message = f"the title says configuration {numbers[0]}, but the package is {owner}"
-        yield finding(title, message, severity=Severity.ERROR)
+        yield finding(title, message)
 
 
 def _commands(sheet: Specification, owner: str) -> Iterator[Finding]:
@@ -73,7 +73,6 @@ def _commands(sheet: Specification, owner: str) -> Iterator[Finding]:
             yield finding(
                 Span(sheet.source, at, start + name.end()),
                 f"the command starts {name.group()}, but the package is {owner}",
-                severity=Severity.ERROR if other else Severity.WARNING,
                 key=f"starts {name.group().casefold()}",
             )
 

@@ -1,7 +1,8 @@
 """The limits of the drive differ from those of specifications.md.
 
 Teams plan with the specification sheet. The drive must reach the velocities and accelerations that
-the sheet states, no more and no less. None of the accepted packages that we checked shows this.
+the sheet states, no more and no less. It drives as the model says, so this is a warning. None of
+the accepted packages that we checked shows this.
 
 Fix: correct the sheet, or the limits of the drive plugin. If the sheet gives different figures for
 the two directions and the plugin has one parameter for both, any figure between them is right.
@@ -25,15 +26,15 @@ _EXACT = 1e-6
 """Relative difference from which two figures count as different."""
 
 
-@rule("DRV004", "limits-differ-from-sheet", Severity.ERROR, Concern.PAPERWORK)
+@rule("DRV004", "limits-differ-from-sheet", Severity.WARNING, Concern.PAPERWORK)
 def check(
     robot: Robot, specification: Specification, *, tolerance: float = 0.02, about: float = 0.1
 ) -> Findings:
     """Compare each limit of the sheet with the drive's.
 
     Options:
-        tolerance: Share of the sheet's figure by which a limit of the drive may differ; more is an
-            error.
+        tolerance: Share of the sheet's figure by which a limit of the drive may differ; more is
+            reported.
         about: Share used instead of `tolerance` if the sheet says "about", "~" or the like.
     """
     if robot.unread_plugins:

@@ -45,7 +45,8 @@ def check(
         and not is_unlimited(speed)
         and abs(speed.value) > (air if motion.flies else ground)
     ]
-    if not too_fast or specification.validation_links:
+    proven = specification.validation_links or specification.other_validation
+    if not too_fast or proven:
         return
     speed, motion = max(too_fast, key=lambda pair: abs(pair[0].value))
     allowed = air if motion.flies else ground

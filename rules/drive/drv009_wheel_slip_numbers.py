@@ -38,8 +38,8 @@ def check(robot: Robot, *, force: float = 0.2, radius: float = 0.03) -> Findings
     listed = list(slipping_wheels(robot))
     if not listed:
         return
-    if robot.missing_parts:
-        yield unchecked(robot.missing_parts)
+    if robot.unweighed:
+        yield unchecked(robot.unweighed)
         return
     yield from _left_out(robot, listed)
     yield from _compliances(listed)

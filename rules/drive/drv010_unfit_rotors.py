@@ -17,7 +17,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 
 from checker.model.components import Plugin
-from checker.model.locomotion.locomotion import Rotor, RotorEntry
+from checker.model.locomotion.locomotion import DriveKind, Rotor, RotorEntry
 from checker.model.locomotion.rotors import (
     controlled_motions,
     greatest_thrust,
@@ -75,8 +75,8 @@ def check(
         if not by_themselves and not strangers:
             yield from _order(copter.entries, own)
         yield from _control(copter.plugin, own, imbalance)
-    if rotors and robot.missing_parts:
-        yield unchecked(robot.missing_parts)
+    if rotors and robot.unweighed:
+        yield unchecked(robot.unweighed)
     elif not robot.unread_plugins:
         yield from _thrust(robot, least_thrust, most_thrust)
 
@@ -239,7 +239,9 @@ def _control(plugin: Plugin, own: Sequence[Rotor], imbalance: float) -> Iterator
 
 
 def _thrust(robot: Robot, least: float, most: float) -> Iterator[Finding]:
-    rotors = robot.locomotion.rotors
+    rotors = [rotor for rotor in robot.locomotion.rotors if rotor.lifts]
+    if robot.locomotion.kind is not DriveKind.MULTICOPTER:
+        return
     ratio = thrust_to_weight(rotors, robot.mass)
     if ratio is None or least <= ratio <= most:
         return

@@ -1,8 +1,9 @@
 """An angle close to a multiple of π/2 that is not written with 16 digits.
 
-A wheel's cylinder that is turned by 1.5708 instead of π/2 is tilted by microradians. This affects
-the contact solver: the robot creeps sideways and its wheels never come to rest. Elsewhere in a
-model such an angle is harmless.
+A wheel's cylinder that is turned by 1.5708 instead of π/2 is tilted by microradians. The robot
+drives all the same, so this is no error. But the SubT checklist asks for exact wheels, since a
+solver may let tilted ones creep: under the profile `subt` it is a warning. Elsewhere in a model,
+and for other targets, it is information.
 
 Fix: write 1.5707963267948966 or 3.1415926535897932.
 Source: Model Migration Guide, step 3: "ensure that the orientations of the wheel collisions use
@@ -15,7 +16,7 @@ from decimal import Decimal
 
 from checker.model.components import Link, Pose, Sensor, Visual
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
+from checker.rule import Concern, Context, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 
 HALF_PI = math.pi / 2
@@ -28,37 +29,39 @@ _MOST_DIGITS = 17
 @rule("GEO001", "imprecise-angle", Severity.INFO, Concern.ROBOT)
 def check(
     robot: Robot,
+    context: Context,
     *,
     tolerance: float = 1e-3,
     harmless: float = 1e-6,
     typos: tuple[str, ...] = ("3.14", "3.1459"),
     digits: int = 16,
 ) -> Findings:
-    """Report angles near a multiple of π/2: an error in a wheel's collision, else information.
+    """Report angles near a multiple of π/2: of wheels' collisions, and others.
 
     Angles in degrees are skipped: in degrees a quarter turn is exact.
 
     Options:
         tolerance: Radians; an angle closer than this to a multiple of π/2 other than 0, but not
             equal to it, is reported.
-        harmless: Radians by which an angle of a wheel's collision may differ before it is an error
+        harmless: Radians by which an angle of a wheel's collision may differ before it is a warning
             instead of information.
         typos: Texts, without sign, that mean the nearest multiple of π/2, whatever the difference.
         digits: Digits after the decimal point of the angle that the fix writes, at most 17.
     """
+    severity = Severity.WARNING if context.profile == "subt" else Severity.INFO
     decimals = min(digits, _MOST_DIGITS)
     wheels = {link.scoped_name for link in robot.wheels}
     for pose, link in _poses(robot):
         for angle, quarters, off in _near(pose, tolerance, typos):
-            grave = link in wheels and off > harmless
+            of_wheel = link in wheels and off > harmless
             meant = {1: "π/2", 2: "π"}.get(abs(quarters), f"{abs(quarters)}·π/2")
-            where = "angle of a wheel's collision" if grave else "angle"
+            where = "angle of a wheel's collision" if of_wheel else "angle"
             yield finding(
                 angle,
                 f"{where} is {angle.span.text}, which differs from "
                 f"{'-' if quarters < 0 else ''}{meant} by {off:.1e} rad",
-                severity=Severity.ERROR if grave else Severity.INFO,
-                key="wheel" if grave else "elsewhere",
+                severity=severity if of_wheel else Severity.INFO,
+                key="wheel" if of_wheel else "elsewhere",
                 fix=replace_text(angle, f"{quarters * EXACT_HALF_PI:.{decimals}f}"),
             )
 

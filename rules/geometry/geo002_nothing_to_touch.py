@@ -42,7 +42,10 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
                 related=[(part.by, "the plugin that drives it")],
             )
     yield from _others(robot)
-    yield from _bodies(robot, body_share * robot.mass)
+    if robot.unknown_masses:
+        yield unchecked(robot.unweighed)
+    else:
+        yield from _bodies(robot, body_share * robot.mass)
 
 
 def _without_any(robot: Robot) -> Finding:

@@ -34,8 +34,9 @@ def check(robot: Robot, *, gap: float = 0.02) -> Findings:
         return
     if len(groups) < 2:
         return
-    if unknown or robot.missing_parts:
-        reason = robot.missing_parts or f"the size of {unknown[0].name.value!r} is not known"
+    reason = robot.missing_parts or robot.unplaced_part
+    if unknown or reason:
+        reason = reason or f"the size of {unknown[0].name.value!r} is not known"
         yield unchecked(f"{reason}; parts that seem to float may be attached to it")
         return
     members = [[shapes[number] for number in group] for group in groups]
@@ -83,6 +84,8 @@ def _camera(pose: str, mark: str = "", bracket: str = "") -> str:
     <geometry><box><size>0.1 0.1 0.1</size></box></geometry>
   </visual>
 </link>
+<joint name="j1" type="fixed"><parent>base_link</parent><child>body</child></joint>
+<joint name="j2" type="fixed"><parent>body</parent><child>camera</child></joint>
 """
 
 

@@ -24,6 +24,9 @@ def check(robot: Robot, *, depth: float = 0.01) -> Findings:
         depth: Metres that two collisions may be inside each other, along the shortest way that
             separates them; more is reported.
     """
+    if robot.unplaced_part:
+        yield unchecked(robot.unplaced_part)
+        return
     try:
         for inside in interpenetrations(robot, depth):
             yield _finding(inside)
@@ -57,6 +60,7 @@ def _arm(y: float, mark: str = "", parent: str = "shoulder", turn: float = 0.0) 
   <pose>0 {y} 0 0 0 {turn}</pose>
   {box.format("0.2 0.2 0.2")}
 </link>
+<joint name="j0" type="fixed"><parent>base_link</parent><child>body</child></joint>
 <joint name="j1" type="revolute"><parent>body</parent><child>shoulder</child></joint>
 <joint name="j2" type="revolute"><parent>{parent}</parent><child>hand</child></joint>
 """

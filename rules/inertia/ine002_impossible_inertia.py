@@ -63,8 +63,6 @@ def _spans(inertial: Inertial) -> set[Span]:
 
 def _misread(robot: Robot) -> set[Span]:
     """Return the places of values that are not numbers: the rules on syntax report these."""
-    if robot.format != "sdf":
-        return set()
     return {fault.span for fault in robot.faults_of(FaultKind.VALUE)}
 
 

@@ -13,7 +13,7 @@ Source: definition of the moment of inertia.
 
 import math
 
-from checker.physics.mass.link_geometry import known_reach, not_looked_at
+from checker.physics.mass.link_geometry import known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -40,6 +40,9 @@ def check(
     """
     if masses.robot.is_static:
         return
+    if masses.robot.unknown_masses:
+        yield unchecked(masses.robot.unweighed)
+        return
     for name, inertia in masses.links.items():
         if inertia.link.inertial is None or inertia.centre is None or not _possible(inertia):
             continue
@@ -47,7 +50,7 @@ def check(
         ratio = inertia.gyration_radius / reach if reach else math.inf
         if warning_below <= ratio <= warning_above:
             continue
-        unknown = not_looked_at(masses.robot, inertia.link)
+        unknown = unknown_mesh(masses.robot, inertia.link)
         if unknown:
             yield unchecked(unknown)
         elif reach and (ratio > warning_above or masses.share(name) > share):

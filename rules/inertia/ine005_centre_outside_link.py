@@ -12,7 +12,7 @@ Source: definition of the centre of mass; SDFormat specification, inertial/pose.
 import math
 
 from checker.model.geometry.boxes import Box
-from checker.physics.mass.link_geometry import known_box, not_looked_at
+from checker.physics.mass.link_geometry import known_box, unknown_mesh
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -36,6 +36,9 @@ def check(
     """
     if masses.robot.is_static:
         return
+    if masses.robot.unknown_masses:
+        yield unchecked(masses.robot.unweighed)
+        return
     for name, inertia in masses.links.items():
         inertial, centre = inertia.link.inertial, inertia.centre
         if inertial is None or centre is None or not masses.share(name) > share:
@@ -44,7 +47,7 @@ def check(
         outside = math.inf if box is None else box.gap(Box(centre, centre))
         if box is not None and outside <= warning_above * box.diagonal:
             continue
-        unknown = not_looked_at(masses.robot, inertia.link)
+        unknown = unknown_mesh(masses.robot, inertia.link)
         if unknown:
             yield unchecked(unknown)
         elif box is not None and box.diagonal > 0.0:

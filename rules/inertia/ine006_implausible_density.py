@@ -46,6 +46,9 @@ def check(
     """
     if masses.robot.is_static:
         return
+    if masses.robot.unknown_masses:
+        yield unchecked(masses.robot.unweighed)
+        return
     large, carried = _large(masses, volume_share), _carried(masses)
     for name, inertia in masses.links.items():
         link = inertia.link

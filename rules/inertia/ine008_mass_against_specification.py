@@ -2,23 +2,25 @@
 
 The mass determines how the robot accelerates, slips and drains its battery. If specification sheet
 and model disagree, one of them describes another robot. Typical causes are a copied link, a missing
-battery, or pounds instead of kilograms.
+battery, or pounds instead of kilograms. The robot weighs what its model says, so this is a warning.
 
 Fix: correct the masses of the links, or the sheet.
 Source: Robot Model Checklist: reviewers add up the links and compare with "Cost and Scale".
 """
+
+import math
 
 from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
-@rule("INE008", "mass-differs-from-specification", Severity.ERROR, Concern.PAPERWORK)
+@rule("INE008", "mass-differs-from-specification", Severity.WARNING, Concern.PAPERWORK)
 def check(
     robot: Robot,
     specification: Specification,
     *,
-    error_above: float = 0.05,
+    error_above: float = math.inf,
     warning_above: float = 0.02,
     approximate_factor: float = 2.0,
 ) -> Findings:
@@ -26,14 +28,14 @@ def check(
 
     Options:
         error_above: Difference from the stated mass as a share of it, in addition to the rounding
-            of the sheet's figure; more is an error.
+            of the sheet's figure; more is an error. None is, unless you set this.
         warning_above: Difference from the stated mass as a share of it, in addition to the rounding
             of the sheet's figure; more is a warning.
         approximate_factor: Factor by which both shares grow if the sheet calls the mass
             approximate, as in "about 50 kg".
     """
-    if robot.missing_parts:
-        yield unchecked(robot.missing_parts)
+    if robot.unweighed:
+        yield unchecked(robot.unweighed)
         return
     stated = specification.total_mass
     if stated is None or stated.value <= 0 or not robot.links:

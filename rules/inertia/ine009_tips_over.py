@@ -34,9 +34,8 @@ def check(
     """
     if masses.robot.is_static or not masses.robot.stands_alone:
         return
-    unknown = masses.robot.missing_parts or masses.support_unknown
-    if unknown:
-        yield unchecked(unknown)
+    if masses.unbalanced:
+        yield unchecked(masses.unbalanced)
         return
     angle, centre, ground = masses.tip_angle, masses.centre, masses.support_height
     if angle is None or centre is None or ground is None:

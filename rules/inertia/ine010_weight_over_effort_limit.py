@@ -28,7 +28,7 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
             divided by its effort limit; more is reported.
     """
     robot = masses.robot
-    unknown = robot.missing_parts or masses.support_unknown or robot.unread_plugins
+    unknown = masses.unbalanced or robot.unread_plugins
     if masses.robot.is_static:
         return
     if unknown:

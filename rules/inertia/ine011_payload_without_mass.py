@@ -37,7 +37,7 @@ def check(
     robot, base = masses.robot, first.robot
     if robot.span.source.file.startswith("../"):
         return
-    missing = robot.missing_parts or base.missing_parts
+    missing = robot.unweighed or base.unweighed
     if missing:
         yield unchecked(missing)
         return

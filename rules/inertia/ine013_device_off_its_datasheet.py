@@ -77,6 +77,8 @@ def _differences(
     """Yield the differences, each with the place that states it."""
     link = inertia.link
     mass = _mass(device)
+    if link.scoped_name in robot.unknown_masses:
+        mass = None
     if mass is not None and _off(inertia.mass, mass, tolerance):
         stated = link.inertial.mass.span if link.inertial is not None else link.span
         yield stated, f"weighs {inertia.mass:.4g} kg, expected {mass:g} kg"
@@ -139,7 +141,7 @@ def _sizes(robot: Robot, link: Link) -> list[tuple[float, ...]]:
             pose = robot.pose_of_part(link, shape.pose)
             if frame is not None and pose is not None:
                 placed.append((shape.geometry, frame.inverse @ pose))
-        box = box_around(placed, robot.meshes)
+        box = box_around(placed, robot.scaled_meshes)
         if box is not None:
             sizes.append(tuple(sorted(b - a for a, b in zip(box.low, box.high, strict=True))))
     return sizes

@@ -7,10 +7,7 @@ Fix: add a joint between the robot and the link, usually `<joint type="fixed">`;
 Source: SDFormat specification: links of a model move freely unless joints connect them.
 """
 
-from checker.base.words import Suggestions
-from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.model.tree import LinkTree
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _NOTE = "the rest of the robot starts here"
@@ -19,50 +16,20 @@ _NOTE = "the rest of the robot starts here"
 @rule("KIN003", "link-tied-to-nothing", Severity.ERROR, Concern.ROBOT)
 def check(robot: Robot) -> Findings:
     """Report links, and groups of links, that no joint connects to the robot."""
-    tree = robot.tree
-    # A group without a link at its top is a loop; that, and ties to itself, are for KIN002.
-    tops = {top: group for group in tree.groups if (top := _top(tree, group))}
-    if len(tops) < 2 or robot.is_static:
-        return
-    main = max(tops, key=lambda top: len(tops[top]))
-    excused, unclear = _tied_by_broken_joints(tree)
-    excused |= {tie.child for tie in tree.ties if tie.parent == tie.child}
-    for top, group in tops.items():
-        # A nested model that nothing ties is a robot of its own; SDF010 speaks of it.
-        if top == main or "::" in top or not excused.isdisjoint(group):
-            continue
-        if unclear is not None:
-            yield unchecked(f"it is not known which link joint {unclear.name.value!r} connects")
+    # KIN002 reports loops and joints that connect a link to itself; SDF010, nested models.
+    loose = robot.loose_parts
+    for group in loose.groups:
+        if group.unclear is not None:
+            name = group.unclear.name.value
+            yield unchecked(f"it is not known which link joint {name!r} connects")
             return
-        others = f" and the {len(group) - 1} below it" if len(group) > 1 else ""
+        others = f" and the {len(group.links) - 1} below it" if len(group.links) > 1 else ""
         yield finding(
-            tree.links[top],
-            f"no joint connects link {top!r}{others} to the robot",
+            robot.tree.links[group.top],
+            f"no joint connects link {group.top!r}{others} to the robot",
             key="loose",
-            related=[(tree.links[main], _NOTE)],
+            related=[(robot.tree.links[loose.main], _NOTE)],
         )
-
-
-def _tied_by_broken_joints(tree: LinkTree) -> tuple[set[str], Joint | None]:
-    """Return links at joints with an unknown end, which KIN001 reports.
-
-    The second value is a joint whose intended link is not known.
-    """
-    suggestions = Suggestions(tree.links)
-    meant = {tie.known for tie in tree.broken if tie.known is not None}
-    unclear = None
-    for tie in tree.broken:
-        near = suggestions.near(tie.joint.scope + tie.missing.value)
-        if near is None:
-            unclear = tie.joint
-        else:
-            meant.add(near)
-    return meant, unclear
-
-
-def _top(tree: LinkTree, group: list[str]) -> str | None:
-    """Return the first link of a group that has no parent."""
-    return next((name for name in group if name not in tree.above), None)
 
 
 GOOD = [

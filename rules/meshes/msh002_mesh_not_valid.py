@@ -1,13 +1,14 @@
 """A mesh file that breaks the rules of its format, although Gazebo can load it.
 
 Blender, MuJoCo and most other loaders refuse it. A COLLADA file with `id="<STL_BINARY>"`, for
-example, is not XML.
+example, is not XML; Gazebo's parser reads all of it, so this is information.
 
 Fix: export the mesh again; in a COLLADA file replace `<` in ids by a letter.
-Source: the formats' specifications. Several accepted packages contain three such files for a lidar.
+Source: the formats' specifications; tinyxml2, which allows `<` in values. Several accepted packages
+contain three such files for a lidar.
 """
 
-from checker.model.mesh import Mesh
+from checker.model.mesh import NOT_XML, Mesh
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -19,7 +20,9 @@ def check(robot: Robot) -> Findings:
         yield unchecked(reason)
     for use in robot.mesh_uses:
         for defect in use.file.defects if isinstance(use.file, Mesh) else ():
-            yield finding(use.uri, f"{use.uri.value} is not valid: {defect}", key=defect)
+            message = f"{use.uri.value} is not valid: {defect}"
+            severity = Severity.INFO if defect.startswith(NOT_XML) else None
+            yield finding(use.uri, message, severity=severity, key=defect)
 
 
 def _visual(suffix: str, mark: str = "") -> str:

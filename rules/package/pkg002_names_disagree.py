@@ -2,7 +2,8 @@
 
 catkin finds a package by the name in package.xml, CMake installs it under the name of `project()`,
 and the SubT launcher uses the folder's name. If they differ, `roslaunch` does not find the package.
-The names in model.config and `<model name>` are only displayed.
+The names in model.config and `<model name>` are only displayed. The folder of a URDF package may
+have any name: no launcher builds one from it.
 
 Fix: use the same name in package.xml, `project()` and for the folder.
 Source: REP 140 and catkin: the project name must equal the package name.
@@ -24,10 +25,15 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
     """Compare the names in package.xml, CMakeLists.txt and model.config with the folder's."""
     if package.kind is PackageKind.SINGLE_FILE:
         return
-    if paperwork.manifest is not None:
-        yield from _compare(paperwork.manifest.name, package.name, "package.xml names the package")
-    if paperwork.build is not None and (project := paperwork.build.project) is not None:
-        yield from _compare(project, package.name, "CMakeLists.txt names the project")
+    manifest, build = paperwork.manifest, paperwork.build
+    if package.kind is PackageKind.URDF_DESCRIPTION:
+        if manifest is not None and build is not None and build.project is not None:
+            yield from _project(build.project, manifest.name)
+        return
+    if manifest is not None:
+        yield from _compare(manifest.name, package.name, "package.xml names the package")
+    if build is not None and build.project is not None:
+        yield from _compare(build.project, package.name, "CMakeLists.txt names the project")
     shown = paperwork.config.name if paperwork.config is not None else None
     if shown is not None:
         yield from _shown_name(shown, package.name)
@@ -40,6 +46,16 @@ def _compare(name: Located[str], folder: str, saying: str) -> Iterator[Finding]:
             name,
             f"{saying} {name.value!r}, but its folder is {folder!r}",
             fix=replace_text(name, folder),
+        )
+
+
+def _project(project: Located[str], name: Located[str]) -> Iterator[Finding]:
+    if project.stated and name.stated and project.value != name.value:
+        yield finding(
+            project,
+            f"CMakeLists.txt names the project {project.value!r}, but package.xml names the "
+            f"package {name.value!r}",
+            fix=replace_text(project, name.value),
         )
 
 

@@ -2,37 +2,42 @@
 
 Without model, spawner or package.xml the robot cannot start. Without specifications.md no review
 begins. The other files are what a reviewer opens first. Parts that the package inherits from a
-sibling count as present.
+sibling count as present. If a sibling of the same robot has a specifications.md that names this
+configuration, its absence here is a warning. Missing thumbnails are information.
 
 Fix: add the file; the guide's example package shows the content of each.
 Source: Model Migration Guide, final directory structure; Robot Model Checklist.
 """
 
 import posixpath
+import re
 from collections.abc import Iterator
+from functools import partial
 
+from checker.package.configuration import configuration_number
 from checker.package.inheritance import Found, Missing
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
+from checker.package.submissions import is_same_robot
 from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
+from checker.source.text import SourceText
 
 MANIFESTS = {
     "package.xml": "which ROS needs to find the package",
     "CMakeLists.txt": "which builds and installs the package",
 }
-REQUIRED = {
-    "launch/spawner.rb": "which spawns the robot in a world",
-    "specifications.md": "without which no review begins",
-}
+REQUIRED = {"launch/spawner.rb": "which spawns the robot in a world"}
+SHEET = "specifications.md"
 EXPECTED = {
-    "launch/description.launch": "which loads the robot description",
     "launch/example.ign": "which shows how to start the robot",
     "worlds/example.sdf": "which shows the robot in a world",
     "urdf": "which describes the robot for RViz",
-    "thumbnails": "which holds pictures of the robot",
 }
+PICTURES = {"thumbnails": "which holds pictures of the robot"}
 TOPICS = "launch/vehicle_topics.launch"
+DESCRIPTION = {"launch/description.launch": "which loads the robot description"}
+_LOADS = re.compile(r"\brobot_description\b|\bdescription\w{0,40}\.launch\b")
 
 
 @rule("PKG003", "missing-file", Severity.ERROR, Concern.PAPERWORK)
@@ -45,19 +50,55 @@ def check(package: Package) -> Findings:
     if submission or package.kind is PackageKind.BASE_MODEL:
         yield from _missing(package, {"model.config": "which names the model"}, Severity.ERROR)
         yield from _missing_part(
-            package, package.model_path, "model.sdf", "which holds the model", Severity.ERROR
+            package, package.model_path, "model.sdf", ", which holds the model", Severity.ERROR
         )
     if submission:
         yield from _missing(package, REQUIRED, Severity.ERROR)
+        yield from _sheet(package)
         yield from _missing(package, EXPECTED, Severity.WARNING)
+        yield from _missing(package, PICTURES, Severity.INFO)
         yield from _topics(package)
+        if not any(_LOADS.search(text) for text in _started_elsewhere(package)):
+            yield from _missing(package, DESCRIPTION, Severity.WARNING)
+
+
+def _started_elsewhere(package: Package) -> Iterator[str]:
+    """Yield the texts of the launch files of other names that the spawner starts."""
+    for started in package.references:
+        own = started.package_name == package.name
+        holder = package if own else package.workspace.package(started.package_name)
+        if started.kind is not ReferenceKind.ROSLAUNCH or holder is None:
+            continue
+        for file in holder.index.with_suffix(".launch"):
+            source = holder.read(file.path)
+            if posixpath.basename(file.path) == started.file and isinstance(source, SourceText):
+                yield source.text
+
+
+def _sheet(package: Package) -> Iterator[Finding | Unchecked]:
+    """Report a missing sheet; one that a sibling holds for this configuration is there to read."""
+    holder = next(filter(partial(_describes, package), package.workspace.packages.values()), None)
+    where = f" here: that of {holder.name} describes this configuration" if holder else ""
+    severity = Severity.WARNING if holder else Severity.ERROR
+    purpose = where or ", without which no review begins"
+    yield from _missing_part(package, package.part(SHEET), SHEET, purpose, severity)
+
+
+def _describes(package: Package, sibling: Package) -> bool:
+    """Whether the sheet of another configuration of the same robot names this one."""
+    number = configuration_number(package)
+    if sibling is package or number is None or not is_same_robot(sibling.name, package.name):
+        return False
+    sheet = sibling.read(SHEET)
+    words = rf"\b(?:sensor[\s_]+)?config(?:uration)?[\s_#]+{number}\b"
+    return isinstance(sheet, SourceText) and re.search(words, sheet.text, re.I) is not None
 
 
 def _missing(
     package: Package, paths: dict[str, str], severity: Severity
 ) -> Iterator[Finding | Unchecked]:
     for path, purpose in paths.items():
-        yield from _missing_part(package, package.part(path), path, purpose, severity)
+        yield from _missing_part(package, package.part(path), path, f", {purpose}", severity)
 
 
 def _missing_part(
@@ -69,7 +110,7 @@ def _missing_part(
         yield unchecked(part.reason)
     else:
         yield finding(
-            package.folder_place(), f"{path} is missing, {purpose}", severity=severity, key=path
+            package.folder_place(), f"{path} is missing{purpose}", severity=severity, key=path
         )
 
 
@@ -96,6 +137,12 @@ def _may_bridge(package: Package, started: Reference) -> bool:
 GOOD = [{"specifications.md": "# Rover\n"}]
 BAD = [
     {"specifications.md": None, "@reported": [".:1"]},
+    {
+        "specifications.md": None,
+        "../acme_rover_sensor_config_2/package.xml": "<package/>",
+        "../acme_rover_sensor_config_2/specifications.md": "# Rover\nConfiguration 1 is small.\n",
+        "@reported": [".:1"],
+    },
     {"launch/spawner.rb": None, "@reported": [".:1"]},
     {"thumbnails/1.png": None, "@reported": [".:1"]},
 ]

@@ -31,6 +31,9 @@ from checker.rule import (
 from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to
 
+_NOTHING = Severity.INFO
+"""A folder without any model: others may use its meshes."""
+
 
 @rule("PKG004", "incomplete-model-config", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
@@ -44,6 +47,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         yield finding(
             config,
             "model.config names no model file: <sdf> is missing",
+            severity=None if own_model(package) or package.index.with_suffix(".sdf") else _NOTHING,
             key="sdf",
             fix=_named(package, context.sdf_version),
         )

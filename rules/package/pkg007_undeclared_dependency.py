@@ -17,6 +17,7 @@ from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
 from checker.package.model_file import own_model
 from checker.package.package import Package
+from checker.package.references import PROVIDED
 from checker.rule import (
     Concern,
     Context,
@@ -45,7 +46,8 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         name = use.package_name
         if name in (package.name, manifest.name.value):
             continue
-        if SUBMISSION_NAME.search(name) or package.workspace.package(name) is not None:
+        beside = name not in PROVIDED and package.workspace.package(name) is not None
+        if SUBMISSION_NAME.search(name) or beside:
             if not _needed_at_run_time(manifest, name):
                 message = f"{use.how}: {name} is missing from the dependencies in package.xml"
                 yield finding(use.place, message, key=name, fix=_declared(package, manifest, name))

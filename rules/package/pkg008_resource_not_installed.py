@@ -1,7 +1,7 @@
 """A resource that CMakeLists.txt does not install.
 
 The robot starts from the installed packages: a folder or model file that is not installed exists
-only on the author's machine.
+only on the author's machine. Nothing looks for thumbnails there: these are information.
 
 Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`.
 Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo look for them there.
@@ -37,7 +37,7 @@ FOLDERS = {
     "urdf": Severity.WARNING,
     "config": Severity.WARNING,
     "worlds": Severity.WARNING,
-    "thumbnails": Severity.WARNING,
+    "thumbnails": Severity.INFO,
 }
 _CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 _PATTERN = re.compile(r"[*?\[]")

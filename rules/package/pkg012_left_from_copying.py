@@ -6,8 +6,8 @@ intended, and so are names that words such as "derived from" explain. None of th
 that we checked shows this.
 
 Fix: write this package's name.
-Source: model reviews: the name of another team in model.config. The higher severity of titles and
-commands is this rule's own choice.
+Source: model reviews: the name of another team in model.config. A launch command that starts
+another robot is an error, since that one then runs.
 """
 
 import re
@@ -48,19 +48,19 @@ def check(
     if SUBMISSION_NAME.search(package.name) is None:
         return
     if paperwork.manifest is not None:
-        yield from _named(package, paperwork.manifest.description, Severity.ERROR)
+        yield from _named(package, paperwork.manifest.description)
     if paperwork.config is not None:
         for text in (paperwork.config.name, paperwork.config.description):
-            yield from _named(package, text, Severity.WARNING)
+            yield from _named(package, text)
         yield from _other_team(package, paperwork.config.description, teams)
     yield from _commands(package, paperwork)
     sheet = package.read(SHEET)
     if isinstance(sheet, SourceText):
         yield from _title(package, sheet)
-        yield from _named(package, Located("", Span(sheet, 0, len(sheet.text))), Severity.WARNING)
+        yield from _named(package, Located("", Span(sheet, 0, len(sheet.text))))
 
 
-def _named(package: Package, text: Located[str], severity: Severity) -> Iterator[Finding]:
+def _named(package: Package, text: Located[str]) -> Iterator[Finding]:
     """Report names of other robots in the text of a span, comments left out."""
     if not text.stated:
         return
@@ -70,7 +70,7 @@ def _named(package: Package, text: Located[str], severity: Severity) -> Iterator
             text.span.source, text.span.start + match.start(), text.span.start + match.end()
         )
         message = f"{match.group()} is named, but the package is {package.name}"
-        yield finding(where, message, severity=severity, key=match.group())
+        yield finding(where, message, key=match.group())
 
 
 def _other_team(package: Package, text: Located[str], teams: tuple[str, ...]) -> Iterator[Finding]:
@@ -88,7 +88,8 @@ def _commands(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
     manifest = paperwork.manifest
     for reference in package.references:
         name = reference.package_name
-        if reference.kind is not ReferenceKind.ROSLAUNCH or package.kind is not PackageKind.ROBOT:
+        started = reference.kind is ReferenceKind.ROSLAUNCH and not reference.by_sibling
+        if not started or package.kind is not PackageKind.ROBOT:
             continue
         if SUBMISSION_NAME.search(name) is None or is_same_robot(name, package.name):
             continue
@@ -108,7 +109,7 @@ def _title(package: Package, sheet: SourceText) -> Iterator[Finding]:
     if words.isdisjoint(robot_of(package.name).casefold().split("_")):
         where = Span(sheet, *title.span(1))
         message = f"the title is {title.group(1)!r}, but the package is {package.name}"
-        yield finding(where, message, severity=Severity.ERROR)
+        yield finding(where, message)
 
 
 def _described(text: str) -> dict[str, str]:

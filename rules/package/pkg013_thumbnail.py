@@ -22,7 +22,7 @@ _ALL = 1e9
 """More megabytes than any file has."""
 
 
-@rule("PKG013", "thumbnail-missing", Severity.WARNING, Concern.PAPERWORK)
+@rule("PKG013", "thumbnail-missing", Severity.INFO, Concern.PAPERWORK)
 def check(package: Package, *, limit_megabytes: float = 30.0) -> Findings:
     """Look for the five pictures, and read every PNG file in their folder.
 

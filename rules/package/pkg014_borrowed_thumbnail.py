@@ -16,7 +16,7 @@ from checker.package.submissions import robot_of
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
-@rule("PKG014", "borrowed-thumbnail", Severity.WARNING, Concern.PAPERWORK)
+@rule("PKG014", "borrowed-thumbnail", Severity.INFO, Concern.PAPERWORK)
 def check(package: Package, *, most_compared: int = 50) -> Findings:
     """Report thumbnails with the same bytes as one of another available robot.
 

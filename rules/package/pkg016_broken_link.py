@@ -1,14 +1,18 @@
 """A symbolic link that is broken or leads out of the package.
 
 The target of the link is not part of the package: after an upload or installation the file is
-missing, although it exists on the author's machine. None of the accepted packages that we checked
-shows this.
+missing, although it exists on the author's machine. A link into a package that package.xml names as
+a dependency is information: the two are installed together. None of the accepted packages that we
+checked shows a broken link.
 
 Fix: replace the link with the file itself, or correct the link.
 Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package.
 """
 
-from checker.package.index import LinkState
+import posixpath
+
+from checker.package.index import FileEntry, LinkState
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -21,12 +25,21 @@ FAULTS = {
 
 
 @rule("PKG016", "broken-link", Severity.ERROR, Concern.PAPERWORK)
-def check(package: Package) -> Findings:
+def check(package: Package, paperwork: Paperwork) -> Findings:
     """Report links that end outside the package."""
     for link in package.index.links:
         if link.target_state in FAULTS:
             words = FAULTS[link.target_state].format(link.target)
-            yield finding(package.place(link.path), f"link {link.path} {words}")
+            severity = Severity.INFO if _is_declared(paperwork, link) else None
+            yield finding(package.place(link.path), f"link {link.path} {words}", severity=severity)
+
+
+def _is_declared(paperwork: Paperwork, link: FileEntry) -> bool:
+    """Whether a link leads into a package that this one depends on."""
+    if link.target_state is not LinkState.SIBLING or paperwork.manifest is None:
+        return False
+    steps = posixpath.join(posixpath.dirname(link.path), link.target).split("/")
+    return any(paperwork.manifest.depends_on(step) for step in steps)
 
 
 GOOD = [{"meshes/wheel.dae": "<COLLADA/>", "@links": {"meshes/rear_wheel.dae": "wheel.dae"}}]

@@ -1,7 +1,8 @@
 """An example that does not show this robot.
 
 `launch/example.ign` and `worlds/example.sdf` show a reader how to start the robot. A copied example
-starts another robot, or an empty world.
+starts another robot, or an empty world. An example that hands its own folder to the example of
+another package shows this robot.
 
 Fix: include `model://<this package>` in the world, or call `spawner` in example.ign.
 Source: Model Migration Guide, step 7, final directory structure: `launch/example.ign` and
@@ -21,6 +22,12 @@ FILES = ("launch/example.ign", "worlds/example.sdf")
 
 _SPAWNS = re.compile(r"\bspawner\b|<spawn\b|\bmodel\.sdf\b")
 
+_OWN_FOLDER = re.compile(r"\b__(?:FILE|dir)__")
+_EXAMPLE_OF = re.compile(
+    r"\b(?:require|load|require_relative|File\.read|IO\.read|ERB\.new)\b|\brospack\s+find\b"
+)
+"""What takes over the text or the functions of another file."""
+
 
 @rule("PKG019", "example-of-another-robot", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
@@ -33,7 +40,13 @@ def check(package: Package) -> Findings:
     shown = False
     for source in sources:
         text = blank_xml_comments(source.text)
-        names = {match.group().casefold() for match in NAME_IN_PATH.finditer(text)}
+        hands_over = _OWN_FOLDER.search(text) is not None
+        names = {
+            match.group().casefold()
+            for match in NAME_IN_PATH.finditer(text)
+            if not (hands_over and _EXAMPLE_OF.search(_line(text, match)))
+        }
+        shown = shown or (hands_over and _EXAMPLE_OF.search(text) is not None)
         if others := names - own:
             yield from _others(package, source, text, others)
         named = any(name in text.casefold() for name in own)
@@ -42,6 +55,12 @@ def check(package: Package) -> Findings:
     if not shown and package.exists(FILES[0]):
         files = " and ".join(source.file for source in sources)
         yield finding(sources[0].whole(), f"{package.name} is missing from {files}")
+
+
+def _line(text: str, match: re.Match[str]) -> str:
+    """Return the line around a name."""
+    end = text.find("\n", match.end())
+    return text[text.rfind("\n", 0, match.start()) + 1 : end if end >= 0 else len(text)]
 
 
 def _others(package: Package, source: SourceText, text: str, others: set[str]) -> Iterator[Finding]:
@@ -61,9 +80,17 @@ def _world(name: str, end: str = "") -> str:
 """
 
 
+_HANDING = """<%
+  modelURI = File.expand_path("../", File.dirname(__FILE__))
+  base = `rospack find x1_sensor_config_6`.chomp
+%>
+<%= ERB.new(File.read(base + "/launch/example.ign")).result(binding) %>
+"""
+
 GOOD = [
     {"launch/example.ign": None},
     {"worlds/example.sdf": _world("acme_rover_sensor_config_1")},
+    {"launch/example.ign": _HANDING},
     {"launch/example.ign": "<ignition><%= spawner(name, uri, 'w', 0, 0, 0, 0, 0, 0) %></ignition>"},
 ]
 BAD = [

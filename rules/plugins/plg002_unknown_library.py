@@ -2,15 +2,14 @@
 
 Gazebo cannot load it: it prints one line and continues without the drive, the sensor or other
 function of the plugin. A library counts as known if the target release or SubT has it, or if this
-package or a dependency ships or builds it.
+package or a dependency ships or builds it. Outside of SubT, the simulator's paths may lead to more
+libraries: there it is information, unless the name is one of Gazebo's own.
 
 Fix: write the library's name as the message suggests, or ship the library and declare the package
 that contains it in package.xml.
 Source: system plugins of the Gazebo releases (`gazebo_plugins.json`); plugins found in SubT
 packages (`subt_plugins.json`). None of the accepted packages that we checked shows this.
 """
-
-import re
 
 from checker.base.words import Suggestions
 from checker.model.plugin_library import (
@@ -24,10 +23,7 @@ from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
-_CARRIES_NO_PLUGIN = re.compile(
-    r"(?:ignition-|gz-|ros_|subt_).*|.*_msgs|catkin|genmsg|message_\w*|nodelet|python.*"
-    r"|robot_state_publisher|joint_state_publisher|ros\w*|rviz|std_srvs|tf2?(?:_ros)?|urdf|xacro"
-)
+_SUBMISSIONS = "dome"
 
 
 @rule("PLG002", "unknown-plugin-library", Severity.ERROR, Concern.INTERFACE)
@@ -41,7 +37,7 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
         return
     lenders = lenders_of(package)
     known = lenders.libraries() | of_release.keys()
-    absent = [name for name in lenders.missing if not _CARRIES_NO_PLUGIN.fullmatch(name)]
+    absent = lenders.unknown
     suggestions = Suggestions(sorted(known))
     for plugin in robot.all_plugins:
         stem = library_stem(plugin.filename.value)
@@ -57,8 +53,18 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
             f"library {plugin.filename.value} is not in {release_label(context.release)}, and is "
             "neither shipped nor built by "
             f"{' or '.join(package.name for package in lenders.at_hand)}{suggestions.hint(stem)}",
+            severity=None if _must_be_there(stem, context) else Severity.INFO,
             key=stem,
         )
+
+
+def _must_be_there(stem: str, context: Context) -> bool:
+    """Say whether a library is none unless it is at hand.
+
+    Submissions bring nothing along. Elsewhere, libraries of other packages are found by the
+    simulator's paths; only those that bear Gazebo's own name are expected to be its own.
+    """
+    return context.release == _SUBMISSIONS or stem.startswith(("ignition-gazebo-", "gz-sim-"))
 
 
 _CMAKE = """project(acme_rover_sensor_config_1)

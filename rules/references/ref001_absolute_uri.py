@@ -2,7 +2,8 @@
 
 After an upload the files of a package are in another place and under another name. `model://`,
 `package://`, `file://` and absolute paths then lead nowhere: the part is invisible or has no
-collision. URIs of models on Fuel are fine; SDF015 reports URIs of `<script>`.
+collision. For a texture this is a warning: the part is there without it. URIs of models on Fuel are
+fine; SDF015 reports URIs of `<script>`.
 
 Fix: write the path from model.sdf to the file, such as `meshes/wheel.dae`.
 Source: Model Migration Guide, step 8: "Use relative URIs".
@@ -32,6 +33,7 @@ def check(
         allowed: Prefixes of URIs, including the scheme, that are allowed, such as those of models
             on Fuel.
     """
+    meshes = {shape.geometry.uri for shape in robot.shapes()}
     for uri in robot.file_uris:
         scheme = _SCHEME.match(uri.value)
         if (scheme is None and not uri.value.startswith("/")) or uri.value.startswith(allowed):
@@ -41,6 +43,7 @@ def check(
         yield finding(
             uri,
             f"URI {uri.value} is not relative{hint}",
+            severity=None if uri in meshes else Severity.WARNING,
             key=scheme.group() if scheme else "/",
             fix=replace_text(uri, near) if near else None,
         )

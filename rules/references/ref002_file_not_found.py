@@ -1,7 +1,8 @@
 """A mesh or texture that does not exist.
 
 The part is invisible, or has no collision and falls through the ground. Names must match exactly,
-as on the machines that run the simulation: `Wheel.DAE` is not `wheel.dae`.
+as on the machines that run the simulation: `Wheel.DAE` is not `wheel.dae`. Without a texture the
+part is there and has another colour: this is a warning.
 
 Fix: add the file, or correct the path.
 Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package.
@@ -21,6 +22,7 @@ _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 @rule("REF002", "file-not-found", Severity.ERROR, Concern.ROBOT)
 def check(package: Package, robot: Robot) -> Findings:
     """Report URIs that lead to no file."""
+    meshes = {shape.geometry.uri for shape in robot.shapes()}
     for uri in robot.file_uris:
         if (named := _SCHEME.match(uri.value)) and not _at_hand(package, named.group(1)):
             yield unchecked(f"{uri.value} is in {named.group(1)}, which is not available")
@@ -32,7 +34,12 @@ def check(package: Package, robot: Robot) -> Findings:
             yield unchecked(f"{uri.value} is in {other}, which is not available")
             continue
         where = f" (looked for {path})" if path != uri.value else ""
-        yield finding(uri, f"{uri.value} does not exist{where}{_hint(package, path)}", key=path)
+        yield finding(
+            uri,
+            f"{uri.value} does not exist{where}{_hint(package, path)}",
+            severity=None if uri in meshes else Severity.WARNING,
+            key=path,
+        )
 
 
 def _path(package: Package, folder: str, uri: str) -> str | None:

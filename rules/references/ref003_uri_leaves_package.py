@@ -2,7 +2,9 @@
 
 After an upload a package is alone: other packages are not next to it, and a path such as
 `../other_robot/meshes/wheel.dae` leads nowhere. This is also true for a path through the package's
-own name. None of the accepted packages that we checked shows this.
+own name. If package.xml names the other package as a dependency and has the file, the two are
+installed together, and this is information. For a texture it is a warning: the part is there
+without it. None of the accepted packages that we checked shows this.
 
 Fix: copy the file into the package, and write the path from model.sdf to it.
 Source: Model Migration Guide, steps 6 to 8: gather all meshes and materials in the package, and use
@@ -13,24 +15,33 @@ import posixpath
 import re
 
 from checker.model.robot import Robot
+from checker.package.manifests import Paperwork
+from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
 @rule("REF003", "uri-leaves-package", Severity.ERROR, Concern.ROBOT)
-def check(robot: Robot) -> Findings:
+def check(robot: Robot, package: Package, paperwork: Paperwork) -> Findings:
     """Report relative URIs that lead out of the package that states them."""
+    manifest = paperwork.manifest
+    meshes = {shape.geometry.uri for shape in robot.shapes()}
     for uri in robot.file_uris:
         if _SCHEME.match(uri.value) or uri.value.startswith("/"):
             continue
         path = _from_package(robot.folder_of(uri), uri.value)
-        if path.startswith("../"):
-            yield finding(
-                uri,
-                f"{uri.value} leaves the package: copy the file into the package",
-                key=path.split("/")[1],
-            )
+        if not path.startswith("../"):
+            continue
+        other = path.split("/")[1]
+        together = manifest is not None and manifest.depends_on(other) and package.exists(path)
+        severity = None if uri in meshes else Severity.WARNING
+        yield finding(
+            uri,
+            f"{uri.value} leaves the package: copy the file into the package",
+            severity=Severity.INFO if together else severity,
+            key=other,
+        )
 
 
 def _from_package(folder: str, uri: str) -> str:

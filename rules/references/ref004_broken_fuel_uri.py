@@ -10,16 +10,12 @@ Source: general knowledge of the URIs that ign-fuel-tools reads.
 """
 
 import re
-from urllib.parse import unquote
 
 from checker.model.robot import Robot
+from checker.package.fuel import is_on_fuel, package_on_fuel, read_fuel_uri
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
-_FUEL = re.compile(r"https?://(?:\w+\.)?fuel\.(?:ignitionrobotics\.org|gazebosim\.org)\b", re.I)
-_HOST = _FUEL.pattern + r"/1\.0/[^/]+/(?:models|worlds)/(?P<name>[^/]+)"
-_MODEL = re.compile(_HOST + r"(?:/(?:tip|\d+))?/?", re.IGNORECASE)
-_FILE = re.compile(_HOST + r"/(?:tip|\d+)/files/(?P<path>.+)", re.IGNORECASE | re.DOTALL)
 _MEANT = {True: "<owner>/models/<name>/tip/files/<path>", False: "<owner>/models/<name>"}
 
 
@@ -28,7 +24,7 @@ def check(package: Package, robot: Robot) -> Findings:
     """Report Fuel URIs of another form, and files that an available package does not have."""
     files = robot.file_uris
     for uri in (*files, *robot.unresolved_includes):
-        if _FUEL.match(uri.value) is None:
+        if not is_on_fuel(uri.value):
             continue
         is_file = uri in files
         if is_file and any(letter.isspace() for letter in uri.value):
@@ -40,20 +36,13 @@ def check(package: Package, robot: Robot) -> Findings:
                 fix=replace_text(uri, fixed),
             )
             continue
-        match = (_FILE if is_file else _MODEL).fullmatch(uri.value)
-        if match is None:
+        named = read_fuel_uri(uri.value)
+        if named is None or bool(named.path) is not is_file:
             yield finding(uri, f"Fuel URI {uri.value} is not of the form {_MEANT[is_file]}")
-        elif is_file and (holder := _holder(package, unquote(match["name"]))):
-            path = unquote(match["path"])
-            if not holder.exists(path):
-                yield finding(uri, f"{uri.value}: {holder.name} does not have {path}")
-
-
-def _holder(package: Package, name: str) -> Package | None:
-    """Return the available package of a model on Fuel; Fuel's names ignore case."""
-    if name.casefold() == package.name.casefold():
-        return package
-    return package.workspace.package(name.lower())
+            continue
+        holder = package_on_fuel(package, named.model) if is_file else None
+        if holder is not None and not holder.exists(named.path):
+            yield finding(uri, f"{uri.value}: {holder.name} does not have {named.path}")
 
 
 def _visual(path: str) -> str:

@@ -2,7 +2,9 @@
 
 Gazebo builds a sensor's topic from world, model, link and sensor. If a bridge names the wrong link,
 its ROS topic exists but never carries a message. A bridge that a condition switches off is only
-left over from another robot's launch file, and is information.
+left over from another robot's launch file, and is information. A plugin of the author's own may
+publish such a topic itself: where the sensor, its link or the model has one, the bridge is not
+checked.
 
 Fix: write the exact names of the link and its sensor, and a topic that this type of sensor
 publishes.
@@ -11,27 +13,41 @@ bridged from `base_link` but had a link of their own. Bridges of the launch file
 assumed (`models_common.json`).
 """
 
+from collections.abc import Callable
+
 from checker.base.words import Suggestions
 from checker.expand.launch.bridge import Bridge, SensorTopic
 from checker.expand.launch.graph import LaunchGraph
-from checker.model.components import Link
+from checker.model.components import Link, Plugin
+from checker.model.plugin_library import gazebo_libraries, library_stem, plugin_libraries
 from checker.model.robot import Robot
-from checker.model.ros.topics import suffixes
+from checker.model.ros.topics import comparable, suffixes
+from checker.model.sdf.links import read_plugin
 from checker.model.sensing.kind import SensorType
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.package.dependencies import lenders_of
+from checker.package.package import Package
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
+
+_Own = Callable[[Plugin], bool]
 
 
 @rule("ROS002", "bridge-of-nothing", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, launch: LaunchGraph) -> Findings:
+def check(robot: Robot, launch: LaunchGraph, package: Package, context: Context) -> Findings:
     """Report bridges of sensor topics that no sensor of the robot publishes."""
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
     for reason in launch.unread:
         yield unchecked(reason)
+    own = _own_libraries(package, context.release)
     names = Suggestions([*robot.links_by_name, *(sensor.name.value for sensor in robot.sensors)])
     for bridge in launch.bridges:
-        if fault := _fault(robot, bridge, names):
+        fault = _fault(robot, bridge, names)
+        if any(_names(plugin, bridge.ign_topic) for plugin in robot.plugins):
+            continue
+        if fault and (plugin := _publisher(robot, bridge, own, context.release)):
+            yield unchecked(f"plugin {plugin.filename.value} may publish {bridge.ign_topic} itself")
+        elif fault:
             yield finding(bridge, _message(bridge, "listens", fault), key=bridge.ign_topic)
     for bridge in launch.dormant_bridges:
         # A template that is switched off serves other configurations.
@@ -52,9 +68,50 @@ def _message(bridge: Bridge, listens: str, fault: str) -> str:
 def _fault(robot: Robot, bridge: Bridge, names: Suggestions) -> str | None:
     """Return what a bridge listens to that nothing publishes."""
     topic = bridge.sensor
-    if topic is None or "$(" in bridge.ign_topic:
+    if topic is None or bridge.node.usual or "$(" in bridge.ign_topic:
         return None
     return _nothing_at(robot, topic, names)
+
+
+def _own_libraries(package: Package, release: str) -> _Own:
+    """Return what says whether a plugin is one that the package, or a dependency, holds itself.
+
+    What nobody holds publishes nothing: PLG002 reports it.
+    """
+    lenders, known = lenders_of(package), plugin_libraries(release)
+    held, anywhere = lenders.libraries(), bool(lenders.unknown)
+
+    def is_own(plugin: Plugin) -> bool:
+        stem = library_stem(plugin.filename.value)
+        return bool(stem) and stem not in known and (anywhere or stem in held)
+
+    return is_own
+
+
+def _publisher(robot: Robot, bridge: Bridge, own: _Own, release: str) -> Plugin | None:
+    """Return a plugin of unknown behaviour that may publish what is bridged.
+
+    The plugins of the challenge publish what their parameters say, those in sensors excepted.
+    """
+    topic = bridge.sensor
+    link = robot.links_by_name.get(topic.link) if topic else None
+    around = robot.plugins if link is None else (*robot.plugins, *_plugins_in(link))
+    sensors = link.sensors if link else ()
+    named = topic.sensor if topic else ""
+    inside = [plugin for s in sensors if s.name.value == named for plugin in s.plugins]
+    of_challenge = plugin_libraries(release).keys() - gazebo_libraries(release).keys()
+    special = (p for p in inside if library_stem(p.filename.value) in of_challenge)
+    return next((plugin for plugin in (*around, *inside) if own(plugin)), next(special, None))
+
+
+def _plugins_in(link: Link) -> list[Plugin]:
+    return [read_plugin(element) for element in link.element.all("plugin")]
+
+
+def _names(plugin: Plugin, topic: str) -> bool:
+    """Say whether a parameter of a plugin is a topic."""
+    texts = (element.text.value.strip() for element in plugin.element.descendants())
+    return any("/" in text and comparable(text) == comparable(topic) for text in texts)
 
 
 def _nothing_at(robot: Robot, topic: SensorTopic, names: Suggestions) -> str | None:
@@ -105,7 +162,18 @@ _FRAGMENT = '<link name="imu_link"><sensor name="imu_sensor" type="imu"/></link>
 _TOPICS = "launch/vehicle_topics.launch"
 _MARK = "  <!-- ^ ROS002 -->"
 
-GOOD = [{"@fragment": _FRAGMENT, _TOPICS: _launch("imu_link/sensor/imu_sensor/imu")}]
+GOOD = [
+    {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_link/sensor/imu_sensor/imu")},
+    {
+        "@fragment": """
+<plugin filename="libignition-gazebo-odometry-publisher-system.so"
+        name="ignition::gazebo::systems::OdometryPublisher">
+  <odom_topic>/world/w/model/m/link/base_link/sensor/odom/odometry</odom_topic>
+</plugin>
+""",
+        _TOPICS: _launch("base_link/sensor/odom/odometry"),
+    },
+]
 BAD = [
     {"@fragment": _FRAGMENT, _TOPICS: _launch("base_link/sensor/imu_sensor/imu", _MARK)},
     {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_lnk/sensor/imu_sensor/imu", _MARK)},

@@ -23,7 +23,11 @@ _SHARED = "camera_info"
 @rule("ROS004", "bridged-twice", Severity.WARNING, Concern.INTERFACE)
 def check(launch: LaunchGraph) -> Findings:
     """Report second bridges of one topic, and second topics with the same name."""
-    known = [bridge for bridge in launch.bridges if "$(" not in bridge.ign_topic]
+    known = [
+        bridge
+        for bridge in launch.bridges
+        if "$(" not in bridge.ign_topic and not bridge.node.usual
+    ]
     for again, first in _pairs(known, ros=False):
         shared = again.ign_topic.endswith(f"/{_SHARED}") and again.ros_topic != first.ros_topic
         name = again.ign_topic.rsplit("/", 1)[-1]

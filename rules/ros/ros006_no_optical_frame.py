@@ -1,8 +1,9 @@
 """An image that is not published in its optical frame.
 
 Gazebo's cameras look along x, but ROS programs for images expect z: without an
-optical_frame_publisher every detected object is off by 90 degrees. The nodes that the launch files
-of subt_ros start are assumed (`models_common.json`).
+optical_frame_publisher every detected object is off by 90 degrees. The image itself is published,
+so this is a warning. The nodes that the launch files of subt_ros start are assumed
+(`models_common.json`).
 
 Fix: start an optical_frame_publisher of subt_ros next to the bridge, with remaps for `input/image`,
 `output/image`, `input/camera_info` and `output/camera_info`; for a depth image with `args="depth"`.
@@ -22,7 +23,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 _COLOUR, _DEPTH = "image", "depth image"
 
 
-@rule("ROS006", "no-optical-frame", Severity.ERROR, Concern.INTERFACE)
+@rule("ROS006", "no-optical-frame", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, launch: LaunchGraph) -> Findings:
     """Report bridged colour and depth images that no optical_frame_publisher reads."""
     for reason in dict.fromkeys((robot.missing_parts, *launch.unread)):
@@ -43,7 +44,6 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
             bridge,
             f"no optical_frame_publisher reads the {'depth' if depth else 'colour'} image of "
             f"{channel.owner_name}: expected one node for each image",
-            severity=Severity.WARNING if depth else None,
             key=channel.what,
         )
 

@@ -1,12 +1,15 @@
 """An SDF version that the target does not use, or that does not exist.
 
 The version defines what each element means: the frame of a pose, the joint types and the sensors. A
-parser reads a file by its stated version and refuses versions newer than itself. If `model.config`
-states another version than the model file, tools that choose by it choose the wrong file.
+parser reads a file by its stated version and refuses versions newer than itself: Dome's reads up to
+1.7. SubT asks for 1.6; another version that Dome reads is a warning, and for other targets
+information. If `model.config` states another version than the model file, tools that choose by it
+choose the wrong file.
 
 Fix: write `<sdf version="1.6">` (for the SubT simulator), in `model.sdf` and in `model.config`, and
 check the file against that version.
-Source: Model Migration Guide, step 5; SDFormat specification, the attribute `version`.
+Source: libsdformat 10, SDF_VERSION; Model Migration Guide, step 5; SDFormat specification, the
+attribute `version`.
 """
 
 from collections.abc import Iterator
@@ -30,6 +33,8 @@ from checker.source.text import Located
 
 OLDER = ("1.0", "1.2", "1.3")
 """Versions that exist, but whose elements are not in the tables."""
+NEWEST = {"dome": "1.7"}
+"""What the parser of a release reads, where it reads newer files than those that are asked for."""
 
 
 @rule("SDF002", "sdf-version", Severity.ERROR, Concern.PORTABILITY)
@@ -64,14 +69,17 @@ def _of_model(version: Located[str], context: Context) -> Iterator[Finding]:
         yield finding(
             version,
             f"the model is written in SDF {version.value.strip()}, expected {expected}",
-            severity=None if _refused(version.value, context) else Severity.INFO,
+            severity=_severity(version.value, context),
         )
 
 
-def _refused(version: str, context: Context) -> bool:
-    """Whether the target refuses this version; SubT requires one, others read older ones too."""
-    stated, newest = parse_version(version), parse_version(context.sdf_version)
-    return _exact(context) or stated is None or newest is None or stated > newest
+def _severity(version: str, context: Context) -> Severity:
+    """Say how grave another version is: the target refuses what is newer than its parser."""
+    stated = parse_version(version)
+    newest = parse_version(NEWEST.get(context.release, context.sdf_version))
+    if stated is None or newest is None or stated > newest:
+        return Severity.ERROR
+    return Severity.WARNING if _exact(context) else Severity.INFO
 
 
 def _exact(context: Context) -> bool:

@@ -1,10 +1,12 @@
 """An element that SDFormat does not know.
 
 libsdformat copies unknown elements with a warning, and nothing asks for them, so their content has
-no effect: a misspelt `<horizontal_fov>` leaves the camera at its default. It reads a file of an
-older version as one of its own newest version: elements of that version are known, too. Elements
-below `<plugin>` and elements with a namespace prefix are ignored. SDF008 reports a known element in
-the wrong place.
+no effect: a misspelt `<horizontal_fov>` leaves the camera at its default. It is an error if the
+name resembles a known one, or if the part would move otherwise; what only changes the look of a
+part, and what resembles an element that the target does not read (such as `<always_on>`), is a
+warning. A file of an older version is read as one of the newest version: elements of that version
+are known, too. Elements below `<plugin>` and elements with a namespace prefix are ignored. SDF008
+reports a known element in the wrong place.
 
 Fix: spell it as the specification does, or move what belongs to a plugin into that plugin.
 Source: SDFormat specification, the version that the file states.
@@ -16,6 +18,7 @@ from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.schema import all_tags, type_of
+from checker.model.sdf.unread import is_appearance, is_unread
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 
@@ -38,7 +41,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         fitting = siblings.near(element.tag)
         near = fitting or anywhere.near(element.tag)
         parent = element.parent or sdf.root
-        grave = near is not None or parent.tag in GRAVE_PARENTS
+        meant = near is not None and not is_unread(near, context.release)
+        grave = (meant or parent.tag in GRAVE_PARENTS) and not is_appearance(element)
         hint = f"; did you mean <{near}>?" if near else ""
         yield finding(
             element,

@@ -18,7 +18,7 @@ from checker.source.xml_insertion import with_blanks
 _SHOWN = 60
 
 
-@rule("SDF007", "stray-text", Severity.ERROR, Concern.ROBOT)
+@rule("SDF007", "stray-text", Severity.WARNING, Concern.ROBOT)
 def check(sdf: SdfDocument) -> Findings:
     """Report text in elements that hold no value."""
     for element, kind in sdf.typed_elements:

@@ -1,8 +1,9 @@
 """A known element in a place where it has no meaning.
 
 Simulators look for an element only in its place, so here it is skipped: `<enable_orientation>`
-directly below `<sensor>` does not reach the IMU. SDF003 reports elements that are not known in any
-place.
+directly below `<sensor>` does not reach the IMU. If the right place is set, if it only changes the
+look of a part, or if the target does not read it in its place either, it is a warning. SDF003
+reports elements that are not known in any place.
 
 Fix: move it to the place that the message names.
 Source: SDFormat specification, the version that the file states.
@@ -13,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of, type_of
+from checker.model.sdf.unread import is_appearance, is_unread
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
@@ -66,10 +68,11 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         belongs += ", where it is set" if is_set else ""
         of_others = bool(places) and not listed
         harmless = is_set or of_others or (parent.tag, element.tag) in HARMLESS
+        idle = is_unread(element.tag, context.release) or is_appearance(element)
         yield finding(
             element,
             f"<{element.tag}> has no effect in <{parent.tag}>{belongs}",
-            severity=Severity.WARNING if harmless else None,
+            severity=Severity.WARNING if harmless or idle else None,
             key=f"{parent.tag}/{element.tag}",
             fix=_moved(element, listed[0], kinds) if len(listed) == 1 and not harmless else None,
         )

@@ -2,7 +2,9 @@
 
 Gazebo 9 needed names such as `X1/base_link` to distinguish robots. Ignition Gazebo separates the
 names of robots itself, and the simulator renames the robot when it spawns it. The old prefix is
-then wrong in every frame and topic. None of the accepted packages that we checked shows this.
+then wrong in every frame and topic. Prefixes that differ from link to link are names of parts, such
+as `front/left_wheel`, unless one is the model's own name. None of the accepted packages that we
+checked shows this.
 
 Fix: remove the prefix from links and joints, and wherever they are used: joints' ends, plugins,
 launch files.
@@ -27,23 +29,29 @@ _NAMED = {Link: "link", Joint: "joint"}
 
 @rule("SDF011", "name-with-prefix", Severity.WARNING, Concern.PAPERWORK)
 def check(robot: Robot, package: Package) -> Findings:
-    """Report names with a slash; they are errors if all links have the same prefix."""
+    """Report names with a slash in which the prefix stands for the robot."""
     if robot.format != "sdf":
         return  # In URDF files for RViz the prefix is asked for.
-    prefixes = {_prefix(link) for link in robot.links}
-    everywhere = len(prefixes) == 1 and "" not in prefixes
-    fix = _fix(robot, package)
+    prefixes = _of_robot(robot)
+    everywhere = {_prefix(link) for link in robot.links} == prefixes
+    fix = _fix(robot, package, prefixes)
     for part in _parts(robot):
-        if prefix := _prefix(part):
-            of_all = everywhere and prefix in prefixes
+        if (prefix := _prefix(part)) in prefixes:
             yield finding(
                 part.name,
                 f"every link has the prefix {prefix + '/'!r}"
-                if of_all
+                if everywhere
                 else f"{_NAMED[type(part)]} {part.name.value!r} has the prefix {prefix + '/'!r}",
-                severity=Severity.ERROR if of_all else None,
                 fix=fix,
             )
+
+
+def _of_robot(robot: Robot) -> set[str]:
+    """Return the prefix that stands for the robot: the only one, or the model's name."""
+    prefixes = {prefix for part in _parts(robot) if (prefix := _prefix(part))}
+    if len(prefixes) <= 1:
+        return prefixes
+    return {prefix for prefix in prefixes if prefix.casefold() == robot.name.value.casefold()}
 
 
 def _parts(robot: Robot) -> Iterator[Link | Joint]:
@@ -51,12 +59,12 @@ def _parts(robot: Robot) -> Iterator[Link | Joint]:
     yield from robot.joints
 
 
-def _fix(robot: Robot, package: Package) -> Fix | None:
-    """Return the fix that removes all prefixes; None if a name without prefix already exists."""
+def _fix(robot: Robot, package: Package, prefixes: set[str]) -> Fix | None:
+    """Return the fix that removes these prefixes; None if a name without prefix already exists."""
     changed = {
         part.scoped_name: part.name.value.partition("/")[2]
         for part in _parts(robot)
-        if _prefix(part)
+        if _prefix(part) in prefixes
     }
     if not changed or robot.models or robot.missing_parts:
         return None
@@ -86,7 +94,10 @@ def _prefix(part: Link | Joint) -> str:
     return before if slash and behind else ""
 
 
-GOOD = ['<link name="arm"/>']
+GOOD = [
+    '<link name="arm"/>',
+    '<link name="front/wheel"/><link name="rear/wheel"/>',
+]
 BAD = [
     {
         "@fragment": """

@@ -1,12 +1,14 @@
 """A material with a script.
 
-Ignition Gazebo does not read OGRE material scripts: a part coloured only by a script is black. If
-the script is black too, or the material also has plain colours or PBR textures, which Gazebo uses,
-the script does nothing. Only this rule checks `file://media` URIs of scripts.
+Ignition Gazebo does not read OGRE material scripts: a part coloured only by a script is black.
+Harmonic and later know the names of Gazebo's own materials (`Gazebo/Red`) and nothing else. If the
+script is black too, or the material also has plain colours or PBR textures, which Gazebo uses, the
+script does nothing. Only this rule checks `file://media` URIs of scripts.
 
 Fix: give `<ambient>`, `<diffuse>` and `<specular>`, or `<pbr>` with textures of the package, and
 remove the script.
-Source: Model Migration Guide and model reviews; gz-rendering reads no material scripts.
+Source: Model Migration Guide and model reviews; gz-rendering reads no material scripts;
+gz-sim8, rendering/MaterialParser.
 """
 
 from collections.abc import Iterator
@@ -19,6 +21,8 @@ from checker.source.xml_insertion import removal
 
 SCRIPTED = ("", "classic")
 """Releases that read scripts, and no particular release."""
+MAPPING = ("harmonic", "ionic", "jetty")
+"""Releases that know the colours of Gazebo's own materials by their names."""
 BLACK = frozenset({"Gazebo/Black", "Gazebo/FlatBlack"})
 _COLOURS = frozenset({"ambient", "diffuse", "specular", "emissive", "pbr"})
 
@@ -31,7 +35,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             continue
         script = element.child("script")
         if script is not None and context.release not in SCRIPTED:
-            yield from _script(element, script)
+            yield from _script(element, script, mapped=context.release in MAPPING)
         elif not element.children and not element.text.stated:
             yield finding(
                 element,
@@ -41,8 +45,10 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             )
 
 
-def _script(material: Element, script: Element) -> Iterator[Finding]:
+def _script(material: Element, script: Element, *, mapped: bool) -> Iterator[Finding]:
     name = script.child("name")
+    if mapped and name is not None and name.text.value.startswith("Gazebo/"):
+        return
     called = f" {name.text.value!r}" if name is not None and name.text.stated else ""
     if any(child.tag in _COLOURS for child in material.children):
         yield finding(

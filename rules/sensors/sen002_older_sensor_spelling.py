@@ -1,8 +1,8 @@
 """A lidar with an older spelling of its type, or a type that is not simulated.
 
 `ray` and `lidar` are lidars that run on the CPU. Ignition Gazebo does not simulate them, so their
-topics stay silent. `gpu_ray` still works and is the older name of `gpu_lidar`; a file with both
-names hides that they mean the same.
+topics stay silent: this is an error. `gpu_ray` still works and is the older name of `gpu_lidar`; a
+file with both names hides that they mean the same. This is information.
 
 Fix: write the type `gpu_lidar`, and `<lidar>` for `<ray>`.
 Source: Model Migration Guide; src/Sensor.cc of sdformat, which reads `gpu_ray` as `gpu_lidar`; no
@@ -25,7 +25,7 @@ _FIRST_GPU_LIDAR = (1, 6)
 """SDF version since which `<lidar>` exists."""
 
 
-@rule("SEN002", "older-sensor-spelling", Severity.WARNING, Concern.PORTABILITY)
+@rule("SEN002", "older-sensor-spelling", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, context: Context) -> Findings:
     """Report older spellings of lidars, and lidars that the target release does not simulate."""
     if context.release == _CLASSIC or (
@@ -47,7 +47,7 @@ def check(robot: Robot, context: Context) -> Findings:
                 sensor.type,
                 f"sensor {sensor.name.value!r} has the type {type!r}, "
                 f"the older name of {_OLD[type]!r}",
-                severity=None if context.release else Severity.INFO,
+                severity=Severity.INFO,
                 key=f"old {type}",
                 fix=_renamed(sensor, _OLD[type], Safety.SAFE),
             )

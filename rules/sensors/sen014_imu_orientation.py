@@ -1,7 +1,8 @@
 """An IMU that publishes its true orientation.
 
 Unless `<imu><enable_orientation>` is 0, the message contains the orientation of the robot in the
-world without any error. This is ground truth, which no team may use.
+world without any error. This is ground truth, which no team may use; the IMU works, so this is a
+warning.
 
 Fix: write `<enable_orientation>0</enable_orientation>` into `<imu>`; Gazebo does not read it
 directly below `<sensor>`.
@@ -18,7 +19,7 @@ from checker.source.xml_insertion import insert_into, removal
 _OFF = "<enable_orientation>0</enable_orientation>"
 
 
-@rule("SEN014", "imu-orientation", Severity.ERROR, Concern.INTERFACE)
+@rule("SEN014", "imu-orientation", Severity.WARNING, Concern.INTERFACE)
 def check(robot: Robot, context: Context) -> Findings:
     """Report IMUs whose orientation is not switched off; only under SubT's rules is it mended."""
     for sensor in robot.sensors:

@@ -4,12 +4,12 @@ A light with shadows inside a visual lights up only that visual: the robot drive
 light without shadows shines through the body, and a light without a lamp comes from nowhere. Both
 are confusing, and usually come from a pose with a wrong sign or frame. Without a stated range, a
 lamp ends at 10 m. Gazebo computes every light for every pixel of every camera, so a team of robots
-with many lights slows down the whole run.
+with many lights slows down the whole run; their number is information.
 
 Fix: put the light just in front of its lamp's visual, state `<attenuation><range>`, and use at most
 six lights.
-Source: SDFormat specification, light (attenuation/range: 10 by default); the robots of 18
-accepted packages have up to six lights, each within 8 cm of a visual.
+Source: SDFormat specification, light (attenuation/range: 10 by default); the robots of 18 accepted
+packages have up to six lights, each within 8 cm of a visual.
 """
 
 from collections.abc import Iterator
@@ -58,6 +58,7 @@ def check(
         yield finding(
             lights[most][1],
             f"the robot has {len(lights)} lights, expected {most} or fewer",
+            severity=Severity.INFO,
             related=[(light, "another light") for _, light in lights[most + 1 :]],
         )
     yield from _without_range(light for _, light in lights)

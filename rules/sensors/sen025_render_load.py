@@ -34,7 +34,7 @@ class _Load(Record, eq=False):
         return self.amount * self.rate
 
 
-@rule("SEN025", "render-load", Severity.WARNING, Concern.INTERFACE)
+@rule("SEN025", "render-load", Severity.INFO, Concern.INTERFACE)
 def check(robot: Robot, *, most: float = 250e6) -> Findings:
     """Add up the pixels and rays per second; sensors without a rate do not count.
 

@@ -38,7 +38,8 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
 
 
 def _names(spawn: Element) -> Iterator[tuple[str, int, Located[str]]]:
-    attribute = spawn.attribute("name")
+    # The plugin of older spawners has a name of its own.
+    attribute = spawn.attribute("name") if spawn.tag == "spawn" else None
     if attribute is not None:
         yield "the attribute name of <spawn>", NAME, attribute
     for parent in (spawn, *_includes(spawn)[:1]):

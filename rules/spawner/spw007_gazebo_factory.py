@@ -1,6 +1,7 @@
 """A spawner that wraps the robot in the old gazebo-factory plugin.
 
-The SubT launcher reads `<spawn>`. It does not spawn a robot in a plugin of the launch system.
+The SubT launcher reads `<spawn>`. It does not spawn a robot in a plugin of the launch system. Other
+rules read what is in the plugin as they read `<spawn>`.
 
 Fix: put name, pose, world and SDF directly into `<spawn name="#{_name}">` and remove the plugin.
 Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows

@@ -1,8 +1,8 @@
 """A spawn element without an entry that the competition needs.
 
 Without `<is_performer>true</is_performer>` the robot does not count as a member of the team. If
-renaming is allowed, its topics may have another name than the robot. Without `<world>` it is not
-spawned.
+renaming is allowed, its topics may have another name than the robot: this is a warning. Without
+`<world>` it is not spawned.
 
 Fix: write `<world>#{_worldName}</world>`, `<is_performer>true</is_performer>` and
 `<allow_renaming>false</allow_renaming>` below `<spawn>`.
@@ -13,11 +13,13 @@ this.
 from collections.abc import Iterator
 
 from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.launcher import WORLD as LAUNCHED_WORLD
 from checker.expand.spawner.reader import Spawner
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.xml import Element
 
 FLAGS = {"is_performer": True, "allow_renaming": False}
+SEVERITY = {"is_performer": Severity.ERROR, "allow_renaming": Severity.WARNING}
 WORLD = 2
 """Position of the world's name among the parameters of `spawner`."""
 
@@ -29,14 +31,16 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
     """Report `<spawn>` elements without world or with wrong flags."""
     function = spawner.functions.get("spawner")
     names = [parameter.name for parameter in function.parameters] if function else []
-    if not spawned.spawns and not spawned.gazebo_factories:
+    if not spawned.spawns:
         yield finding(function or spawner.entry.whole(), "the spawner emits no <spawn>")
     for spawn in spawned.spawns:
         yield from _judge_flags(spawn)
         world = spawn.child("world")
         if world is None or not world.text.stated:
             yield finding(world or spawn, "<spawn> names no <world>")
-        elif len(names) > WORLD and names[WORLD] not in spawned.parameters_of(world.text.span):
+        elif len(names) > WORLD and spawned.parameters_of(world.text.span).isdisjoint(
+            {names[WORLD], LAUNCHED_WORLD}
+        ):
             yield finding(
                 world.text,
                 f"<world> is {world.text.value!r}, expected #{{{names[WORLD]}}}",
@@ -49,11 +53,13 @@ def _judge_flags(spawn: Element) -> Iterator[Finding]:
         expected = str(wanted).lower()
         flag = spawn.child(tag)
         if flag is None:
-            yield finding(spawn, f"<spawn> has no <{tag}>{expected}</{tag}>")
+            message = f"<spawn> has no <{tag}>{expected}</{tag}>"
+            yield finding(spawn, message, severity=SEVERITY[tag])
         elif _TRUTH.get(flag.text.value.lower()) is not wanted:
             yield finding(
                 flag.text,
                 f"<{tag}> is {flag.text.value!r}, expected {expected}",
+                severity=SEVERITY[tag],
                 fix=replace_text(flag.text, expected, Safety.UNSAFE) if flag.text.stated else None,
             )
 

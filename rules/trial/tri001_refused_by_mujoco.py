@@ -1,7 +1,8 @@
 """A model that MuJoCo refuses.
 
-If another simulator refuses a model, some part of it has no physical meaning; Gazebo guesses, and
-its physics engines guess differently. The INE rules report masses and inertias.
+Gazebo loads such a model, so this is a warning: a tool that reads it as strictly as MuJoCo does not
+take it. Impossible masses, sizes, axes and limits, and meshes that are missing or open, are
+reported by the INE, GEO, KIN, REF and MSH rules, and not again by this one.
 
 Fix: correct the part that the message names. The result of the trial lists the repairs that the
 trial needed.
@@ -10,14 +11,15 @@ Source: MuJoCo documentation, XML reference: checks of the compiler.
 
 import re
 
+from checker.model.mesh import Mesh
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
-_OF_INERTIA = re.compile(r"\b(mass|moments?)\b")
-"""Repairs that the rules on inertia report in more detail."""
+_REPORTED = re.compile(r"\b(mass|moments?|axis|limit|size|mesh that|no mesh)\b")
+"""Repairs of values that other rules report in more detail."""
 
 
-@rule("TRI001", "refused-by-mujoco", Severity.ERROR, Concern.ROBOT)
+@rule("TRI001", "refused-by-mujoco", Severity.WARNING, Concern.PORTABILITY)
 def check(driven: RobotTrial) -> Findings:
     """Report why the model is refused, and each repair that the trial needed."""
     trial = driven.trial
@@ -28,33 +30,45 @@ def check(driven: RobotTrial) -> Findings:
             key="refused",
         )
     for repair in trial.repairs:
-        if repair.serious and not _OF_INERTIA.search(repair.what):
+        reported = _REPORTED.search(repair.what) or _has_open_mesh(driven, repair.part)
+        if repair.serious and not reported:
             yield finding(
                 driven.part(repair.part),
                 f"MuJoCo refuses the model without a repair: {repair.part!r} {repair.what}",
             )
 
 
-def _arm(axis: str) -> str:
-    return f"""
+def _has_open_mesh(driven: RobotTrial, name: str) -> bool:
+    """Whether a collision mesh of a link is open: MSH010 reports it."""
+    link = driven.robot.links_by_name.get(name)
+    meshes = map(driven.robot.mesh_of, link.collisions if link is not None else ())
+    return any(isinstance(mesh, Mesh) and not mesh.watertight for mesh in meshes)
+
+
+def _arm(mesh: str, mark: str = "") -> dict[str, str]:
+    return {
+        "@fragment": f"""
 <sdf version="1.6">
 <model name="acme_arm_sensor_config_1">
-<link name="base_link">
+<link name="base_link">{mark}
   <inertial><mass>5</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
   <collision name="c"><geometry><box><size>0.4 0.4 0.1</size></box></geometry></collision>
+  <collision name="sheet">
+    <geometry><mesh><uri>meshes/sheet.obj</uri></mesh></geometry>
+  </collision>
 </link>
-<link name="arm">
-  <pose>0 0 0.2 0 0 0</pose>
-  <inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>
-</link>
-<joint name="shoulder" type="revolute">{axis}
-</joint>
 </model>
 </sdf>
-"""
+""",
+        "meshes/sheet.obj": mesh,
+    }
 
 
-_ENDS = "<parent>base_link</parent><child>arm</child>"
-_MARK = "  <!-- ^ TRI001 -->"
-GOOD = [_arm(f"{_ENDS}<axis><xyz>0 0 1</xyz></axis>")]
-BAD = [_arm(f"{_MARK}\n{_ENDS}<axis><xyz>0 0 0</xyz></axis>")]
+_CORNERS = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 {}\n"
+_FACES = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+_ON_BOTH_SIDES = "f 1 3 2\nf 1 2 3\n"
+GOOD = [
+    _arm(_CORNERS.format(0.1) + _FACES),
+    _arm(_CORNERS.format(0) + "f 1 3 2\n"),
+]
+BAD = [_arm(_CORNERS.format(0) + _ON_BOTH_SIDES, "  <!-- ^ TRI001 -->")]

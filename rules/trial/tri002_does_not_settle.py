@@ -1,31 +1,28 @@
 """A robot that does not come to rest.
 
 The robot sinks, tips, jumps, slides or folds up before any command, so all later measurements mean
-nothing. Usually a collision is missing or tilted, parts start inside each other, or the inertia of
-a part is far too small.
+nothing: how it drives is then not checked. Usually a collision is missing or tilted, parts start
+inside each other, or the inertia of a part is far too small.
 
 Fix: check first the collisions and inertias of the parts that touch the ground.
 Source: experience; the robot starts 10 mm above the ground and gets no command for 2 s.
 """
 
-import math
-from collections.abc import Iterator
-
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.physics.trial.trial import Trial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.physics.trial.settling import SETTLE_LIMITS, unrest
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
 @rule("TRI002", "does-not-settle", Severity.ERROR, Concern.ROBOT)
 def check(
     driven: RobotTrial,
     *,
-    settle_drop_above: float = 0.1,
-    settle_rise_above: float = 0.05,
-    settle_shift_above: float = 0.1,
-    settle_tilt_above: float = 0.26,
-    settle_speed_above: float = 0.05,
-    rest_penetration_above: float = 0.05,
+    settle_drop_above: float = SETTLE_LIMITS["settle_drop"],
+    settle_rise_above: float = SETTLE_LIMITS["settle_rise"],
+    settle_shift_above: float = SETTLE_LIMITS["settle_shift"],
+    settle_tilt_above: float = SETTLE_LIMITS["settle_tilt"],
+    settle_speed_above: float = SETTLE_LIMITS["settle_speed"],
+    rest_penetration_above: float = SETTLE_LIMITS["rest_penetration"],
 ) -> Findings:
     """Report a robot that moves more than these limits while it settles.
 
@@ -43,6 +40,9 @@ def check(
         rest_penetration_above: Metres that the deepest contact may be in the ground in the last 0.5
             s; more is an error.
     """
+    if driven.unlike:
+        yield unchecked(driven.unlike)
+        return
     limits = {
         "settle_drop": settle_drop_above,
         "settle_rise": settle_rise_above,
@@ -51,7 +51,7 @@ def check(
         "settle_speed": settle_speed_above,
         "rest_penetration": rest_penetration_above,
     }
-    symptoms = dict(_symptoms(driven.trial, limits))
+    symptoms = dict(unrest(driven.trial, limits))
     if symptoms:
         yield finding(
             driven.robot,
@@ -59,28 +59,6 @@ def check(
             f"{', '.join(symptoms.values())}",
             key=" ".join(symptoms),
         )
-
-
-def _symptoms(trial: Trial, limits: dict[str, float]) -> Iterator[tuple[str, str]]:
-    for name, limit in limits.items():
-        value = trial.value(name)
-        if value is None or value <= limit:
-            continue
-        if name == "settle_tilt":
-            symptom = f"tilts by {math.degrees(value):.0f}° (at most {math.degrees(limit):.0f}°)"
-        elif name == "settle_speed":
-            symptom = f"still moves at {value:.2g} m/s (at most {limit:g} m/s)"
-        else:
-            symptom = f"{_VERBS[name]} {value:.3g} m (at most {limit:g} m)"
-        yield name, symptom
-
-
-_VERBS = {
-    "settle_drop": "drops",
-    "settle_rise": "jumps up",
-    "settle_shift": "slides",
-    "rest_penetration": "sinks into the ground by",
-}
 
 
 def _box(height: float, mark: str = "") -> str:

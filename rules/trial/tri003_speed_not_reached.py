@@ -9,13 +9,13 @@ Source: a prototype trial of 60 accepted ground robots: all reach 0.98 to 1.00 o
 """
 
 from checker.model.locomotion.locomotion import DriveKind
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 
 @rule("TRI003", "speed-not-reached", Severity.ERROR, Concern.ROBOT)
 def check(
-    driven: RobotTrial, *, warning_beyond: float = 0.05, error_beyond: float = 0.15
+    driven: SettledTrial, *, warning_beyond: float = 0.05, error_beyond: float = 0.15
 ) -> Findings:
     """Report a speed that differs too much from the command.
 
@@ -53,7 +53,7 @@ def check(
     )
 
 
-def _cause(driven: RobotTrial, ratio: float, tolerance: float) -> str:
+def _cause(driven: SettledTrial, ratio: float, tolerance: float) -> str:
     """Return the cause if the plugin's wheel radius explains the speed."""
     for drive in driven.robot.locomotion.wheel_drives:
         stated = drive.wheel_radius.value

@@ -9,13 +9,13 @@ Source: a prototype trial of 60 accepted ground robots: all are straight to thre
 
 import math
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI004", "path-not-straight", Severity.ERROR, Concern.ROBOT)
 def check(
-    driven: RobotTrial,
+    driven: SettledTrial,
     *,
     path_sideways_warning: float = 0.02,
     path_sideways_error: float = 0.1,

@@ -12,12 +12,12 @@ from collections.abc import Iterator
 
 from checker.model.components import Joint
 from checker.model.locomotion.locomotion import Side
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI005", "moves-the-wrong-way", Severity.ERROR, Concern.ROBOT)
-def check(driven: RobotTrial) -> Findings:
+def check(driven: SettledTrial) -> Findings:
     """Report motion against the command."""
     symptoms = {}
     if driven.drives_backwards:
@@ -45,7 +45,7 @@ _CAUSES = {
 }
 
 
-def _suspects(driven: RobotTrial) -> Iterator[tuple[Joint, str]]:
+def _suspects(driven: SettledTrial) -> Iterator[tuple[Joint, str]]:
     """Yield the wheels whose axis points to the right or whose stated side is wrong."""
     for wheel in driven.robot.locomotion.wheels:
         if wheel.axis is not None and wheel.axis[1] < 0.0:

@@ -9,13 +9,13 @@ Source: quasi-static balance of Coulomb friction over the wheels; it predicts th
 22 accepted skid-steer robots within 20 %.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI006", "turns-too-little", Severity.WARNING, Concern.ROBOT)
 def check(
-    driven: RobotTrial, *, warning_below: float = 0.5, error_below_command: float = 0.05
+    driven: SettledTrial, *, warning_below: float = 0.5, error_below_command: float = 0.05
 ) -> Findings:
     """Report a turn rate far below the predicted or the commanded one.
 

@@ -8,13 +8,13 @@ Source: experience; the load is the mean while the robot is at rest, compared wi
 the weight.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI007", "wheel-without-load", Severity.ERROR, Concern.ROBOT)
 def check(
-    driven: RobotTrial, *, warning_below: float = 0.05, error_below: float = 0.002
+    driven: SettledTrial, *, warning_below: float = 0.05, error_below: float = 0.002
 ) -> Findings:
     """Report wheels that carry far less than an equal share of the weight.
 

@@ -8,12 +8,12 @@ Source: experience; the speed at the end of a stop of 1.5 s, or longer if the ro
 more time.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI008", "does-not-stop", Severity.ERROR, Concern.ROBOT)
-def check(driven: RobotTrial, *, error_above: float = 0.05) -> Findings:
+def check(driven: SettledTrial, *, error_above: float = 0.05) -> Findings:
     """Report a speed above the command after a stop.
 
     Options:

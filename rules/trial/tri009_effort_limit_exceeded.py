@@ -1,19 +1,27 @@
 """A joint that needs more torque than its effort limit allows.
 
 The servos of the trial have unlimited torque, but the simulated motor stops at its limit: the robot
-starts slower, does not reach its speed, or drops its load.
+starts slower, does not reach its speed, or drops its load. A joint whose limits
+do not hold 0, where the trial starts, is not judged, nor one whose effort limit the specification
+sheet explains.
 
 Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
 Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without
 the drive at full speed, compared with `<effort>`.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+import re
+
+from checker.model.components import Joint
+from checker.model.specification.sheet import Specification
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI009", "effort-limit-exceeded", Severity.WARNING, Concern.ROBOT)
-def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
+def check(
+    driven: SettledTrial, specification: Specification | None, *, warning_above: float = 1.0
+) -> Findings:
     """Report joints that need more torque or force than their effort limit.
 
     Options:
@@ -23,7 +31,10 @@ def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
     limits = {limit.part: limit.value for limit in driven.trial.all("torque_limit")}
     for torque in driven.trial.all("torque"):
         limit = limits.get(torque.part)
-        if limit is not None and abs(torque.value) > warning_above * limit:
+        if limit is None or abs(torque.value) <= warning_above * limit:
+            continue
+        joint = driven.robot.joints_by_name.get(torque.part)
+        if joint is None or not (_starts_outside(joint) or _is_explained(joint, specification)):
             unit = _unit(driven, torque.part)
             yield finding(
                 driven.part(torque.part),
@@ -33,19 +44,45 @@ def check(driven: RobotTrial, *, warning_above: float = 1.0) -> Findings:
             )
 
 
-def _unit(driven: RobotTrial, name: str) -> str:
+def _starts_outside(joint: Joint) -> bool:
+    """Say whether a joint is pushed to a limit when it starts, against its servo."""
+    return any(not axis.lower.value <= 0.0 <= axis.upper.value for axis in joint.axes)
+
+
+_EFFORT = re.compile(
+    r"\b(?:effort|torque)s?\W{1,3}limit|\blimit\w*\b[^.]{0,60}\b(?:effort|torque)", re.I
+)
+_SHORTEST_WORD = 4
+
+
+def _is_explained(joint: Joint, sheet: Specification | None) -> bool:
+    """Say whether the sheet speaks of the effort limit of such joints: then it is meant."""
+    if sheet is None:
+        return False
+    words = re.split(r"[\W_\d]+", f"{joint.name.value} {joint.child.value}".casefold())
+    parts = {word for word in words if len(word) >= _SHORTEST_WORD} - _ANY_JOINT
+    return any(
+        _EFFORT.search(passage.text) and any(part in passage.text.casefold() for part in parts)
+        for passage in sheet.markdown.passages
+    )
+
+
+_ANY_JOINT = frozenset({"joint", "link", "front", "rear", "left", "right", "back", "base"})
+
+
+def _unit(driven: SettledTrial, name: str) -> str:
     joint = driven.robot.joints_by_name.get(name)
     return "N" if joint is not None and joint.type.value == "prismatic" else "N·m"
 
 
 _WHEEL = """
-<link name="{name}">
+<link name="{name}_wheel">
   <pose>{x} {y} 0.1 0 0 0</pose>
   <inertial><mass>1</mass><inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>4e-3</izz></inertia></inertial>
   <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
 </link>
 <joint name="{name}_joint" type="revolute">{mark}
-  <parent>base_link</parent><child>{name}</child>
+  <parent>base_link</parent><child>{name}_wheel</child>
   <axis><xyz>0 1 0</xyz><limit><effort>{effort}</effort></limit></axis>
 </joint>
 """
@@ -79,5 +116,14 @@ def _rover(effort: float, mark: str = "") -> str:
 """
 
 
-GOOD = [_rover(50.0), _rover(-1.0)]
+_SHEET = """# Acme Rover
+The effort limit of the wheels is low, so that they do not slip.
+"""
+
+GOOD = [
+    _rover(50.0),
+    _rover(-1.0),
+    {"model.sdf": _rover(0.1), "specifications.md": _SHEET},
+    _rover(0.1).replace("</effort>", "</effort><lower>0.1</lower><upper>1e9</upper>"),
+]
 BAD = [_rover(0.1, "  <!-- ^ TRI009 -->")]

@@ -11,13 +11,13 @@ smallest largest share of any rotor's thrust.
 
 import math
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI010", "does-not-fly", Severity.ERROR, Concern.ROBOT)
 def check(
-    driven: RobotTrial,
+    driven: SettledTrial,
     *,
     hover_effort_above: float = 1.0,
     hover_sink_above: float = 0.2,

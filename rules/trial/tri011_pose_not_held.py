@@ -10,13 +10,13 @@ Source: experience; a position and velocity controller holds each joint.
 
 import math
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI011", "pose-not-held", Severity.WARNING, Concern.ROBOT)
 def check(
-    driven: RobotTrial,
+    driven: SettledTrial,
     *,
     hold_sag_above: float = 0.1,
     hold_sink_above: float = 0.05,
@@ -56,21 +56,25 @@ def check(
         )
 
 
-def _amount(driven: RobotTrial, name: str, value: float) -> str:
+def _amount(driven: SettledTrial, name: str, value: float) -> str:
     joint = driven.robot.joints_by_name.get(name)
     slides = joint is not None and joint.type.value == "prismatic"
     return f"{abs(value):.2g} m" if slides else f"{math.degrees(abs(value)):.0f}°"
 
 
-def _stool(lean: float, mark: str = "") -> str:
-    """A body on two stiff, jointed legs that stand `lean` metres behind its centre of mass."""
+def _stool(toe: float, mark: str = "") -> str:
+    """A body on two stiff, jointed legs with toes of so many metres below their front ends."""
     legs = "".join(
         f"""
 <link name="{side}_leg">
-  <pose>{-lean} {y} 0.15 0 0 0</pose>
+  <pose>-0.05 {y} 0.15 0 0 0</pose>
   <inertial><mass>0.5</mass>
     <inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>1e-3</izz></inertia></inertial>
   <collision name="c"><geometry><box><size>0.3 0.05 0.3</size></box></geometry></collision>
+  <collision name="toe">
+    <pose>0.14 0 -0.15 0 0 0</pose>
+    <geometry><box><size>0.02 0.05 {2 * toe}</size></box></geometry>
+  </collision>
 </link>
 <joint name="{side}_hip" type="revolute">
   <pose>0 0 0.15 0 0 0</pose>
@@ -95,5 +99,5 @@ def _stool(lean: float, mark: str = "") -> str:
 """
 
 
-GOOD = [_stool(0.0)]
-BAD = [_stool(0.3, "  <!-- ^ TRI011 -->")]
+GOOD = [_stool(0.01)]
+BAD = [_stool(0.06, "  <!-- ^ TRI011 -->")]

@@ -8,13 +8,13 @@ Source: contact forces depend on the inertia of the bodies that touch; accepted 
 0.3 mm into the ground.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI013", "presses-into-ground", Severity.WARNING, Concern.ROBOT)
 def check(
-    driven: RobotTrial,
+    driven: SettledTrial,
     *,
     rest_penetration_above: float = 0.01,
     rest_penetration_up_to: float = 0.05,
@@ -45,7 +45,8 @@ _FOOT = """
   <collision name="c"><geometry><sphere><radius>0.05</radius></sphere></geometry></collision>
 </link>
 <joint name="{name}_leg" type="prismatic">
-  <parent>base_link</parent><child>{name}</child><axis><xyz>0 0 1</xyz></axis>
+  <parent>base_link</parent><child>{name}</child>
+  <axis><xyz>0 0 1</xyz><limit><lower>-0.1</lower><upper>0</upper></limit></axis>
 </joint>
 """
 _PLACES = {"fl": (0.3, 0.3), "rl": (-0.3, 0.3), "fr": (0.3, -0.3), "rr": (-0.3, -0.3)}

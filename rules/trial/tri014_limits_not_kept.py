@@ -9,13 +9,13 @@ plugins.
 Source: the plugin's `max_velocity` and `max_acceleration`, compared with 2 s at full command.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI014", "limits-not-kept", Severity.WARNING, Concern.ROBOT)
 def check(
-    driven: RobotTrial, *, full_speed_above: float = 1.05, full_acceleration_above: float = 1.25
+    driven: SettledTrial, *, full_speed_above: float = 1.05, full_acceleration_above: float = 1.25
 ) -> Findings:
     """Report a speed and an acceleration above these multiples of their limits.
 

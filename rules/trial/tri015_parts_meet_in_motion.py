@@ -1,7 +1,8 @@
 """Parts that pass through each other when a joint moves through its range.
 
 The real arm hits its own robot. Gazebo lets the parts pass, so a plan that works in the simulation
-breaks the machine.
+breaks the machine. For a wheel that steers this is a warning. Legs and arms may meet at the ends of
+their ranges, which no gait or plan reaches: this is information.
 
 Fix: narrow the joint's limits, or shrink the collisions.
 Source: a collision query in steps through the range of each joint, one at a time.
@@ -23,12 +24,14 @@ def check(driven: RobotTrial, *, warning_above: float = 0.01) -> Findings:
         yield unchecked(
             f"{unswept:g} joints with too many shapes were not moved through their range"
         )
+    wheels = {link.scoped_name for wheel in driven.robot.locomotion.wheels for link in wheel.body}
     for overlap in driven.trial.all("sweep_overlap"):
         if overlap.value > warning_above:
             yield finding(
                 driven.part(overlap.part),
                 f"{overlap.part!r} enters {overlap.other!r} by {overlap.value * 1000:.0f} mm when "
                 "their joints move through their ranges",
+                severity=None if {overlap.part, overlap.other} & wheels else Severity.INFO,
                 key="sweep_overlap",
                 related=[(driven.part(overlap.other), f"{overlap.other!r}")],
             )

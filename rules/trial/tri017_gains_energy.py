@@ -9,12 +9,12 @@ Source: kinetic and potential energy at rest, as a share of the energy that lift
 m.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI017", "gains-energy", Severity.WARNING, Concern.ROBOT)
-def check(driven: RobotTrial, *, warning_above: float = 0.1) -> Findings:
+def check(driven: SettledTrial, *, warning_above: float = 0.1) -> Findings:
     """Report a gain of energy while nothing drives the robot.
 
     Options:

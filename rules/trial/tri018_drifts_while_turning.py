@@ -9,12 +9,12 @@ wheels; if the real robot drifts too, say so in specifications.md.
 Source: quasi-static balance of Coulomb friction at the contact points with their loads.
 """
 
-from checker.physics.trial.robot_trial import RobotTrial
+from checker.physics.trial.robot_trial import SettledTrial
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("TRI018", "drifts-while-turning", Severity.WARNING, Concern.ROBOT)
-def check(driven: RobotTrial, *, warning_above: float = 0.5) -> Findings:
+def check(driven: SettledTrial, *, warning_above: float = 0.5) -> Findings:
     """Report a robot that moves away while it turns in place.
 
     Options:
@@ -32,7 +32,7 @@ def check(driven: RobotTrial, *, warning_above: float = 0.5) -> Findings:
     )
 
 
-def _cause(driven: RobotTrial, drift: float) -> str:
+def _cause(driven: SettledTrial, drift: float) -> str:
     explained = driven.trial.value("turn_drift_explained")
     side, front = (driven.trial.value(f"com_offset_{way}") for way in ("side", "front"))
     if explained is None or side is None or front is None:

@@ -5,9 +5,8 @@ expressions. Files that contain only macros are not reported, nor files that onl
 at launch.
 
 Fix: correct the error that the message names; `xacro FILE name:=x` shows the same on the command
-line.
-Source: xacro, "unknown macro name", "Undefined substitution argument"; ROS Noetic and later expand
-only tags with the prefix `xacro:`.
+line. URD014 reports what only xacro of ROS Noetic and later refuses.
+Source: xacro, "unknown macro name", "Undefined substitution argument".
 """
 
 import re
@@ -33,7 +32,7 @@ def check(files: UrdfFiles) -> Findings:
     for reason in files.unread:
         yield unchecked(reason)
     for fault in files.faults:
-        if fault.kind is XacroFaultKind.MALFORMED and "xmlns:" not in fault.hint:
+        if fault.kind is XacroFaultKind.MALFORMED:  # SDF001 says so.
             yield unchecked(f"{fault.file} is not well-formed")
         else:
             yield _refused(fault)
@@ -114,13 +113,14 @@ BAD = [
     _loaded(f'<link name="$(arg nmae)/base_link"/>{_MARK}'),
     _loaded(f'<link name="${{nmae}}/base_link"/>{_MARK}'),
     _loaded(f'<link name="{{name}}/base_link"/>{_MARK}'),
-    _loaded(f'<xacro:property name="x" value="1"/>{_MARK}', '<robot name="rover">\n'),
     _loaded(f'<xacro:include filename="wheel.xacro"/>{_MARK}'),
     _loaded(f"{_MACROS}<xacro:wheel/>{_MARK}"),
-    _loaded(
-        f"""<property name="radius" value="1"/>{_MARK}
-<link name="a"/>"""
-    ),
+    {
+        _LAUNCH: _LOADING.replace('command="$(find xacro)/xacro', 'textfile="').replace(
+            "name:=$(arg name)", ""
+        ),
+        _DESCRIPTION: f'<robot name="rover"><macro name="m"/>{_MARK}\n<link name="a"/></robot>',
+    },
     {_LAUNCH: _LOADING, _DESCRIPTION: "", "@reported": [f"{_DESCRIPTION}:1"]},
     {"@urdf": f'<link name="$(arg name)/hand"/>{_MARK}'},
 ]

@@ -1,11 +1,12 @@
 """RViz or Gazebo cannot find a mesh of a URDF file.
 
 Both look for `package://<package>/<path>`. An absolute path, or a path relative to the file, works
-only on the author's machine; elsewhere the part is invisible.
+only on the author's machine; elsewhere the part is invisible. The simulation of a robot in SDF does
+not need the file, so this is a warning.
 
 Fix: write `package://<package>/<path>`.
-Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo
-Classic reads `package://` as `model://`.
+Source: URDF specification, mesh/filename; RViz loads meshes with resource_retriever; Gazebo Classic
+reads `package://` as `model://`.
 """
 
 import posixpath
@@ -22,7 +23,7 @@ _PACKAGE = re.compile(r"package://([^/]+)/(.*)", re.DOTALL)
 _FETCHED = ("http://", "https://")
 
 
-@rule("URD002", "mesh-uri", Severity.ERROR, Concern.ROBOT)
+@rule("URD002", "mesh-uri", Severity.WARNING, Concern.ROBOT)
 def check(package: Package, description: UrdfDescription) -> Findings:
     """Report meshes without `package://`; for RViz, also those that do not exist.
 
@@ -38,7 +39,6 @@ def check(package: Package, description: UrdfDescription) -> Findings:
                 uri,
                 f"mesh {uri.value!r} does not start with package://, so at most the author's "
                 "machine finds it",
-                severity=Severity.WARNING,
                 key="no package",
             )
         elif description.for_rviz:

@@ -17,6 +17,7 @@ from checker.base.words import Suggestions
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
 from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.specification import has_version
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 TYPES = ("continuous", "fixed", "floating", "planar", "prismatic", "revolute")
@@ -27,8 +28,9 @@ LIMITED = ("prismatic", "revolute")
 def check(description: UrdfDescription) -> Findings:
     """Report what prevents a description from being read as a tree of links."""
     robot = description.robot
+    optional = has_version(description.document, "1.2")
     for joint in robot.joints:
-        yield from _type_and_limit(joint)
+        yield from _type_and_limit(joint, optional=optional)
     for part in (robot.links, robot.joints):
         yield from _repeated(part)
     # The robot that other rules see is the SDF model here, so nobody else looks at these.
@@ -37,7 +39,7 @@ def check(description: UrdfDescription) -> Findings:
         yield from _tree(robot)
 
 
-def _type_and_limit(joint: Joint) -> Iterator[Finding]:
+def _type_and_limit(joint: Joint, *, optional: bool) -> Iterator[Finding]:
     name, kind = joint.name.value, joint.type.value
     if kind not in TYPES:
         phrase = f"has the type {kind!r}" if kind else "has no type"
@@ -50,7 +52,7 @@ def _type_and_limit(joint: Joint) -> Iterator[Finding]:
         yield finding(joint, message)
         return
     missing = [name for name in ("effort", "velocity") if limit.get(name) is None]
-    if missing:
+    if missing and not optional:
         yield finding(limit.span, f"<limit> of joint {name!r} has no {' and no '.join(missing)}")
 
 

@@ -1,7 +1,8 @@
 """A description for RViz that differs from the simulated robot.
 
 Teams plan with the frames that RViz knows. A link that only the simulation has is a frame that
-nobody finds. If a mass differs, one of the two files is out of date.
+nobody finds. If a mass differs, one of the two files is out of date; only RViz reads that of the
+description, so this is information.
 
 Fix: generate the URDF file again from model.sdf.
 Source: Model Migration Guide: the URDF file is converted from the SDF model, so that both agree.
@@ -42,6 +43,8 @@ def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) ->
         ours, theirs = simulated.links[name], shown.links[name]
         if theirs.inertial is None or ours.inertial is None:
             continue
+        if ours.scoped_name in robot.unknown_masses:
+            continue  # A rule on the model says so.
         if _differ(ours.mass, theirs.mass, share) and _differ(
             simulated.mass_with(name), shown.mass_with(name), share
         ):
@@ -49,6 +52,7 @@ def check(robot: Robot, description: UrdfDescription, *, share: float = 0.05) ->
                 theirs.inertial.mass,
                 f"link {name!r} has a mass of {theirs.mass:g} kg, but {ours.mass:g} kg in "
                 f"{robot.document.source.file}",
+                severity=Severity.INFO,
                 key="mass",
                 related=[(ours.inertial.mass, "in the simulation")],
             )

@@ -21,7 +21,6 @@ from checker.source.text import Located
 _MOVING = ("continuous", "prismatic", "revolute")
 _PREFIX = "hardware_interface/"
 _OF_ROS_CONTROL = "transmission_interface/"
-"""Types of other packages, such as the PR2's, have no `<hardwareInterface>`."""
 
 
 @rule("URD008", "broken-transmission", Severity.ERROR, Concern.INTERFACE)
@@ -32,11 +31,18 @@ def check(description: UrdfDescription) -> Findings:
     robot = description.robot
     names = Suggestions(robot.joints_by_name)
     for transmission in description.transmissions:
-        yield from _broken(transmission)
+        if _is_of_ros_control(transmission):
+            yield from _broken(transmission)
         for end in transmission.joints:
             yield from _joint(transmission, end, robot, names)
     yield from _twice(description)
     yield from _left_without(description)
+
+
+def _is_of_ros_control(transmission: Transmission) -> bool:
+    """Say whether ros_control reads a transmission; types of the PR2, say, have another form."""
+    kind = transmission.type.value
+    return not kind or kind.startswith(_OF_ROS_CONTROL)
 
 
 def _broken(transmission: Transmission) -> Iterator[Finding]:
@@ -68,9 +74,9 @@ def _joint(
         phrase = f"moves joint {name!r}, which is {joint.type.value}"
         yield finding(end.name, f"transmission {own!r} {phrase}", severity=Severity.WARNING)
     if not end.interfaces:
-        if not transmission.type.value.startswith(_OF_ROS_CONTROL):
-            return
-        yield finding(end, f"joint {name!r} of transmission {own!r} has no <hardwareInterface>")
+        if _is_of_ros_control(transmission):
+            message = f"joint {name!r} of transmission {own!r} has no <hardwareInterface>"
+            yield finding(end, message)
         return
     wanted = {_plain(interface) for interface in end.interfaces}
     for actuator in transmission.actuators:

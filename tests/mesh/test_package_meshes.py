@@ -24,6 +24,7 @@ from checker.report.scene.processes import StartedProcesses
 from checker.rule_testing import NAME, write_example
 from tests.mesh.files import binary_stl, box, dae, obj
 
+FUEL = "https://fuel.ignitionrobotics.org/1.0/acme/models"
 CUBE = binary_stl(box(1, 1, 1))
 
 
@@ -57,6 +58,9 @@ def read(files: Mapping[str, str | bytes], folder: Path, cache: Cache = NO_CACHE
         (f"model://{NAME}/meshes/a.stl", None),
         (f"model://{NAME.upper()}/meshes/a.stl", None),
         (f"package://{NAME}/meshes/a.stl", None),
+        (f"{FUEL}/{NAME.upper()}/tip/files/meshes/a.stl", None),
+        (f"{FUEL}/{NAME.upper()}/2/files/meshes/b.stl", MeshTrouble.MISSING),
+        (f"{FUEL}/another/tip/files/meshes/a.stl", MeshTrouble.NOT_LOOKED_AT),
         ("meshes/A.stl", MeshTrouble.MISSING),
         ("meshes", MeshTrouble.MISSING),
         ("../other/meshes/a.stl", MeshTrouble.NOT_LOOKED_AT),
@@ -268,3 +272,25 @@ def test_the_name_in_the_model_says_the_format_not_that_behind_a_link(tmp_path: 
         robots = Subject(opened.packages[0]).robots
         assert isinstance(robots, tuple)
         assert isinstance(robots[0].mesh_uses[0].file, Mesh)
+
+
+def test_parts_that_are_picked_are_measured_by_themselves(tmp_path: Path) -> None:
+    node = '<node name="lid"><translate>5 0 0</translate><instance_geometry url="#part"/></node>'
+    pick = "<submesh><name>{}</name></submesh>"
+    visuals = "".join(
+        f'<visual name="{name}"><geometry><mesh><uri>meshes/a.dae</uri>{pick.format(name)}</mesh>'
+        "</geometry></visual>"
+        for name in ("body", "lid", "none")
+    )
+    example = {"@fragment": visuals, "meshes/a.dae": dae(box(1, 1, 1), node=node)}
+    with open_input(write_example(example, tmp_path)) as opened:
+        robots = Subject(opened.packages[0]).robots
+        assert isinstance(robots, tuple)
+        body, lid, none = robots[0].mesh_uses
+        assert isinstance(body.file, Mesh)
+        assert body.file.triangles == 24
+        assert body.mesh is not None
+        assert lid.mesh is not None
+        assert (body.mesh.low, body.mesh.high) == ((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+        assert (lid.mesh.low, lid.mesh.high) == ((4.5, -0.5, -0.5), (5.5, 0.5, 0.5))
+        assert none.mesh is None

@@ -111,12 +111,21 @@ def test_a_flat_mesh_counts_by_its_box() -> None:
     assert robot.box_of(robot.links[0]) == Box(TENT.low, TENT.high)
 
 
+def test_a_part_of_a_mesh_reaches_as_far_as_it_does() -> None:
+    lid = replace(TENT, low=(1.0, 0.0, 0.0), high=(3.0, 2.0, 1.0), hull=())
+    whole = replace(TENT, parts=("tent", "lid"), picks={"lid": lid})
+    for centred, box in ((0, Box(lid.low, lid.high)), (1, Box((-1, -1, -0.5), (1, 1, 0.5)))):
+        submesh = f"<submesh><name>lid</name><center>{centred}</center></submesh>"
+        mesh = f"<mesh><uri>a.stl</uri>{submesh}</mesh>"
+        robot = replace(sdf(link(mesh)), meshes=OneMesh(whole))
+        assert robot.box_of(robot.links[0]) == box
+
+
 @pytest.mark.parametrize(
     ("submesh", "known"),
     [
         ("<name>tent</name>", True),
         ("<name>tent</name><center>false</center>", True),
-        ("<name>tent</name><center>true</center>", False),
         ("<name>other</name>", False),
         ("", False),
     ],

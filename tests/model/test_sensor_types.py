@@ -58,8 +58,8 @@ def test_what_is_lost_is_known() -> None:
 @pytest.mark.parametrize(
     ("type", "release", "version", "severity"),
     [
-        ("gpu_ray", "dome", "1.6", "warning"),
-        ("lidar", "dome", "1.6", "warning"),
+        ("gpu_ray", "dome", "1.6", "info"),
+        ("lidar", "dome", "1.6", "error"),
         ("gpu_ray", "", "1.6", "info"),
         ("lidar", "", "1.6", ""),
         ("gpu_ray", "", "1.5", ""),
@@ -69,7 +69,7 @@ def test_what_is_lost_is_known() -> None:
 )
 def test_older_spellings(type: str, release: str, version: str, severity: str) -> None:
     grades = [
-        str(each.severity or Severity.WARNING) for each in said("SEN002", type, release, version)
+        str(each.severity or Severity.ERROR) for each in said("SEN002", type, release, version)
     ]
     assert grades == ([severity] if severity else [])
 

@@ -239,6 +239,60 @@ def test_robot_with_its_own_model_inherits_no_specification(write: Write) -> Non
     assert two.kind is PackageKind.ROBOT
 
 
+@pytest.mark.parametrize(
+    "ruby",
+    [
+        "require_relative 'common'",
+        'load "#{__dir__}/common.rb"',
+        "load File.join(__dir__, 'common.rb')",
+    ],
+)
+def test_what_a_loaded_file_starts_counts(write: Write, ruby: str) -> None:
+    two = package(
+        write,
+        {
+            f"{ONE}/model.sdf": MODEL,
+            f"{ONE}/launch/vehicle_topics.launch": "<launch/>",
+            f"{TWO}/{SPAWNER}": ruby,
+            f"{TWO}/launch/common.rb": ROSLAUNCH.format(ONE),
+        },
+    )
+    assert isinstance(two.part("launch/vehicle_topics.launch"), Found)
+    assert [(item.package_name, item.by_sibling) for item in two.references] == [(ONE, False)]
+
+
+def test_what_a_siblings_file_starts_is_known_as_its_own(write: Write) -> None:
+    files = {
+        f"{ONE}/model.sdf": MODEL,
+        f"{ONE}/launch/common.rb": f"roslaunch {THREE} description.launch",
+        f"{TWO}/{SPAWNER}": f"require_relative '../../{ONE}/launch/common.rb'",
+    }
+    two = package(write, files)
+    assert [(item.package_name, item.by_sibling) for item in two.references] == [
+        (ONE, False),
+        (THREE, True),
+    ]
+    assert two.base is not None
+    assert two.base.package_name == ONE
+
+
+def test_urdf_comes_from_where_the_launch_file_loads_it(write: Write) -> None:
+    load = f'<launch><param name="d" command="xacro $(find {ONE})/urdf/rover.xacro"/></launch>'
+    two = package(
+        write,
+        {
+            f"{ONE}/urdf/rover.xacro": "<robot/>",
+            f"{ONE}/package.xml": "<package/>",
+            f"{TWO}/model.sdf": MODEL,
+            f"{TWO}/launch/description.launch": load,
+            f"{TWO}/{SPAWNER}": "",
+        },
+    )
+    found = two.part("urdf")
+    assert isinstance(found, Found)
+    assert found.path == f"../{ONE}/urdf"
+
+
 def test_chain_of_siblings(write: Write) -> None:
     three = package(
         write,

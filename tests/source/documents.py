@@ -14,6 +14,6 @@ def document(text: str) -> XmlDocument:
 
 
 def fault(text: str) -> XmlFault:
-    parsed = parse_xml(SourceText("model.sdf", text))
+    parsed = parse_xml(SourceText("robot.launch", text))
     assert isinstance(parsed, XmlFault)
     return parsed

@@ -67,7 +67,7 @@ def test_fault(text: str, place: str, says: str) -> None:
 
 def test_the_place_does_not_depend_on_line_ends_and_letters_in_front() -> None:
     found = fault("<ä>\r\n<世>世</世>\r\n\t<b></ä>")
-    assert str(found.span.place()) == "model.sdf:3:5"
+    assert str(found.span.place()) == "robot.launch:3:5"
     assert found.span.text == "</ä>"
 
 
@@ -169,3 +169,26 @@ def test_no_text_raises(text: str) -> None:
         else:
             assert 0 <= parsed.span.start <= parsed.span.end <= len(parsed.span.source.text)
             assert parsed.span.place().line >= 1
+
+
+@pytest.mark.parametrize(
+    ("text", "places"),
+    [
+        ("<a>x & y</a>", ["1:6"]),
+        ("<a b='x&y;'>&foo &amp; &#65;</a>", ["1:8", "1:13"]),
+        ("<a><!-- & --><![CDATA[&]]>&</a>", ["1:27"]),
+        ("<a>\xe9\x01</a>", ["1:5"]),
+        ("<a/>\n<b/>", ["2:1"]),
+    ],
+)
+def test_what_gazebo_forgives_is_told_in_its_files(text: str, places: list[str]) -> None:
+    """tinyxml2 9.0 loads each of these."""
+    document = parse_xml(SourceText("model.sdf", text))
+    assert isinstance(document, XmlDocument)
+    assert [str(each.span.place()).partition(":")[2] for each in document.tolerated] == places
+
+
+@pytest.mark.parametrize("text", ["<a/>junk", "<a/>\n<b>", "<a/><b/>junk", "<a b=1/>", "<a>&</b>"])
+def test_what_gazebo_refuses_is_a_fault_in_its_files(text: str) -> None:
+    """tinyxml2 9.0 refuses each of these."""
+    assert isinstance(parse_xml(SourceText("model.sdf", text)), XmlFault)

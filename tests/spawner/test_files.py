@@ -40,7 +40,7 @@ def test_paths_given_to_the_loader_are_clean_and_inside(workspace):
     )
     made.files["robot/launch/common.rb"] = COMMON
     made.spawner()
-    assert set(made.asked) == {"robot/launch/common.rb"}
+    assert set(made.asked) == {"robot/launch/common.rb", "robot/launch/example.ign"}
 
 
 def test_a_file_is_required_once_and_loaded_twice(workspace):

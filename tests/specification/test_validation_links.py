@@ -24,6 +24,8 @@ def in_section(line: str) -> str:
         "* [Validation data](https://acme.com/flights.bag)",
         "* Speed test: https://acme.com/1",
         "* https://drive.google.com/drive/folders/1y (datalogs)",
+        "* https://acme.com/rover/1",
+        "Measured by us:\n\n1. <https://acme.com/rover/1>",
     ],
 )
 def test_videos_and_data_prove_something(line: str) -> None:
@@ -35,6 +37,7 @@ def test_videos_and_data_prove_something(line: str) -> None:
     [
         "* [Velodyne VLP-16](https://velodynelidar.com/products/puck)",
         "* Camera: https://acme.com/high-speed-test-camera",
+        "* Sensors:\n  * https://velodynelidar.com/products/puck",
         "* [Validation video](https://youtu.be/xxxxxxxxx/)",
         "* [Validation data]()",
         "<!-- * https://youtu.be/H15Kpvpepv4 -->",

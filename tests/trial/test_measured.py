@@ -28,7 +28,7 @@ class Parts:
         self.driven = RobotTrial(rover(), trial)
 
     def part(self, kind: type) -> Any:
-        assert kind is RobotTrial
+        assert issubclass(kind, RobotTrial)
         return (self.driven,)
 
 

@@ -167,3 +167,31 @@ def test_an_empty_file_that_is_loaded_is_a_fault(describe: Describe) -> None:
     command = f"$(find xacro)/xacro $(find {NAME})/urdf/acme.urdf.xacro"
     files = files_of(describe({FILE: "", f"{NAME}/launch/show.launch": launch(command)}))
     assert [fault.kind for fault in files.faults] == [XacroFaultKind.EMPTY]
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ('<link name="${map(str, [1, 2])[1]}"/>', ["2"]),
+        ('<link name="${sum(filter(lambda n: n > 1, [1, 2, 3]))}"/>', ["5"]),
+        ('<link name="${(range(2) + [7])[-1]}"/>', ["7"]),
+        (
+            '<property name="n" value="a"/><macro name="leg" params="s"><link name="${s}"/></macro>'
+            '<leg s="${n}"/><if value="0"><link name="no"/></if>',
+            ["a"],
+        ),
+    ],
+)
+def test_what_only_melodic_expands_is_a_robot(
+    describe: Describe, body: str, expected: list[str]
+) -> None:
+    subject = describe({FILE: robot(body)})
+    assert links(subject) == expected
+    assert files_of(subject).faults == ()
+    assert len(files_of(subject).old) == 1
+
+
+def test_what_no_release_expands_is_reported_as_the_newer_one_does(describe: Describe) -> None:
+    files = files_of(describe({FILE: robot('<xacro:leg/><link name="a"/>')}))
+    assert files.old == ()
+    assert [fault.message for fault in files.faults] == ["unknown macro name: xacro:leg"]

@@ -69,6 +69,7 @@ def _node(
         (*own, *around),
         include.span,
         assumed_from=posixpath.basename(include.file),
+        usual=entry.get("usual", False),
     )
 
 

@@ -31,6 +31,7 @@ from checker.expand.launch.launch_file import (
 )
 from checker.expand.launch.scope import LaunchFile, Scope, args_of
 from checker.expand.launch.substitution import is_known
+from checker.package.references import PROVIDED
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
@@ -175,7 +176,8 @@ class _Expansion:
 
     def _read_remap(self, element: Element, scope: Scope) -> Remap:
         source = self._reader.value(element, "from", scope)
-        return Remap(source, self._reader.value(element, "to", scope), element.span)
+        span = scope.file.shown_at or element.span
+        return Remap(source, self._reader.value(element, "to", scope), span)
 
     def _param(self, element: Element, scope: Scope, node: str = "") -> None:
         name = self._reader.value(element, "name", scope)
@@ -213,7 +215,7 @@ class _Expansion:
             inner.namespace,
             self._reader.value(element, "args", scope),
             scope.remaps_with(own),
-            element.span,
+            scope.file.shown_at or element.span,
             words=self._words(element, scope),
         )
         self._nodes.append(node)
@@ -241,6 +243,8 @@ class _Expansion:
         if written is None or not self._reader.charge(element, len(written.value) // 100):
             return ()
         result = tuple(words(written, scope))
+        if (shown_at := scope.file.shown_at) is not None:
+            result = tuple(Located(word.value, shown_at) for word in result)
         self._reader.charge(element, len(result))
         return result
 
@@ -288,7 +292,8 @@ class _Expansion:
             self._reader.fault(LaunchFaultKind.INCLUDE_LOOP, inclusion.file.span, message)
             return
         self._includes.append(Include(document.source.file, arguments, span))
-        file = LaunchFile(document, arguments, span, inclusion.passes_all, (*chain, key))
+        shown_at = scope.file.shown_at or (span if inclusion.package in PROVIDED else None)
+        file = LaunchFile(document, arguments, span, inclusion.passes_all, (*chain, key), shown_at)
         complete = self.expand(document.root, scope.of_file(file))
         if inclusion.passes_all or not complete:
             return

@@ -97,6 +97,7 @@ class Node(Record, eq=False):
         assumed_from: The file of the challenge's own package that is assumed to start the node
             (the span is that of its `<include>`); empty for a node that was read.
         words: The words of `args`, each with its place.
+        usual: Whether it is assumed to bridge what most robots have: this one may do without.
     """
 
     package: str
@@ -108,6 +109,7 @@ class Node(Record, eq=False):
     span: Span
     assumed_from: str = ""
     words: tuple[Located[str], ...] = ()
+    usual: bool = False
 
     @property
     def file(self) -> str:

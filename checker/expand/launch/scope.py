@@ -27,6 +27,8 @@ class LaunchFile(Record, eq=False):
         included_at: The `<include>` that asks for it; None for the entry file.
         overrides_constants: Whether the args came by `pass_all_args`.
         chain: The files around it with what they were given, itself last.
+        shown_at: The `<include>` that asks for it, or for a file around it, where the file is the
+            challenge's own: what it starts is that include's doing. None for other files.
         declared: Names declared anywhere in it so far, each with value and place.
     """
 
@@ -35,6 +37,7 @@ class LaunchFile(Record, eq=False):
     included_at: Span | None
     overrides_constants: bool
     chain: Chain
+    shown_at: Span | None = None
     declared: dict[str, Located[str]] = msgspec.field(default_factory=dict)
 
     @property

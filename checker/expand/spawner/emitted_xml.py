@@ -78,8 +78,8 @@ class SpawnedXml(EmittedXml, dict=True):
 
     @cached_property
     def spawns(self) -> list[Element]:
-        """The outermost `<spawn>` elements."""
-        return self.document.root.all("spawn")
+        """The outermost `<spawn>` elements, and the plugins that older spawners have instead."""
+        return [*self.document.root.all("spawn"), *self.gazebo_factories]
 
     @cached_property
     def gazebo_factories(self) -> list[Element]:
@@ -90,7 +90,14 @@ class SpawnedXml(EmittedXml, dict=True):
     @cached_property
     def plugins(self) -> list[Element]:
         """The plugins that `spawner` adds to the robot."""
-        return self.document.find_all("spawn/sdf/include/plugin|spawn/sdf/model/plugin")
+        models = [
+            model
+            for spawn in self.spawns
+            for sdf in spawn.all("sdf")
+            for tag in ("include", "model")
+            for model in sdf.all(tag)
+        ]
+        return [plugin for model in models for plugin in model.all("plugin")]
 
 
 class StartedXml(EmittedXml, dict=True):

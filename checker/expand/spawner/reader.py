@@ -15,6 +15,12 @@ from checker.expand.spawner.evaluator.operators import OPERATORS
 from checker.expand.spawner.evaluator.statements import STATEMENTS, function_of
 from checker.expand.spawner.evaluator.variables import VARIABLES
 from checker.expand.spawner.files import SpawnerFiles
+from checker.expand.spawner.launcher import (
+    GROUND_TRUTH,
+    SAMPLE_NAME,
+    SAMPLE_WORLD,
+    launcher_globals,
+)
 from checker.expand.spawner.limits import MAX_FILE_LENGTH, LimitReached
 from checker.expand.spawner.literals import computed
 from checker.expand.spawner.scope import Function, Scope
@@ -32,9 +38,6 @@ from checker.source.text import SourceText
 
 Argument = str | int | float | bool | None
 
-GROUND_TRUTH = "$enableGroundTruth"
-SAMPLE_NAME = "robot_name"
-SAMPLE_WORLD = "world_name"
 SPAWNER_ARGUMENTS: tuple[Argument, ...] = (
     *(SAMPLE_NAME, "model://robot_model", SAMPLE_WORLD),
     *(1.25, 2.5, 3.75),
@@ -169,7 +172,7 @@ class _Program:
         if isinstance(self._tree, str):
             return Unread(whole, self._tree)
         run = Interpreter(self.files, _HANDLERS, self.trees)
-        run.globals[GROUND_TRUTH] = Value(ground_truth, frozenset({GROUND_TRUTH}))
+        run.globals.update(launcher_globals(self.files, self.path, ground_truth=ground_truth))
         run.sources[self.path] = self.entry
         try:
             return self._emitted(run, name, arguments)

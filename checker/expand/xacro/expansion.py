@@ -67,10 +67,12 @@ class Wanted(Record):
     Attributes:
         path: As the package lists it.
         args: Arguments by name.
+        as_melodic: Whether as xacro 1.13 of ROS Melodic does it.
     """
 
     path: str
     args: Mapping[str, str]
+    as_melodic: bool = False
 
 
 class Unread(Record):
@@ -90,7 +92,9 @@ class Expansions:
         self._cache = cache
         self._gathered = Gathered(package)
         self._jobs: list[dict[str, Any]] = [
-            {"file": path_of(package, wish.path), "args": dict(wish.args)} for wish in wanted
+            {"file": path_of(package, wish.path), "args": dict(wish.args)}
+            | ({"as_melodic": True} if wish.as_melodic else {})
+            for wish in wanted
         ]
         self._gathered.follow(job["file"] for job in self._jobs)
         self._begun = self._begin()

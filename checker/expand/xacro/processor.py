@@ -14,13 +14,14 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from functools import wraps
+from functools import cached_property, wraps
 from typing import Any
 from xml.dom import expatbuilder, minidom
 
 import xacro
 from xacro import substitution_args
 
+from checker.expand.xacro import melodic
 from checker.expand.xacro.expression.bounds import (
     Allowance,
     Budget,
@@ -57,8 +58,16 @@ class _Stopped(BaseException):
         self.outcome = outcome
 
 
-def expand(request: Mapping[str, Any], file: str, args: Mapping[str, str]) -> dict[str, Any]:
+def expand(
+    request: Mapping[str, Any], file: str, args: Mapping[str, str], *, as_melodic: bool = False
+) -> dict[str, Any]:
     """Expand one file.
+
+    Args:
+        request: The texts.
+        file: The one to expand.
+        args: Arguments by name.
+        as_melodic: As xacro 1.13 of ROS Melodic does, see `checker.expand.xacro.melodic`.
 
     Returns:
         `xml` and `origins` (file and element number of each element, in order) with `files`; or
@@ -66,7 +75,7 @@ def expand(request: Mapping[str, Any], file: str, args: Mapping[str, str]) -> di
         well; or `unread`, why it cannot be known; or `refused`, what an expression uses that is
         outside of the language, with the `expression` and `at`.
     """
-    expansion = _Expansion(request)
+    expansion = _Expansion(request, as_melodic=as_melodic)
     try:
         return expansion.run(file, dict(args))
     except _Stopped as stopped:
@@ -118,8 +127,9 @@ def _message(error: BaseException) -> str:
 class _Expansion:
     """xacro, led to the given texts."""
 
-    def __init__(self, request: Mapping[str, Any]) -> None:
+    def __init__(self, request: Mapping[str, Any], *, as_melodic: bool) -> None:
         self._request = request
+        self._as_melodic = as_melodic
         self._files: list[str] = sorted(request["texts"])
         self._numbers = {path: number for number, path in enumerate(self._files)}
         self._nodes = 0
@@ -158,6 +168,9 @@ class _Expansion:
         xacro.eval_text = self._text_value
         xacro.is_valid_name = _is_name
         xacro._global_symbols = global_symbols(self._load_yaml)
+        if self._as_melodic:
+            xacro._global_symbols = {**melodic.FUNCTIONS, **xacro._global_symbols, **melodic.LISTS}
+            xacro.eval_all = melodic.with_global_macros(xacro.eval_all)
         for name in ("eval_all", "handle_macro_call"):
             setattr(xacro, name, self._watched(getattr(xacro, name)))
         xacro.check_attrs = self._noting(xacro.check_attrs)
@@ -165,6 +178,10 @@ class _Expansion:
         substitution_args._eval_env = _refuse_environment
         substitution_args._eval_optenv = _default_of
         substitution_args._eval = self._substituted
+
+    @cached_property
+    def _macros(self) -> frozenset[str]:
+        return melodic.macro_names(self._request["texts"].values())
 
     def glob(self, pattern: str) -> list[str]:
         """Return the given paths that match a pattern: what `glob.glob` is to xacro."""
@@ -197,6 +214,8 @@ class _Expansion:
             xacro.filestack.pop()
             shown = posixpath.normpath(path).removeprefix(f"{ROOT}/")
             raise xacro.XacroException(f"the file {shown} does not exist", exc=error) from None
+        if self._as_melodic:
+            melodic.prefix(document.documentElement, self._macros)
         number = self._numbers[posixpath.normpath(path)]
         for index, element in enumerate(_elements(document.documentElement)):
             element.setUserData(_ORIGIN, (number, index), self)

@@ -62,7 +62,8 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
     Args:
         request: JSON: `texts` by path, `absent` paths, `faulty` paths with what is wrong there,
-            `beyond` names of unavailable packages, and `items`: each a `file` and `args`.
+            `beyond` names of unavailable packages, and `items`: each a `file` and `args`,
+            and whether it is expanded `as_melodic`.
 
     Returns:
         JSON: what became of each job (see `checker.expand.xacro.processor`), in the same order.
@@ -74,7 +75,9 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
 
     def work(job: Any) -> bytes:
         put_up()
-        return json.dumps(processor.expand(data, job["file"], job["args"])).encode()
+        as_melodic = bool(job.get("as_melodic"))
+        done = processor.expand(data, job["file"], job["args"], as_melodic=as_melodic)
+        return json.dumps(done).encode()
 
     done = []
     for job in data["items"]:

@@ -177,6 +177,15 @@ class Rotor(Record, eq=False):
     centre: Vector | None
     axis: Vector | None
 
+    @property
+    def lifts(self) -> bool:
+        """Whether its thrust points up rather than along: not so the propeller of an aeroplane."""
+        return self.axis is None or abs(self.axis[2]) >= _UPRIGHT
+
+
+_UPRIGHT = 0.5
+"""Cosine of the angle between a rotor's axis and the vertical."""
+
 
 class RotorEntry(Record, eq=False):
     """One `<rotor>` of the controller's `<rotorConfiguration>`.

@@ -123,7 +123,7 @@ def read_locomotion(robot: Robot) -> Locomotion:
     copters = tuple(read_copter(p) for p in _of_class(robot, "MulticopterVelocityControl"))
     legs = tuple(_leg_joints(robot)) if is_legged(robot.plugins) else ()
     kind = DriveKind.NONE
-    if copters or rotors:
+    if copters or any(rotor.lifts for rotor in rotors):
         kind = DriveKind.MULTICOPTER
     elif tracks or tracked:
         kind = DriveKind.TRACKED

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from checker.base.record import Record
 from checker.model.sdf.document import parse_version
+from checker.package.fuel import is_on_fuel, path_from_fuel
 from checker.package.manifests import SdfEntry, read_model_config
 from checker.package.package import Package
 from checker.source.text import Located
@@ -52,6 +53,9 @@ class ModelIncludes(Record):
 
         A bare name is looked up as `model://name` is: along the paths of the simulator.
         """
+        if is_on_fuel(uri):
+            on_fuel = path_from_fuel(self.package, uri)
+            return self._model_in(on_fuel) if on_fuel is not None else None
         if not uri.startswith("model://"):
             path = self._at(posixpath.join(folder, uri), folder)
             if path is not None or "://" in uri:

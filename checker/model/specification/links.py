@@ -30,24 +30,34 @@ _SHARED = re.compile(
 """Where teams put videos and logs; manufacturers' pages are elsewhere."""
 
 
+_DATASHEETS = re.compile(r"\b(?:sensors?|specifications?|datasheets?|components?|parts)\b", re.I)
+_WORD = re.compile(r"[^\W\d_]{2}")
+
+
 def validation_links(source: SourceText, start: int, end: int) -> Iterator[Span]:
     """Yield links to measurements; placeholders such as `https://youtu.be/xxxx` are none.
 
     Args:
         source: The sheet.
         start: Where its section on validation starts: in it, words in the line such as `speed test`
-            say what a link is; elsewhere only its host does.
+            say what a link is, and one without any word counts, unless it stands below a line such
+            as `Sensors:`. Elsewhere only its host says it.
         end: Where that section ends.
     """
     # Blanks of the same length keep the offsets.
     text = _COMMENT.sub(lambda match: " " * len(match.group()), source.text[:MAX_LENGTH])
-    offset = 0
+    offset, label = 0, ""
     for line in text.splitlines(keepends=True):
-        named = start <= offset < end and _RECORDED.search(_URL.sub(" ", line)) is not None
+        inside = start <= offset < end
+        words = _URL.sub(" ", line)
+        plain = _WORD.search(words) is None and _DATASHEETS.search(label) is None
+        named = inside and (plain or _RECORDED.search(words) is not None)
         for match in _URL.finditer(line):
             shared = _SHARED.search(match.group()) is not None
             if (named or shared) and not _PLACEHOLDER.search(match.group()):
                 yield Span(source, offset + match.start(), offset + match.end())
+        if inside and offset > start and words == line and line.strip():
+            label = line
         offset += len(line)
 
 

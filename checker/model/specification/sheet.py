@@ -25,6 +25,10 @@ from checker.source.text import SourceText, Span
 
 _OTHER_SHEET = re.compile(r"\]\(([^()\s#]{1,200}\.md)[)#]", re.IGNORECASE)
 
+_REFERRED = re.compile(
+    r"\b(?:see|refer\w*|same|identical)\b[^.\n]{0,100}?\b(\w{1,80}_sensor_config_\d{1,4})\b", re.I
+)
+
 
 class Section(Record, eq=False):
     """A heading and what stands below it.
@@ -139,6 +143,19 @@ class Specification(Record, eq=False, dict=True):
             return tuple(validation_links(self.source, 0, 0))
         stretch = self.stretch_of(section)
         return tuple(validation_links(self.source, stretch.start, stretch.end))
+
+    @cached_property
+    def other_validation(self) -> str:
+        """The sheet that the section on validation links to, or the package that it refers to.
+
+        Empty where it does neither.
+        """
+        section = self.section("validation")
+        if section is None:
+            return ""
+        text = self.stretch_of(section).text
+        match = _OTHER_SHEET.search(text) or _REFERRED.search(text)
+        return match.group(1) if match else ""
 
     @property
     def unread(self) -> str:

@@ -15,9 +15,11 @@ class UrdfFiles(Record, eq=False):
         faults: Of files that hold none because something is wrong with them.
         unread: Why files could not be looked at, each the end of a sentence.
         set_aside: The same of files beside an SDF model that no launch file loads.
+        old: What only newer releases of xacro refuse; the descriptions are what Melodic's makes.
     """
 
     descriptions: tuple[UrdfDescription, ...] = ()
     faults: tuple[XacroFault, ...] = ()
     unread: tuple[str, ...] = ()
     set_aside: tuple[str, ...] = ()
+    old: tuple[XacroFault, ...] = ()

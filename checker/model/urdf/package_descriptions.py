@@ -143,6 +143,7 @@ class PackageDescriptions:
             args: Arguments for xacro, before those that launch files give.
         """
         self._package = package
+        self._cache = cache
         self._for_rviz = package.kind not in _URDF_KINDS
         self._candidates: Sequence[Candidate] = ()
         if only:
@@ -164,8 +165,8 @@ class PackageDescriptions:
     @cached_property
     def files(self) -> UrdfFiles:
         """What became of the files; the first call waits for their expansion."""
-        outcomes = self._expansions.outcomes() if self._expansions is not None else []
-        expanded = dict(zip((wish.path for wish in self._wanted), outcomes, strict=True))
+        expanded = self._expanded
+        old = self._expand_as_melodic(expanded)
         descriptions, faults = [], []
         unread: list[tuple[Candidate, str]] = []
         for candidate in self._candidates:
@@ -186,7 +187,31 @@ class PackageDescriptions:
             tuple(faults),
             tuple(reason for file, reason in unread if file.loaded or not self._for_rviz),
             tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
+            old,
         )
+
+    @property
+    def _expanded(self) -> dict[str, Outcome]:
+        """What became of the files that xacro reads, by path."""
+        outcomes = self._expansions.outcomes() if self._expansions is not None else []
+        return dict(zip((wish.path for wish in self._wanted), outcomes, strict=True))
+
+    def _expand_as_melodic(self, expanded: dict[str, Outcome]) -> tuple[XacroFault, ...]:
+        """Expand what a newer xacro refuses as Melodic's does, and return what is refused.
+
+        What comes of it takes its place in `expanded`.
+        """
+        refused = {path: old for path in expanded if (old := _refusal(expanded[path], path))}
+        again = [replace(wish, as_melodic=True) for wish in self._wanted if wish.path in refused]
+        if not again:
+            return ()
+        expansions = Expansions(self._package, again, self._cache)
+        taken = []
+        for wish, outcome in zip(again, expansions.outcomes(), strict=True):
+            if isinstance(outcome, XmlDocument) and _refusal(outcome, wish.path) is None:
+                expanded[wish.path] = outcome
+                taken.append(refused[wish.path])
+        return tuple(taken)
 
     def stop(self) -> None:
         """End what nobody has waited for."""
@@ -207,6 +232,24 @@ class PackageDescriptions:
     def _loads_something(self, path: str) -> bool:
         source = self._package.read(path)
         return isinstance(source, SourceText) and _LOADS.search(source.text) is not None
+
+
+_WITHOUT_PREFIX = ("include", "insert_block", "macro", "property")
+"""Tags of xacro that no reader of URDF knows; they are directly in the robot."""
+
+
+def _refusal(outcome: Outcome, file: str) -> XacroFault | None:
+    """Return what a newer xacro refuses that an older one may take."""
+    if isinstance(outcome, XmlDocument):
+        for child in outcome.root.children:
+            if child.tag in _WITHOUT_PREFIX:
+                message = f"<{child.tag}> is not expanded"
+                hint = f"write <xacro:{child.tag}>"
+                return XacroFault(XacroFaultKind.EXPANSION, file, child.span, message, hint)
+        return None
+    if isinstance(outcome, XacroFault):
+        return outcome if outcome.kind is XacroFaultKind.EXPANSION else None
+    return None
 
 
 def _needs_xacro(package: Package, candidate: Candidate) -> bool:

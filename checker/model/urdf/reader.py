@@ -20,10 +20,11 @@ from checker.model.components import (
 )
 from checker.model.frames import MODEL_FRAME, FrameGraph, FrameNode
 from checker.model.geometry.shapes import Geometry, Material
-from checker.model.geometry.transform import Transform, Vector
+from checker.model.geometry.transform import Transform, Vector, rotation_from_quaternion
 from checker.model.robot import Robot
 from checker.model.sdf.links import read_plugin, read_sensor
 from checker.model.sdf.scope import Scope
+from checker.model.urdf.specification import has_version
 from checker.model.values import ValueReader
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
@@ -33,6 +34,7 @@ from checker.source.xml import Element, XmlDocument
 
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _ZERO = (0.0, 0.0, 0.0)
+_NO_TURN = (0.0, 0.0, 0.0, 1.0)
 _ONES = (1.0, 1.0, 1.0)
 _SIZES: Mapping[str, Mapping[str, tuple[float, ...]]] = {
     "box": {"size": _ONES},
@@ -75,6 +77,12 @@ def read_origin(parent: Element, values: ValueReader) -> Pose:
         numbers = tuple(Located(0.0, parent.span, stated=False) for _ in range(6))
         return Pose(Transform(), "", numbers, parent.span)
     xyz = values.finite(values.attribute_numbers(origin, "xyz", _ZERO))
+    if origin.attribute("quat_xyzw") is not None and has_version(origin.document, "1.1"):
+        turn = values.finite(values.attribute_numbers(origin, "quat_xyzw", _NO_TURN))
+        x, y, z, w = (number.value for number in turn)
+        if x or y or z or w:
+            transform = Transform(rotation_from_quaternion(w, x, y, z), _vector(xyz))
+            return Pose(transform, "", (*xyz, *turn), origin.span, in_radians=False)
     rpy = values.finite(values.attribute_numbers(origin, "rpy", _ZERO))
     transform = Transform.from_xyz_rpy(_vector(xyz), _vector(rpy))
     return Pose(transform, "", (*xyz, *rpy), origin.span)
@@ -202,13 +210,16 @@ def _read_axis(joint: Element, values: ValueReader) -> Iterator[Axis]:
     axis = joint.child("axis") or joint
     limit = joint.child("limit") or joint
     dynamics = joint.child("dynamics") or joint
-    unlimited = joint.get("type") == "continuous" or limit is joint
+    unlimited = (
+        joint.get("type") == "continuous" or limit is joint or has_version(joint.document, "1.2")
+    )
 
     def number(element: Element, name: str, default: float) -> Located[float]:
         return values.attribute_numbers(element, name, (default,))[0]
 
     yield Axis(
-        values.attribute_numbers(axis, "xyz", (1.0, 0.0, 0.0)),
+        # urdfdom: x without an <axis>, no direction with one that states none.
+        values.attribute_numbers(axis, "xyz", (1.0, 0.0, 0.0) if axis is joint else _ZERO),
         "",
         number(limit, "lower", -math.inf if unlimited else 0.0),
         number(limit, "upper", math.inf if unlimited else 0.0),

@@ -10,7 +10,7 @@ from checker.base.record import Record
 from checker.model.components import Collision, Link
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
-from checker.model.mesh import Mesh, Meshes, MeshFault, MeshTrouble, mesh_of
+from checker.model.mesh import Mesh, Meshes, MeshFault, mesh_of
 from checker.model.robot import Robot
 
 # Convex polygons in the plane: around points, and how far inside a point is.
@@ -182,7 +182,7 @@ def stand_of(robot: Robot) -> Stand:
     lowest: list[tuple[float, Link, Collision, Transform]] = []
     for link, collision in _collisions(robot):
         mesh = robot.mesh_of(collision)
-        if isinstance(mesh, MeshFault) and mesh.trouble is not MeshTrouble.MISSING:
+        if isinstance(mesh, MeshFault):
             uri = collision.geometry.uri
             return Stand(unknown=f"{uri.value if uri else 'a mesh'} {mesh.reason}")
         pose = robot.pose_of_part(link, collision.pose)
@@ -196,7 +196,7 @@ def stand_of(robot: Robot) -> Stand:
     points = [
         (x, y)
         for _, _, collision, pose in touching
-        for x, y, z in contact_points(collision.geometry, pose, robot.meshes)
+        for x, y, z in contact_points(collision.geometry, pose, robot.scaled_meshes)
         if z <= ground + _TOUCHES
     ]
     names = frozenset(link.scoped_name for _, link, _, _ in touching)

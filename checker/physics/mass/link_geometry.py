@@ -97,17 +97,23 @@ def solid(shapes: Iterable[_Shape]) -> list[_Shape]:
     return [shape for shape in shapes if shape.geometry.shape not in _NOTHING]
 
 
-def not_looked_at(robot: Robot, link: Link) -> str:
-    """Return why a mesh of a link is not known, as the end of a sentence.
+def unknown_mesh(robot: Robot, link: Link) -> str:
+    """Return why a mesh of a link is not known, as the end of a sentence; empty when all are."""
+    return next((reason for reason, _ in _unknown_meshes(robot, link)), "")
 
-    Empty when all are, and for files that are missing or broken: other rules say so.
-    """
+
+def not_looked_at(robot: Robot, link: Link) -> str:
+    """Return the same, but nothing for files that other rules report: missing or broken ones."""
+    reasons = _unknown_meshes(robot, link)
+    return next((why for why, trouble in reasons if trouble is MeshTrouble.NOT_LOOKED_AT), "")
+
+
+def _unknown_meshes(robot: Robot, link: Link) -> Iterator[tuple[str, MeshTrouble]]:
     for shape in solid((*link.collisions, *link.visuals)):
         mesh = robot.mesh_of(shape)
-        if isinstance(mesh, MeshFault) and mesh.trouble is MeshTrouble.NOT_LOOKED_AT:
+        if isinstance(mesh, MeshFault):
             uri = shape.geometry.uri
-            return f"the mesh {uri.value if uri else ''} {mesh.reason}"
-    return ""
+            yield f"the mesh {uri.value if uri else ''} {mesh.reason}", mesh.trouble
 
 
 def _placed(robot: Robot, link: Link) -> Iterator[tuple[_Shape, Transform]]:
@@ -137,7 +143,7 @@ def known_reach(robot: Robot, link: Link, point: Vector) -> float | None:
     """
     reaches = []
     for shape, pose in _placed(robot, link):
-        reach = farthest(shape.geometry, pose, point, robot.meshes)
+        reach = farthest(shape.geometry, pose, point, robot.scaled_meshes)
         if reach is None:
             return None
         reaches.append(reach)
@@ -150,7 +156,7 @@ def volume_bounds(robot: Robot, shapes: Iterable[_Shape]) -> tuple[float, float]
     They may lie in one another: the largest alone, and all side by side. None without shapes, and
     where one is not known.
     """
-    volumes = [volume_of(shape.geometry, robot.meshes) for shape in solid(shapes)]
+    volumes = [volume_of(shape.geometry, robot.scaled_meshes) for shape in solid(shapes)]
     known = [volume for volume in volumes if volume is not None]
     if not known or len(known) < len(volumes):
         return None

@@ -82,6 +82,11 @@ class MassProperties(Record, eq=False):
     gravity_torques: Mapping[Joint, float]
     support_unknown: str = ""
 
+    @property
+    def unbalanced(self) -> str:
+        """Why it is not known how the robot stands, as the end of a sentence; empty when it is."""
+        return self.robot.unweighed or self.robot.unplaced_part or self.support_unknown
+
     def share(self, name: str) -> float:
         """Return a link's share of the robot's mass, 0…1."""
         return self.links[name].mass / self.mass if self.mass > 0 else 0.0

@@ -38,11 +38,13 @@ class Piece(Record, eq=False):
         material: What they look like.
         places: Where each corner lies in the picture (n × 3 × 2; u to the right, v upwards, 0 to 1
             once across); None where the file does not say.
+        part: Name of the part of the file that they belong to; empty where that is not known.
     """
 
     corners: Array
     material: Material = Material()
     places: Array | None = None
+    part: str = ""
 
 
 class MeshContent(Record, eq=False):
@@ -63,6 +65,11 @@ class MeshContent(Record, eq=False):
     materials: tuple[str, ...] = ()
     defects: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
+
+    def only(self, part: str) -> MeshContent:
+        """Return one part of it."""
+        pieces = tuple(piece for piece in self.pieces if piece.part == part)
+        return MeshContent(pieces, self.metres_per_unit, parts=(part,))
 
     @property
     def corners(self) -> Array:

@@ -10,12 +10,12 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from lxml import etree
 
-from checker.model.mesh import MeshTrouble
+from checker.model.mesh import NOT_XML, MeshTrouble
 from checker.physics.mesh.content import MeshContent, NoSurface, Piece
 from checker.physics.mesh.dae_materials import DaeMaterials, local_name, places_in_picture
 
@@ -38,8 +38,9 @@ def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
             np.asarray(triangles.vertex, np.float64)[triangles.vertex_index] * metres,
             materials.material_of(geometry, triangles.original.material or ""),
             places_in_picture(triangles),
+            part,
         )
-        for geometry, triangles in sets
+        for geometry, triangles, part in sets
     )
     if not pieces:
         if is_skinned:
@@ -49,14 +50,15 @@ def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
     return MeshContent(pieces, metres, textures, defects=tuple(defects), parts=parts)
 
 
-def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any]], list[str]]:
+def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any, str]], list[str]]:
     """Return what the scene shows in the file's unit, and what could not be read.
 
     Args:
         bare: A document that says nothing of materials.
 
     Returns:
-        pycollada's bound sets of triangles, each with the id of its geometry; faults, as sentences.
+        pycollada's bound sets of triangles, each with the id of its geometry and the name of the
+        node that shows it; faults, as sentences.
 
     Raises:
         NoSurface: A triangle names a corner below 0.
@@ -65,16 +67,33 @@ def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any]], list[str]]:
 
     document = collada.Collada(io.BytesIO(bare), ignore=[collada.DaeError])
     sets = []
-    for geometry in document.scene.objects("geometry") if document.scene is not None else ():
+    for part, geometry in _placed(document.scene.nodes) if document.scene is not None else ():
         for primitive in geometry.primitives():
             triangles = _triangles(primitive)
             if triangles is not None and triangles.vertex is not None:
                 # pycollada wraps an index below 0 around.
                 if triangles.vertex_index.size and triangles.vertex_index.min() < 0:
                     raise NoSurface("names a corner below 0")
-                sets.append((str(geometry.original.id), triangles))
+                sets.append((str(geometry.original.id), triangles, part))
     faults = [f"Part of it cannot be read: {error.msg}." for error in document.errors]
     return sets, list(dict.fromkeys(faults))
+
+
+def _placed(nodes: Iterable[Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the geometry of nodes in the scene, each with the name of the node that shows it."""
+    from collada.scene import GeometryNode, Node, NodeNode
+
+    waiting: list[tuple[Any, Any, str]] = [(node, None, "") for node in reversed(list(nodes))]
+    while waiting:
+        node, matrix, name = waiting.pop()
+        if isinstance(node, GeometryNode):
+            yield from ((name, geometry) for geometry in node.objects("geometry", matrix))
+        elif isinstance(node, NodeNode):
+            waiting.append((node.node, matrix, name))
+        elif isinstance(node, Node):
+            placed = node.matrix if matrix is None else matrix @ node.matrix
+            own = node.xmlnode.get("name") or node.xmlnode.get("id") or ""
+            waiting += [(child, placed, own) for child in reversed(node.children)]
 
 
 def _triangles(primitive: Any) -> Any:
@@ -173,7 +192,7 @@ def parse_collada(data: bytes) -> tuple[etree._Element, list[str]]:
             raise NoSurface(f"is not well-formed XML: {error.msg}") from None
         value = _BRACKET_IN_VALUE.search(data)
         shown = value[0].decode("utf-8", "replace")[:60] if value else ""
-        defects.append(f"its XML is not well-formed: `<` in an attribute's value {shown}")
+        defects.append(f"{NOT_XML}: `<` in an attribute's value {shown}")
     if root is None or local_name(root) != "COLLADA":
         raise NoSurface("is XML, but not a COLLADA file")
     return root, defects

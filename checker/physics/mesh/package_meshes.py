@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import islice
 from typing import Any
@@ -18,7 +18,7 @@ from checker.base.files import NotReadable, read_bytes
 from checker.base.output import Stages
 from checker.base.parts import WorkerFailed
 from checker.base.record import Record
-from checker.model.mesh import Mesh, MeshFault, MeshTrouble
+from checker.model.mesh import Mesh, MeshFault, MeshTrouble, picked_part
 from checker.model.robot import Robot
 from checker.package.package import Package
 from checker.physics.mesh import process
@@ -44,6 +44,7 @@ class PackageMeshes(Record, eq=False, dict=True):
         cache: Where results are kept.
         stages: Told when the reading is waited for.
         server: Reads them; None starts a process for them alone.
+        picks: Parts of them that the robot uses by themselves.
     """
 
     package: Package
@@ -51,6 +52,7 @@ class PackageMeshes(Record, eq=False, dict=True):
     cache: Cache = NO_CACHE
     stages: Stages = field(default_factory=Stages)
     server: Server | None = None
+    picks: tuple[tuple[Located[str], str], ...] = ()
 
     @property
     def read(self) -> bool:
@@ -88,7 +90,12 @@ class PackageMeshes(Record, eq=False, dict=True):
     def _keys(self) -> Mapping[MeshFile, str | MeshFault]:
         """Each file's key in the cache, or why it has none."""
         files = (place for place in self._places.values() if isinstance(place, MeshFile))
-        return {file: _key(file) for file in dict.fromkeys(files)}
+        return {file: _key(file, self._picked(file)) for file in dict.fromkeys(files)}
+
+    def _picked(self, file: MeshFile) -> list[str]:
+        """Return the names of the parts of a file that are used by themselves, sorted."""
+        picks = ((self._places.get(_address(uri)), part) for uri, part in self.picks)
+        return sorted({part for place, part in picks if place == file})
 
     @cached_property
     def _facts(self) -> Background[_Read]:
@@ -97,7 +104,10 @@ class PackageMeshes(Record, eq=False, dict=True):
         for file, key in self._keys.items():
             if isinstance(key, str):
                 name = posixpath.basename(file.path)
-                items.setdefault(key, {"file": str(file.location), "name": name})
+                item: dict[str, Any] = {"file": str(file.location), "name": name}
+                if picked := self._picked(file):
+                    item["picked"] = picked
+                items.setdefault(key, item)
         work = process.mesh_work("facts", items, read_from_json, _lasts)
         return Background(work, self.cache, self.server)
 
@@ -139,16 +149,24 @@ def mesh_uris(robot: Robot) -> tuple[Located[str], ...]:
     return tuple(uri for uri in uris if uri is not None and uri.stated and uri.value)
 
 
+def picked_parts(robot: Robot) -> tuple[tuple[Located[str], str], ...]:
+    """Return the parts of meshes that a robot uses by themselves, each with the mesh's URI."""
+    shapes = (shape.geometry for shape in robot.shapes())
+    meshes = (shape for shape in shapes if shape.shape == "mesh")
+    picked = ((shape.uri, picked_part(shape)) for shape in meshes)
+    return tuple((uri, part[0]) for uri, part in picked if uri is not None and part and part[0])
+
+
 def _address(uri: Located[str]) -> _Address:
     return Robot.folder_of(uri), uri.value
 
 
-def _key(file: MeshFile) -> str | MeshFault:
+def _key(file: MeshFile, picked: Sequence[str]) -> str | MeshFault:
     """Return the cache's key of a file: a hash of all that its mesh depends on."""
     data = read_bytes(file.location, file.path, process.SIZE_LIMIT)
     if isinstance(data, NotReadable):
         return MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason)
-    return process.facts_key(data, posixpath.splitext(file.path)[1])
+    return process.facts_key(data, posixpath.splitext(file.path)[1], picked)
 
 
 def _lasts(read: _Read) -> bool:
@@ -168,8 +186,13 @@ def read_from_json(data: Any) -> _Read:
     """
     if "fault" in data:
         return MeshFault(MeshTrouble(data["fault"]["trouble"]), data["fault"]["reason"])
-    fields = dict(data["mesh"])
+    return _mesh_from_json(data["mesh"])
+
+
+def _mesh_from_json(data: Any) -> Mesh:
+    fields = dict(data)
     for name in (*_LISTS, *_POINTS):
         fields[name] = tuple(fields[name])
     fields["hull"] = tuple((x, y, z) for x, y, z in fields["hull"])
+    fields["picks"] = {name: _mesh_from_json(part) for name, part in fields["picks"].items()}
     return Mesh(**fields)

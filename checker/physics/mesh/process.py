@@ -7,7 +7,7 @@ parent loads its own, which takes each of them half a second.
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import islice
 from typing import Any, TypeVar
 
@@ -72,14 +72,15 @@ def _limits() -> Limits:
     return Limits(SECONDS_FOR_ALL, MEMORY)
 
 
-def facts_key(data: bytes, suffix: str) -> str:
+def facts_key(data: bytes, suffix: str, picked: Sequence[str] = ()) -> str:
     """Return a hash of all that the facts of a mesh depend on.
 
     Args:
         data: Content of the file.
         suffix: Of its name, with the dot.
+        picked: Names of parts that are measured by themselves.
     """
-    return work_key([suffix.lower(), data], ["physics/mesh", "model/mesh.py"], _LIBRARIES)
+    return work_key([suffix.lower(), *picked, data], ["physics/mesh", "model/mesh.py"], _LIBRARIES)
 
 
 def are_new(package: Package, cache: Cache) -> bool:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from checker.model.mesh import Mesh, MeshFault, MeshTrouble
 from checker.physics.mesh.content import MeshContent, NoSurface, Piece
@@ -92,18 +94,23 @@ def load_libraries(names: Iterable[str]) -> None:
         import_module("collada")
 
 
-def read_mesh(data: bytes, path: str) -> Mesh | MeshFault:
+def read_mesh(data: bytes, path: str, picked: Sequence[str] = ()) -> Mesh | MeshFault:
     """Return what a file holds.
 
     Args:
         data: Its content.
         path: Its name; the suffix decides on the format, as in Gazebo.
+        picked: Names of parts that are to be measured by themselves, where the file has them.
     """
     suffix = path.rpartition(".")[2].lower()
     try:
-        return measure(read_content(data, path), path, suffix)
+        content = read_content(data, path)
+        mesh = measure(content, path, suffix)
     except NoSurface as none:
         return MeshFault(none.trouble, none.reason)
+    named = {piece.part for piece in content.pieces} & set(picked) - {""}
+    picks = {part: measure(content.only(part), path, suffix) for part in sorted(named)}
+    return replace(mesh, picks=picks)
 
 
 def read_content(data: bytes, path: str, material_files: Iterable[bytes] = ()) -> MeshContent:

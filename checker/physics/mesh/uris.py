@@ -8,6 +8,7 @@ from pathlib import Path
 
 from checker.base.record import Record
 from checker.model.mesh import MeshFault, MeshTrouble
+from checker.package.fuel import is_on_fuel, path_from_fuel
 from checker.package.package import Package
 
 _SCHEME = re.compile(r"(?:model|package)://([^/]+)/(.*)", re.DOTALL)
@@ -42,6 +43,11 @@ def file_behind(package: Package, folder: str, uri: str) -> MeshFile | MeshFault
             if sibling is None:
                 return _beyond(f"is in {other}, which is not available")
             path = f"../{sibling.name}/{path}"
+    elif is_on_fuel(uri):
+        on_fuel = path_from_fuel(package, uri)
+        if on_fuel is None:
+            return _beyond("is on Fuel, in a model that is not available")
+        path = on_fuel
     elif _ELSEWHERE.match(uri):
         return _beyond("is outside the workspace")
     else:

@@ -50,18 +50,21 @@ def answer(request: bytes, files: Files) -> bytes:
 
 
 def _facts(
-    items: Sequence[Mapping[str, str]], files: Files, run_in_forks: ForkRunner
+    items: Sequence[Mapping[str, Any]], files: Files, run_in_forks: ForkRunner
 ) -> list[bytes]:
-    """Return what files hold; each item has a `file`, and the `name` that the model knows."""
+    """Return what files hold.
+
+    Each item has a `file`, the `name` that the model knows, and the parts `picked`.
+    """
     read = run_in_forks([partial(_fact, item, files) for item in items])
     return [_failed(result) if isinstance(result, WorkerFailed) else result for result in read]
 
 
-def _fact(item: Mapping[str, str], files: Files) -> bytes:
+def _fact(item: Mapping[str, Any], files: Files) -> bytes:
     data = files.read(item["file"])
     if isinstance(data, NotReadable):
         return _as_json(MeshFault(MeshTrouble.NOT_LOOKED_AT, data.reason))
-    return _as_json(read_mesh(data, item["name"]))
+    return _as_json(read_mesh(data, item["name"], item.get("picked", ())))
 
 
 def _failed(failed: WorkerFailed) -> bytes:

@@ -42,6 +42,15 @@ class RobotTrial(Record, eq=False, dict=True):
         ]
         return plugins[0] if plugins else self.robot
 
+    @property
+    def unlike(self) -> str:
+        """Why what was driven is another robot, as the end of a sentence; empty if it is not.
+
+        For the trial, parts without a place and masses that are none were put right somehow.
+        """
+        masses = self.robot.unknown_masses.values()
+        return self.robot.unplaced_part or next(iter(masses), "")
+
     def leg(self, name: str) -> Leg | None:
         """Return a stretch of the course by its name; None when it was not driven."""
         return next((leg for leg in self.trial.legs if leg.name == name), None)
@@ -63,6 +72,10 @@ def _against(ratio: float | None) -> bool:
 
 _CREEP = 0.05
 """Share of the command below which no direction can be told."""
+
+
+class SettledTrial(RobotTrial):
+    """A robot that came to rest before it was driven: figures of its drive mean something."""
 
 
 class RepeatedTrial(RobotTrial):

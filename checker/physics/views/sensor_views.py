@@ -17,6 +17,7 @@ from checker.model.robot import Robot
 from checker.model.sensing.view import SensorViews, View
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.mesh.process import SIZE_LIMIT, mesh_work
+from checker.physics.mesh.uris import MeshFile
 from checker.physics.views.request import Content, ViewRequest, view_request
 from checker.source.text import Located
 
@@ -160,7 +161,16 @@ def _without_places(request: ViewRequest) -> list[Any]:
 def _content_of(robot: Robot) -> Content:
     """Return what finds the files of a robot's meshes."""
     meshes = robot.meshes
-    return meshes.content if isinstance(meshes, PackageMeshes) else _not_looked_for
+    if not isinstance(meshes, PackageMeshes):
+        return _not_looked_for
+
+    def content(uri: Located[str]) -> tuple[MeshFile, str] | MeshFault:
+        known = robot.scaled_meshes.of(uri)
+        if isinstance(known, MeshFault) and known.trouble is MeshTrouble.MISSCALED:
+            return known
+        return meshes.content(uri)
+
+    return content
 
 
 def _not_looked_for(uri: Located[str]) -> MeshFault:  # noqa: ARG001 - as a `Content` has it

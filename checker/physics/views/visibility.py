@@ -142,8 +142,11 @@ def seen_of_mesh(sensors: Sensors, mesh: Mapping[str, Any], data: Content) -> li
         content = read_content(data, mesh["name"])
     except NoSurface as none:
         return none.reason
-    if mesh["part"] not in ("", *content.parts) or (mesh["part"] and len(content.parts) > 1):
-        return "is only partly used (<submesh>)"
+    part = mesh["part"]
+    if part and content.parts != (part,):
+        content = content.only(part)
+        if not content.pieces:
+            return "is only partly used (<submesh>)"
     corners = content.corners
     corners = corners[(np.abs(corners) <= FARTHEST).all(axis=(1, 2))]
     hits: list[Met] = []

@@ -10,7 +10,6 @@ from checker.base.record import Record
 from checker.model.components import Collision, Visual
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Rotation, Transform, Vector
-from checker.model.mesh import MeshFault
 from checker.physics.mesh.surface import Surface
 from checker.physics.trial.mjcf.names import FAR, usable
 from checker.report.scene.mesh_files import short
@@ -78,7 +77,7 @@ def _of_mesh(showing: Showing, shape: Collision | Visual) -> tuple[Surface, ...]
         return ()
     name = short(posixpath.basename(geometry.uri.value) or geometry.uri.value)
     picks = geometry.element.child("submesh") is not None
-    if picks and isinstance(showing.robot.mesh_of(shape), MeshFault):
+    if picks and showing.robot.mesh_of(shape) is not showing.robot.meshes.of(geometry.uri):
         notes.say(f"{name} is not shown, because only a part of it is used (<submesh>)")
         return ()
     surfaces = showing.surfaces.of(geometry.uri)

@@ -98,13 +98,31 @@ def _numeric(
 def _unary(run: Interpreter, node: RubyNode) -> Value:
     sign, operand = node.fields["operator"].text, node.fields["operand"]
     if sign == "defined?":
-        raise Unreadable(node.span, "uses defined?")
+        return _defined(run, node, operand)
     value = run.evaluate(operand)
     if sign in {"!", "not"}:
         return run.value(not value.truthy, value)
     if is_number(value) and isinstance(value.data, (int, float)) and sign in {"-", "+"}:
         return run.value(-value.data if sign == "-" else value.data, value)
     raise Unreadable(node.span, f"uses {sign} on {class_name(value.data)}")
+
+
+def _defined(run: Interpreter, node: RubyNode, operand: RubyNode) -> Value:
+    """Return what `defined?` says of a variable or function; nil when there is none."""
+    if operand.type == "parenthesized_statements" and len(operand.parts) == 1:
+        operand = operand.parts[0]
+    name = operand.text
+    if operand.type == "global_variable":
+        value = run.globals.get(name)
+        found = "global-variable" if value is not None else None
+    elif operand.type == "identifier":
+        value = run.scope.find(name)
+        function = "method" if name in run.functions else None
+        found = "local-variable" if value is not None else function
+    else:
+        raise Unreadable(node.span, "uses defined? on more than a name")
+    origins = () if value is None else (value,)
+    return run.value(None) if found is None else run.computed(found, node.span, *origins)
 
 
 OPERATORS: Mapping[str, Handler] = {"binary": _binary, "unary": _unary}

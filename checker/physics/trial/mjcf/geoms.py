@@ -156,16 +156,23 @@ class GeomReader:
         if geometry.shape == "cone":
             points = _cone(geometry)
         else:
-            mesh = self.robot.meshes.of(geometry.uri) if geometry.uri is not None else None
+            mesh = self._mesh(collision)
             serious = not isinstance(mesh, MeshFault) or mesh.trouble in _SERIOUS
             points = _scaled(mesh, geometry)
         if isinstance(points, str):
             self._leave_out(link, collision, points, serious=serious)
             return None
-        if geometry.element.child("submesh") is not None:
+        if isinstance(self.robot.mesh_of(collision), MeshFault):
             sentence = "The whole mesh of a collision is used instead of its submesh"
             self.ledger.note(sentence, link.scoped_name)
         return points
+
+    def _mesh(self, collision: Collision) -> Mesh | MeshFault | None:
+        """Return the part of a mesh that a collision picks; the whole one where that is unknown."""
+        uri = collision.geometry.uri
+        used = self.robot.mesh_of(collision)
+        whole = self.robot.scaled_meshes.of(uri) if uri is not None else None
+        return whole if isinstance(used, MeshFault) else used
 
     def _leave_out(
         self, link: Link, collision: Collision, why: str, *, serious: bool = False

@@ -21,7 +21,7 @@ from checker.physics.trial.trial import Repair
 # What of a robot a trial is about: whether there can be one, whose pose counts, what can move.
 
 
-_UNSEEN = (MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED)
+_UNSEEN = (MeshTrouble.NOT_LOOKED_AT, MeshTrouble.UNSUPPORTED, MeshTrouble.MISSCALED)
 """What a robot stands on may be in such a file: without it, it would be another robot."""
 
 

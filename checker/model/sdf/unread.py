@@ -1,0 +1,36 @@
+"""Elements of SDFormat that change nothing of what the target simulates."""
+
+from __future__ import annotations
+
+from checker.source.xml import Element
+
+READ_EVERYTHING = ("", "classic")
+"""No particular release, and Gazebo Classic."""
+
+UNREAD = frozenset(
+    {
+        *("always_on", "velocity_decay", "max_contacts", "provide_feedback"),
+        *("kp", "kd", "max_vel", "min_depth", "soft_cfm", "soft_erp"),
+        *("cfm_damping", "implicit_spring_damper", "fudge_factor", "suspension"),
+    }
+)
+"""Elements that libsdformat has no value for and no system of Gazebo from Dome on asks for.
+
+Source: libsdformat 10, Sensor.cc, Link.cc, Collision.cc, Joint.cc and Surface.cc, which of the
+contact parameters reads `<collide_bitmask>` alone.
+"""
+
+
+def is_unread(tag: str, release: str) -> bool:
+    """Whether nothing in a release of Gazebo reads an element of this name."""
+    return release not in READ_EVERYTHING and tag in UNREAD
+
+
+def is_appearance(element: Element) -> bool:
+    """Whether an element only says what a part looks like."""
+    at: Element | None = element
+    while at is not None:
+        if at.tag == "material":
+            return True
+        at = at.parent
+    return False

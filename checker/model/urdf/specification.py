@@ -1,0 +1,90 @@
+"""Versions, elements and attributes of URDF, as the table `urdf_spec.json` has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cache
+
+import msgspec
+
+from checker.base.record import Record
+from checker.base.resources import table
+from checker.source.text import Located, Span
+from checker.source.xml import Element, XmlDocument
+
+FIRST = "1.0"
+
+
+class AttributeSpec(Record):
+    """What an attribute holds.
+
+    Attributes:
+        numbers: How many numbers; 0 for a text.
+        required: Whether urdfdom needs it.
+        since: The version of URDF that brought it.
+    """
+
+    numbers: int = 0
+    required: bool = False
+    since: str = FIRST
+
+
+class NewerPart(Record):
+    """An element or attribute that the file's version does not have."""
+
+    name: str
+    since: str
+    span: Span
+
+
+@cache
+def _elements() -> Mapping[str, Mapping[str, AttributeSpec]]:
+    return {
+        path: {name: msgspec.convert(entry, AttributeSpec) for name, entry in attributes.items()}
+        for path, attributes in table("urdf_spec")["elements"].items()
+    }
+
+
+def version_of(document: XmlDocument) -> Located[str]:
+    """Return the version that a file states; 1.0 without one."""
+    root = document.root
+    return root.attribute("version") or Located(FIRST, root.span, stated=False)
+
+
+def has_version(document: XmlDocument, least: str) -> bool:
+    """Say whether a file has what a version brought; not so one whose version nobody knows."""
+    versions = list(table("urdf_spec")["versions"])
+    stated = version_of(document).value
+    return stated in versions and versions.index(stated) >= versions.index(least)
+
+
+def specified_elements(
+    document: XmlDocument,
+) -> Iterator[tuple[Element, Mapping[str, AttributeSpec]]]:
+    """Yield the elements of links and joints with what their attributes hold, in order."""
+    for element, path in _below(document):
+        if path in _elements():
+            yield element, _elements()[path]
+
+
+def newer_parts(document: XmlDocument) -> Iterator[NewerPart]:
+    """Yield elements and attributes that came with a later version than the file states."""
+    parts = table("urdf_spec")["parts"]
+    for element, path in _below(document):
+        if path in parts and not has_version(document, parts[path]):
+            yield NewerPart(f"<{element.tag}>", parts[path], element.span)
+        for name, spec in _elements().get(path, {}).items():
+            stated = element.attribute(name)
+            if stated is not None and not has_version(document, spec.since):
+                yield NewerPart(name, spec.since, stated.span)
+
+
+def _below(document: XmlDocument) -> Iterator[tuple[Element, str]]:
+    """Yield all that stands in links and joints, with its path; readers look no deeper than 4."""
+    waiting = [(part, part.tag) for part in document.root.children if part.tag in ("link", "joint")]
+    waiting.reverse()
+    while waiting:
+        element, path = waiting.pop()
+        yield element, path
+        if path.count("/") < 3:
+            waiting += [(child, f"{path}/{child.tag}") for child in reversed(element.children)]

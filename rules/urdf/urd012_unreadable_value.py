@@ -1,0 +1,89 @@
+"""A number that URDF readers cannot read, or one that is missing.
+
+urdfdom refuses the whole robot for a joint with such a number. Of a link it drops the inertial or
+the shape, and all that follows in the link: the robot loads, and a part has no mass or touches
+nothing. Such faults are a decimal comma, a unit, a word, `inf`, `nan`, and a blank behind a single
+number.
+
+Fix: write the number as the message says: with a decimal point, without unit, and with blanks only
+between several numbers.
+Source: urdfdom, `strToDouble`: nothing may follow the number; tried with check_urdf of urdfdom 6.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.specification import AttributeSpec, specified_elements
+from checker.model.values import parse_number
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
+from checker.source.xml import Element
+
+
+@rule("URD012", "unreadable-urdf-value", Severity.ERROR, Concern.ROBOT)
+def check(description: UrdfDescription) -> Findings:
+    """Report attributes of links and joints that are not the numbers that URDF asks for."""
+    level = Severity.WARNING if description.for_rviz else None
+    for element, attributes in specified_elements(description.document):
+        for name, spec in attributes.items():
+            yield from _attribute(element, name, spec, level)
+
+
+def _attribute(
+    element: Element, name: str, spec: AttributeSpec, level: Severity | None
+) -> Iterator[Finding]:
+    text = element.attribute(name)
+    if text is None:
+        if spec.required:
+            message = f"<{element.tag}> has no {name}"
+            yield finding(element, message, severity=level, key=f"{element.tag} {name}")
+    elif spec.numbers and (problem := _problem(text, spec.numbers)):
+        yield finding(text, f"{name} of <{element.tag}> {problem}", severity=level)
+
+
+def _problem(text: Located[str], count: int) -> str:
+    """Return what is wrong with the numbers of an attribute; nothing where they can be read."""
+    words = text.value.split()
+    for word in words:
+        value = parse_number(word)
+        if value is None:
+            return f"holds {_short(word)!r}, which is not a number"
+        if value in (float("inf"), float("-inf")):
+            return f"is {word}, which URDF readers refuse; expected a finite number"
+    if len(words) != count:
+        expected = f"{count} numbers" if count > 1 else "one number"
+        return f"has {len(words)} values, expected {expected}"
+    if count == 1 and text.value != text.value.rstrip():
+        return "ends with a blank, which URDF readers refuse"
+    return ""
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 40 else text[:37] + "..."
+
+
+_MOMENTS = 'ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"'
+
+
+def _link(mass: str = 'value="1"', moments: str = _MOMENTS, size: str = "1 1 1") -> dict[str, str]:
+    inertial = f"<inertial>\n<mass {mass}/>{{mark}}\n<inertia {moments}/>\n</inertial>"
+    shape = f'<collision><geometry>\n<box size="{size}"/>\n</geometry></collision>'
+    joint = '<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tip"/></joint>'
+    return {"@urdf": f'<link name="tip">\n{inertial}\n{shape}\n</link>\n{joint}'}
+
+
+def _marked(example: dict[str, str], line: str) -> dict[str, str]:
+    text = example["@urdf"].replace("{mark}", "")
+    return {"@urdf": text.replace(line, f"{line}  <!-- ^ URD012 -->", 1)}
+
+
+GOOD = [_marked(_link(), "nothing"), _marked(_link(size=" 1  1e0 +1. "), "nothing")]
+BAD = [
+    _marked(_link('value="1,5"'), '<mass value="1,5"/>'),
+    _marked(_link('value="1 "'), '<mass value="1 "/>'),
+    _marked(_link('value="nan"'), '<mass value="nan"/>'),
+    _marked(_link(""), "<mass />"),
+    _marked(_link(moments=_MOMENTS.replace(' iyz="0"', "")), 'izz="1"/>'),
+    _marked(_link(size="1 1"), '<box size="1 1"/>'),
+    _marked(_link(size="1 inf 1"), '<box size="1 inf 1"/>'),
+]

@@ -1,0 +1,64 @@
+"""A xacro file that only the xacro of ROS Melodic expands.
+
+On Melodic, where the challenge runs, the robot is loaded. xacro of ROS Noetic and later, which runs
+on Python 3, ends with an error or leaves tags as they are: `map`, `filter` and `range` make no
+lists there, fewer functions of Python are known, a macro that is defined while another one is
+expanded is known in that one alone, and tags need the prefix `xacro:`.
+
+Fix: write what both take: `list(map(…))`, a comprehension instead of `filter`, files with macros
+included outside of macros, and `xacro:` before each tag.
+Source: xacro 1.13 and 1.14 and later; "unknown macro name".
+"""
+
+from checker.model.urdf.files import UrdfFiles
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("URD014", "only-old-xacro", Severity.ERROR, Concern.PORTABILITY)
+def check(files: UrdfFiles) -> Findings:
+    """Report what newer releases of xacro refuse in files that Melodic's expands."""
+    for refused in files.old:
+        hint = f": {refused.hint}" if refused.hint else ""
+        yield finding(
+            refused,
+            f"only xacro of ROS Melodic expands {refused.file}; later ones say: "
+            f"{refused.message}{hint}",
+        )
+
+
+_LAUNCH = "launch/description.launch"
+_DESCRIPTION = "urdf/robot.xacro"
+_LOADING = """<launch>
+  <arg name="name"/>
+  <arg name="world_name"/>
+  <param name="$(arg name)/robot_description"
+         command="$(find xacro)/xacro $(find acme_rover_sensor_config_1)/urdf/robot.xacro"/>
+</launch>
+"""
+_HEAD = '<robot name="rover" xmlns:xacro="http://ros.org/wiki/xacro">\n'
+
+
+def _loaded(body: str) -> dict[str, str]:
+    return {_LAUNCH: _LOADING, _DESCRIPTION: f"{_HEAD}{body}\n</robot>\n"}
+
+
+_MARK = "  <!-- ^ URD014 -->"
+_PARTS = (
+    f'{_HEAD}<xacro:macro name="wheel" params="side"><link name="${{side}}"/></xacro:macro></robot>'
+)
+_INCLUDED = """<xacro:macro name="body" params="">
+<xacro:include filename="parts.xacro"/><link name="b"/>
+</xacro:macro>
+<xacro:body/>
+"""
+GOOD = [
+    _loaded('<link name="${list(map(str, [1]))[0]}"/>'),
+    _loaded('<xacro:wheel side="left"/>'),
+]
+BAD = [
+    _loaded(f'<link name="l${{map(str, [1])[0]}}"/>{_MARK}'),
+    _loaded(f'<link name="l${{filter(lambda n: n > 1, [1, 2])[0]}}"/>{_MARK}'),
+    _loaded(f'<link name="l${{(range(2) + [5])[2]}}"/>{_MARK}'),
+    {**_loaded(f'{_INCLUDED}<xacro:wheel side="left"/>{_MARK}'), "urdf/parts.xacro": _PARTS},
+    _loaded(f'<property name="radius" value="1"/>{_MARK}\n<link name="l"/>'),
+]

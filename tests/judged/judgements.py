@@ -1,0 +1,121 @@
+"""Findings on real packages that people judged, and what the rules report there now.
+
+Each file `<source>.json` lists findings with a verdict: `true`, a fault that the target suffers
+from, at this severity; `false`, none, or one of a lesser severity; `arguable`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import PackageNotFoundError, distribution
+from pathlib import Path
+
+from checker.finding import Severity
+from checker.pipeline import check_package
+from checker.report.report import ReportedFinding
+from checker.settings import Settings
+from tests.real_packages import CORPUS, MODERN, named_folder
+
+HERE = Path(__file__).parent
+_URDFS = "example-robot-data"
+_RANK = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a rule reports something."""
+
+    rule: str
+    file: str
+    line: int
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """One judged finding.
+
+    Attributes:
+        path: Of what was checked, below the folder of the source.
+        profile: That it was checked with.
+        severity: That is judged.
+        place: Where it is, or was, reported.
+        verdict: `true`, `false` or `arguable`.
+        reason: Why, in a sentence.
+    """
+
+    path: str
+    profile: str
+    severity: Severity
+    place: Place
+    verdict: str
+    reason: str
+
+
+def folder_of(source: str) -> Path | None:
+    """Return the folder of a source of packages; None where it is not there."""
+    if source == "urdf":
+        try:
+            root = distribution(_URDFS).locate_file("cmeel.prefix/share/example-robot-data/robots")
+        except PackageNotFoundError:
+            return None
+        return Path(str(root))
+    return named_folder({"corpus": CORPUS, "modern": MODERN}[source])
+
+
+def judgements(source: str) -> list[Judgement]:
+    """Return what is judged of a source."""
+    entries = json.loads((HERE / f"{source}.json").read_text("utf-8"))["findings"]
+    return [
+        Judgement(
+            entry["path"],
+            entry["profile"],
+            Severity(entry["severity"]),
+            Place(entry["rule"], entry["file"], entry["line"]),
+            entry["verdict"],
+            entry["reason"],
+        )
+        for entry in entries
+    ]
+
+
+def by_check(source: str) -> dict[tuple[str, str], list[Judgement]]:
+    """Return the judgements of a source by what is checked: path and profile."""
+    groups: dict[tuple[str, str], list[Judgement]] = defaultdict(list)
+    for judgement in judgements(source):
+        groups[judgement.path, judgement.profile].append(judgement)
+    return dict(groups)
+
+
+@cache
+def findings(source: str, path: str, profile: str, *, trial: bool) -> tuple[ReportedFinding, ...]:
+    """Return what the rules report now.
+
+    Args:
+        source: Of the package.
+        path: Below the folder of the source.
+        profile: To judge by.
+        trial: Whether the robot is driven.
+    """
+    folder = folder_of(source)
+    assert folder is not None, f"the packages of {source} are not there"
+    settings = Settings(profile=profile, profile_chosen=True, trial=trial)
+    report = check_package(folder / path, settings)
+    return tuple(finding for package in report.packages for finding in package.findings)
+
+
+def is_reported(judgement: Judgement, found: tuple[ReportedFinding, ...]) -> bool:
+    """Say whether a judged finding is reported, at its severity or above."""
+    return any(
+        finding.rule == judgement.place.rule
+        and _RANK[finding.severity] >= _RANK[judgement.severity]
+        and judgement.place in places(finding)
+        for finding in found
+    )
+
+
+def places(finding: ReportedFinding) -> list[Place]:
+    """Return the places of a finding, without those that only have to do with it."""
+    return [Place(finding.rule, at.file, at.line) for at in finding.places if not at.note]

@@ -1,0 +1,97 @@
+"""How grave a finding is depends on what the target suffers from it (docs/severity.md)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from checker.pipeline import check_package
+from checker.rule_testing import Example, write_example
+from checker.settings import Settings
+
+SIBLING = "../acme_rover_sensor_config_2/package.xml"
+DEPENDS = """<package format="2">
+  <name>acme_rover_sensor_config_1</name>
+  <exec_depend>acme_rover_sensor_config_2</exec_depend>
+</package>
+"""
+LINKED = {SIBLING: "<package/>", "@links": {"shared.xml": SIBLING}}
+SHEET = "../acme_rover_sensor_config_2/specifications.md"
+HELD = {"specifications.md": None, SIBLING: "<package/>"}
+MESH = '<visual name="v"><geometry><mesh><uri>a.dae</uri></mesh></geometry></visual>'
+OTHER_MESH = "../acme_rover_sensor_config_2/meshes/a.dae"
+LEAVING = MESH.replace("a.dae", OTHER_MESH)
+WHEEL = """
+<link name="wheel">
+  <collision name="c">
+    <pose>0 0 0 1.5708 0 0</pose>
+    <geometry><cylinder><radius>0.1</radius><length>0.1</length></cylinder></geometry>
+  </collision>
+</link>
+"""
+
+
+def sdf(version: str) -> str:
+    return f'<sdf version="{version}"><model name="rover"><link name="base_link"/></model></sdf>'
+
+
+def metal(inside: str) -> str:
+    return f"""
+<visual name="v"><geometry><box><size>1 1 1</size></box></geometry>
+  <material><pbr><metal>{inside}</metal></pbr></material>
+</visual>
+"""
+
+
+def friction(inside: str) -> str:
+    return f"""
+<collision name="c"><geometry><box><size>1 1 1</size></box></geometry>
+  <surface><friction><ode>{inside}</ode></friction></surface>
+</collision>
+"""
+
+
+CASES: list[tuple[str, Example, str]] = [
+    ("GEO001", WHEEL, "warning"),
+    ("GEO001", WHEEL.replace("wheel", "mast"), "info"),
+    ("PKG003", {"specifications.md": None}, "error"),
+    ("PKG003", {**HELD, SHEET: "# Rover\nsensor_config_1 has no lidar\n"}, "warning"),
+    ("PKG003", {**HELD, SHEET: "# Rover\nconfiguration 12\n"}, "error"),
+    ("PKG003", {"thumbnails/1.png": None}, "info"),
+    ("PKG016", LINKED, "error"),
+    ("PKG016", {**LINKED, "package.xml": DEPENDS}, "info"),
+    ("REF002", MESH, "error"),
+    ("REF002", metal("<albedo_map>a.png</albedo_map>"), "warning"),
+    ("REF001", MESH.replace("a.dae", "/home/me/a.dae"), "error"),
+    ("REF001", metal("<albedo_map>/home/me/a.png</albedo_map>"), "warning"),
+    ("REF003", {"@fragment": LEAVING, OTHER_MESH: "", SIBLING: "<package/>"}, "error"),
+    (
+        "REF003",
+        {"@fragment": LEAVING, OTHER_MESH: "", SIBLING: "<package/>", "package.xml": DEPENDS},
+        "info",
+    ),
+    ("SDF001", {"worlds/example.sdf": "<sdf><!-- a -- b --></sdf>"}, "info"),
+    ("SDF001", {"launch/a.launch": "<launch><!-- a -- b --></launch>"}, "error"),
+    ("SDF002", {"model.sdf": sdf("1.7")}, "warning"),
+    ("SDF002", {"model.sdf": sdf("1.9")}, "error"),
+    ("SDF003", '<sensor name="s" type="imu"><alwaysOn>1</alwaysOn></sensor>', "warning"),
+    ("SDF003", '<sensor name="s" type="imu"><updaterate>1</updaterate></sensor>', "error"),
+    ("SDF003", metal("<metal_map>a</metal_map>"), "warning"),
+    ("SDF008", friction("<kp>1e6</kp>"), "warning"),
+    ("SDF008", friction("<radius>1</radius>"), "error"),
+    ("SEN002", '<sensor name="s" type="gpu_ray"/>', "info"),
+    ("SEN002", '<sensor name="s" type="ray"/>', "error"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("rule", "example", "severity"), CASES)
+def test_severity_depends_on_the_case(
+    rule: str, example: Any, severity: str, tmp_path: Path
+) -> None:
+    package = write_example(example, tmp_path)
+    (report,) = check_package(package, Settings(select=(rule,))).packages
+    assert [str(finding.severity) for finding in report.findings] == [severity], [
+        finding.message for finding in report.findings
+    ]
