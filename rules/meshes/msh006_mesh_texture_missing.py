@@ -36,7 +36,8 @@ def check(package: Package, robot: Robot) -> Findings:
                 continue
             absolute = "an absolute path" if _ABSOLUTE.match(name) else "which does not exist"
             kind = "material file" if name in use.file.materials else "texture"
-            yield finding(use.uri, f"{use.uri.value} names the {kind} {name}, {absolute}")
+            message = f"{use.uri.value} names the {kind} {name}, {absolute}"
+            yield finding(use.uri, message, key=kind)
 
 
 def _paths(mesh: Mesh, name: str) -> Iterator[str]:

@@ -1,7 +1,8 @@
 """A collision mesh that is not a closed surface.
 
-Inside and outside are undefined: contact normals flip, and objects get stuck in the mesh or fall
-through a hole. Usually a visual mesh was reused without changes.
+Inside and outside are undefined: objects can get stuck in the mesh or fall through a hole. Most
+meshes with small holes work all the same, so this is information. If the triangles face in,
+contacts push the wrong way: then it is a warning. Usually a visual mesh was reused without changes.
 
 Fix: use boxes, cylinders and spheres; or close the holes, recalculate the normals outwards and
 remove degenerate faces (Blender: Merge by Distance, Fill Holes, Recalculate Outside).
@@ -24,7 +25,18 @@ def check(robot: Robot) -> Findings:
     for use in robot.mesh_uses:
         mesh = use.mesh
         if mesh is not None and use.is_collision and (faults := list(_faults(use, mesh))):
-            yield finding(use.uri, f"collision mesh {use.uri.value} {', '.join(faults)}")
+            inverted = mesh.watertight and not _faces_out(use, mesh)
+            yield finding(
+                use.uri,
+                f"collision mesh {use.uri.value} {', '.join(faults)}",
+                severity=Severity.WARNING if inverted else Severity.INFO,
+                key="inverted" if inverted else "open",
+            )
+
+
+def _faces_out(use: MeshUse, mesh: Mesh) -> bool:
+    """Say whether the triangles of a closed mesh face out; one that mirrors turns them over."""
+    return mesh.volume is not None and mesh.volume * math.prod(use.scale) >= 0
 
 
 def _faults(use: MeshUse, mesh: Mesh) -> Iterator[str]:
@@ -32,8 +44,7 @@ def _faults(use: MeshUse, mesh: Mesh) -> Iterator[str]:
         yield "is not watertight"
     elif mesh.volume is None:
         yield "has triangles that face in and others that face out"
-    # A scale that mirrors the mesh turns its triangles over.
-    elif mesh.volume * math.prod(use.scale) < 0:
+    elif not _faces_out(use, mesh):
         yield "is inside out"
     if mesh.degenerate:
         yield f"has {mesh.degenerate:,} of {mesh.triangles:,} triangles without area"

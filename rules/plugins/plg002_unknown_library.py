@@ -23,7 +23,6 @@ from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
-
 _SUBMISSIONS = "dome"
 
 
