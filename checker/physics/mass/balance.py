@@ -219,3 +219,61 @@ def tip_angle(stand: Stand, centre: Vector | None) -> float | None:
         return None
     x, y, z = centre
     return math.atan2(margin(stand.polygon, (x, y)), z - stand.height)
+
+
+_LEANS = math.cos(math.radians(5.0))
+"""Cosine of the greatest lean of a robot that still stands, as on wheels of two sizes."""
+
+
+def leaning_tip_angle(robot: Robot, centre: Vector) -> float | None:
+    """Return the tip angle of a robot that leans a little until other parts carry it, too.
+
+    These are the flat sides of the hull around its collisions that point down. None where none of
+    them lies below its centre of mass.
+    """
+    points = [
+        point
+        for link, collision in _collisions(robot)
+        if (pose := robot.pose_of_part(link, collision.pose)) is not None
+        for point in contact_points(collision.geometry, pose, robot.scaled_meshes)
+    ]
+    # What only wheels carry touches in one plane: with the centre of mass above, there is a hull.
+    angles = [_angle_on(side, points, centre) for side in _lower_sides([*points, centre])]
+    return max((angle for angle in angles if angle > 0.0), default=None)
+
+
+_Side = tuple[float, float, float, float]
+"""A plane: its normal, of length 1, and its offset."""
+
+
+def _lower_sides(points: Sequence[Vector]) -> Iterator[_Side]:
+    """Yield the planes of the hull's sides that are nearly level and face down."""
+    # Few robots need it, and it takes long to load.
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):
+        return
+    for x, y, z, offset in hull.equations.tolist():
+        if -z >= _LEANS:
+            yield x, y, z, offset
+
+
+def _angle_on(side: _Side, points: Sequence[Vector], centre: Vector) -> float:
+    """Return the tip angle of what stands on a plane."""
+    x, y, z, offset = side
+    across = (0.0, -z, y)
+    length = math.hypot(*across)
+    u = (0.0, -z / length, y / length)
+    v = (y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0])
+
+    def above(point: Vector) -> float:
+        return -(x * point[0] + y * point[1] + z * point[2] + offset)
+
+    def flat(point: Vector) -> Point:
+        a, b, c = point
+        return (u[0] * a + u[1] * b + u[2] * c, v[0] * a + v[1] * b + v[2] * c)
+
+    polygon = convex_hull(flat(point) for point in points if above(point) <= _TOUCHES)
+    return math.atan2(margin(polygon, flat(centre)), above(centre))
