@@ -8,7 +8,7 @@ CORPUS ?= $(wildcard ../shared/corpus)
 REVIEWS ?= $(wildcard ../shared/reviews)
 MODERN ?= $(wildcard ../shared/modern)
 WORKERS ?= auto
-MORE := browser or service or install or programs or corpus
+MORE := browser or service or install or programs or oracle or corpus
 # Folders of real packages, where there are any: tests and benches do without.
 PACKAGES := $(if $(CORPUS),SUBT_CHECK_CORPUS=$(abspath $(CORPUS))) \
   $(if $(REVIEWS),SUBT_CHECK_REVIEWS=$(abspath $(REVIEWS))) \
@@ -90,7 +90,8 @@ golden: .venv/tested $(VIEWER)
 
 .venv/tested: .venv/dev requirements-all.txt
 	scripts/require ruby=ruby git=git chromium=chromium bwrap=bubblewrap \
-	  "libEGL.so.1=libegl1 libgl1-mesa-dri" libOpenGL.so.0=libopengl0
+	  "libEGL.so.1=libegl1 libgl1-mesa-dri" libOpenGL.so.0=libopengl0 \
+	  g++=g++ pkg-config=pkg-config sdformat12.pc=libsdformat-dev
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-all.txt
 	scripts/schemas $(BIN)/python
 	@touch $@

@@ -42,6 +42,7 @@ DOCUMENTS = [
     ROOT / "docs/api.md",
     ROOT / "docs/github-actions.md",
     ROOT / "docs/migrate.md",
+    ROOT / "docs/oracles.md",
     ROOT / "docs/pre-commit.md",
     ROOT / "docs/security.md",
     ROOT / "docs/service.md",

@@ -19,8 +19,34 @@ from checker.rule import Concern, Context, Findings, Safety, Severity, finding, 
 from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
 
-HARMLESS = {("air_pressure", "noise"), ("camera", "aspect_ratio")}
-"""Parents and elements that accepted robots have: nothing is lost."""
+HARMLESS: Mapping[tuple[str, ...], bool] = {
+    ("air_pressure", "noise"): True,
+    ("camera", "aspect_ratio"): False,
+}
+"""Parents and elements that accepted robots have: nothing is lost.
+
+Whether the place that SDF has for the element is meant: width and height of a camera's image say
+what its aspect ratio is, and no other place does.
+"""
+SETTINGS = frozenset(
+    {
+        *("air_pressure", "air_speed", "altimeter", "camera", "contact", "force_torque", "gps"),
+        *("imu", "lidar", "logical_camera", "magnetometer", "navsat", "ray", "rfid", "rfidtag"),
+        *("sonar", "transceiver"),
+    }
+)
+"""Elements of a sensor that hold what one type of sensors reads."""
+OLDER_SPELLINGS = {
+    "gpu_lidar": ("lidar", "ray"),
+    "gpu_ray": ("lidar", "ray"),
+    "lidar": ("ray",),
+    "ray": ("lidar",),
+    "gps": ("navsat",),
+    "navsat": ("gps",),
+    "wireless_receiver": ("transceiver",),
+    "wireless_transmitter": ("transceiver",),
+}
+"""Blocks of types that are called otherwise."""
 _LISTED = 3
 
 _Kinds = Mapping[Element, ElementType | None]
@@ -41,12 +67,14 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         path = (around, parent.tag, element.tag)
         if path not in belonging:
             belonging[path] = _places(*path, parents_of(sdf.version))
-        listed = belonging[path]
+        places = belonging[path] if HARMLESS.get(path[1:], True) else ()
+        listed = [place for place in places if _fits(parent, kinds[parent], place)]
         named = (_named(sdf.version, tag, *path) for tag in listed)
         belongs = "; it belongs in " + " or ".join(named) if listed else ""
         is_set = len(listed) == 1 and _is_set(element, listed[0])
         belongs += ", where it is set" if is_set else ""
-        harmless = is_set or (parent.tag, element.tag) in HARMLESS
+        of_others = bool(places) and not listed
+        harmless = is_set or of_others or path[1:] in HARMLESS
         idle = is_unread(element.tag, context.release) or is_appearance(element)
         yield finding(
             element,
@@ -84,6 +112,19 @@ def _places(
     return listed if len(listed) <= _LISTED else ()
 
 
+def _fits(parent: Element, kind: ElementType | None, place: str) -> bool:
+    """Whether settings below a sensor could be meant for its type: no `<imu>` in a camera.
+
+    All types of cameras share `<camera>`, so that it fits where no other block does.
+    """
+    blocks = set(kind.children) & SETTINGS if kind is not None and parent.tag == "sensor" else set()
+    if place not in blocks:
+        return True
+    type = parent.get("type") or ""
+    own = {block for block in blocks if block == type or block in OLDER_SPELLINGS.get(type, ())}
+    return place in (own or {"camera"})
+
+
 def _moved(element: Element, place: str, kinds: _Kinds) -> Fix | None:
     """Return the fix that puts an element where it belongs, next to or around its place."""
     parent, text = element.parent, element.whole_span.text
@@ -119,6 +160,13 @@ GOOD = [
   </imu>
 </sensor>
 """
+    """
+<sensor name="load" type="force_torque">
+  <force_torque>
+    <frame>child</frame>
+  </force_torque>
+</sensor>
+""",
 ]
 BAD = [
     """
@@ -130,6 +178,11 @@ BAD = [
 <sensor name="imu" type="imu">
   <enable_orientation>0</enable_orientation>  <!-- ^ SDF008 -->
   <imu><enable_orientation>0</enable_orientation></imu>
+</sensor>
+""",
+    """
+<sensor name="scan" type="gpu_lidar">
+  <measure_direction>parent_to_child</measure_direction>  <!-- ^ SDF008 -->
 </sensor>
 """,
     """

@@ -13,15 +13,15 @@ from checker.finding import Fix
 from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sensing.kind import SensorType
-from checker.rule import Concern, Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml_insertion import insert_into, removal
 
 _OFF = "<enable_orientation>0</enable_orientation>"
 
 
 @rule("SEN014", "imu-orientation", Severity.WARNING, Concern.INTERFACE)
-def check(robot: Robot) -> Findings:
-    """Report IMUs whose orientation is not switched off."""
+def check(robot: Robot, context: Context) -> Findings:
+    """Report IMUs whose orientation is not switched off; only under SubT's rules is it mended."""
     for sensor in robot.sensors:
         if sensor.kind is not SensorType.IMU:
             continue
@@ -33,7 +33,7 @@ def check(robot: Robot) -> Findings:
             f"IMU {sensor.name.value!r} publishes its true orientation{_why(sensor)}; expected "
             "<enable_orientation>0 in <imu>",
             key="orientation",
-            fix=_fix(sensor),
+            fix=_fix(sensor) if context.profile == "subt" else None,
         )
 
 

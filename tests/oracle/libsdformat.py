@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+ASKED = ("pkg-config", "sdformat12")
 SOURCE = Path(__file__).parent / "load_sdf.cpp"
 
 
@@ -22,10 +23,12 @@ class Loaded:
     Attributes:
         errors: Why it refuses the file; empty when it loads it.
         robots: The models at the top of the file and in its worlds, as the program prints them.
+        elements: All that the file holds, as SDF of the library's newest version, if asked for.
     """
 
     errors: tuple[str, ...]
     robots: tuple[dict[str, Any], ...]
+    elements: str = ""
 
     @property
     def reason(self) -> str:
@@ -37,23 +40,24 @@ def compiled(folder: Path) -> Path:
     """Compile the program, unless a folder holds it already."""
     program = folder / f"load_sdf-{hashlib.sha256(SOURCE.read_bytes()).hexdigest()[:16]}"
     if not program.exists():
-        asked = ["pkg-config", "--cflags", "--libs", "sdformat12"]
-        flags = shlex.split(subprocess.check_output(asked, text=True))
+        wanted = [*ASKED, "--cflags", "--libs"]
+        flags = shlex.split(subprocess.check_output(wanted, text=True))
         new = program.with_suffix(f".{os.getpid()}")
         subprocess.run(["g++", "-std=c++17", SOURCE, "-o", new, *flags], check=True)
         new.replace(program)
     return program
 
 
-def load(program: Path, files: Sequence[Path]) -> list[Loaded]:
+def load(program: Path, files: Sequence[Path], elements: bool = False) -> list[Loaded]:
     """Load files, in their order; one that ends the library itself counts as refused."""
-    return list(_answers(program, list(files)))
+    command = [program, "--elements"] if elements else [program]
+    return list(_answers(command, list(files)))
 
 
-def _answers(program: Path, rest: list[Path]) -> Iterator[Loaded]:
+def _answers(command: Sequence[str | Path], rest: list[Path]) -> Iterator[Loaded]:
     while rest:
         names = "".join(f"{file}\n" for file in rest)
-        done = subprocess.run([program], input=names, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, input=names, capture_output=True, text=True, check=False)
         lines = done.stdout.splitlines()
         yield from map(_loaded, lines)
         rest = rest[len(lines) :]
@@ -64,4 +68,5 @@ def _answers(program: Path, rest: list[Path]) -> Iterator[Loaded]:
 
 def _loaded(line: str) -> Loaded:
     answer = json.loads(line)
-    return Loaded(tuple(error["message"] for error in answer["errors"]), tuple(answer["robots"]))
+    errors = tuple(error["message"] for error in answer["errors"])
+    return Loaded(errors, tuple(answer["robots"]), answer["elements"])

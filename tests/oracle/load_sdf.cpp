@@ -1,6 +1,6 @@
 // Prints the model that libsdformat makes of each file named on standard input: one line of JSON
 // a file, either its errors or its links, joints and frames, with poses in the frame of the
-// outermost model.
+// outermost model. With `--elements` also all that it holds, as SDF of its newest version.
 
 #include <cmath>
 #include <iomanip>
@@ -135,7 +135,7 @@ static std::string Robot(const sdf::Model &model)
     "],\"frames\":[" + parts.frames + "],\"models\":[" + parts.models + "]}";
 }
 
-static std::string Loaded(const std::string &path)
+static std::string Loaded(const std::string &path, bool elements)
 {
   // The global one: libsdformat 12 reads what a merged model includes with that.
   auto &config = sdf::ParserConfig::GlobalConfig();
@@ -161,12 +161,14 @@ static std::string Loaded(const std::string &path)
       for (uint64_t j = 0; j < root.WorldByIndex(i)->ModelCount(); ++j)
         Add(robots, Robot(*root.WorldByIndex(i)->ModelByIndex(j)));
   }
-  return "{\"errors\":[" + errors + "],\"robots\":[" + robots + "]}";
+  auto text = elements && errors.empty() ? root.Element()->ToString("") : "";
+  return "{\"errors\":[" + errors + "],\"robots\":[" + robots + "],\"elements\":" + Quoted(text) + "}";
 }
 
-int main()
+int main(int argc, char **argv)
 {
   sdf::Console::Instance()->SetQuiet(true);
+  bool elements = argc > 1 && std::string(argv[1]) == "--elements";
   for (std::string path; std::getline(std::cin, path);)
-    std::cout << Loaded(path) << std::endl;
+    std::cout << Loaded(path, elements) << std::endl;
 }
