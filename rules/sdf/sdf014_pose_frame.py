@@ -1,7 +1,8 @@
 """A pose with the attribute `frame`.
 
-Gazebo with SDF 1.5 and 1.6 never read it, and since SDF 1.7 `relative_to` replaces it. So a named
-frame is ignored, or refused by a newer parser; an empty one has no effect.
+Gazebo 9 never read it. Newer parsers read it as `relative_to`, which replaces it since SDF 1.7. So
+the part stands elsewhere in the one than in the other; an empty attribute has no effect. SDF017
+and KIN010 report frames that do not exist.
 
 Fix: remove the attribute, and write the pose relative to the element around it.
 Source: SDFormat specification, pose 1.5 to 1.7. The Model Migration Guide's own example still has
@@ -9,21 +10,23 @@ the empty attribute that Gazebo 9's converter wrote.
 """
 
 from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.frame_faults import world_frame_faults
 from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
 
 @rule("SDF014", "pose-frame", Severity.WARNING, Concern.PORTABILITY)
 def check(sdf: SdfDocument) -> Findings:
     """Report the attribute, empty or not."""
+    unknown = {fault.span.start for fault in world_frame_faults(sdf.document)}
     for element in sdf.elements():
         frame = element.attribute("frame") if element.tag == "pose" else None
-        if frame is None:
+        if frame is None or frame.span.start in unknown:
             continue
         if frame.value:
             yield finding(
                 frame,
-                f"the pose names the frame {frame.value!r}, but the target ignores the attribute "
-                "`frame`",
+                f"the pose names the frame {frame.value!r} by the attribute `frame`, which Gazebo "
+                "9 ignores: write relative_to",
             )
         else:
             yield finding(
