@@ -299,7 +299,8 @@ class Subject(Record, eq=False, dict=True):
         if isinstance(driven, NotAvailable):
             return driven
         for robot_trial in driven:
-            if reason := robot_trial.unlike or unrest_of(robot_trial.trial):
+            unfit = robot_trial.unlike or robot_trial.robot.stuck_wheel
+            if reason := unfit or unrest_of(robot_trial.trial):
                 return NotAvailable(reason)
         return tuple(SettledTrial(each.robot, each.trial) for each in driven)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import cached_property
 
@@ -276,6 +277,17 @@ class Joint(Part):
     pose: Pose
     axes: tuple[Axis, ...]
     sensors: tuple[Sensor, ...] = ()
+
+    @property
+    def immovable(self) -> str:
+        """Why it cannot move, as a clause; empty for a joint that can."""
+        if self.type.value == "fixed":
+            return "it is fixed"
+        if self.type.value not in ("revolute", "prismatic") or len(self.axes) != 1:
+            return ""
+        lower, upper = self.axes[0].lower, self.axes[0].upper
+        stated = lower.stated and upper.stated and math.isfinite(lower.value)
+        return f"both limits are {lower.value:g}" if stated and lower.value == upper.value else ""
 
     @property
     def mimics(self) -> list[Located[str]]:

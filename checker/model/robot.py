@@ -33,7 +33,14 @@ from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
 from checker.model.tree import LinkTree, link_tree
-from checker.model.unknowns import LooseParts, loose_parts, unknown_masses, unplaced_part
+from checker.model.unknowns import (
+    LooseParts,
+    bare_wheel,
+    loose_parts,
+    stuck_wheel,
+    unknown_masses,
+    unplaced_part,
+)
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
@@ -166,6 +173,16 @@ class Robot(Part, dict=True):
     def unplaced_part(self) -> str:
         """Why a part has no place on the robot, as the end of a sentence; empty when all have."""
         return unplaced_part(self)
+
+    @cached_property
+    def bare_wheel(self) -> str:
+        """Which driven wheel or track touches nothing, as a sentence; empty if none does."""
+        return bare_wheel(self)
+
+    @cached_property
+    def stuck_wheel(self) -> str:
+        """Which joint of a driven wheel cannot turn, as a sentence; empty if all can."""
+        return stuck_wheel(self)
 
     @cached_property
     def unknown_masses(self) -> dict[str, str]:

@@ -117,6 +117,31 @@ def _unplaced(robot: Robot) -> Iterator[str]:
         yield fault.message
 
 
+# Wheels and tracks that touch nothing, or cannot turn.
+
+
+def bare_wheel(robot: Robot) -> str:
+    """Return which driven wheel or track touches nothing, as a sentence; empty if none does.
+
+    It has no collision, or none whose size is known.
+    """
+    bodies = [wheel.body for wheel in robot.locomotion.wheels]
+    bodies += [(track.link,) for track in robot.locomotion.tracks]
+    for body in bodies:
+        shapes = ((link, shape) for link in body for shape in link.collisions)
+        if all(robot.box_of_shape(link, shape) is None for link, shape in shapes):
+            return f"{body[0].name.value!r} has no collision of a known size"
+    return ""
+
+
+def stuck_wheel(robot: Robot) -> str:
+    """Return which joint of a driven wheel cannot turn, as a sentence; empty if all can."""
+    for wheel in robot.locomotion.wheels:
+        if why := wheel.joint.immovable:
+            return f"joint {wheel.joint.name.value!r} cannot move: {why}"
+    return ""
+
+
 # Links whose mass is none.
 
 

@@ -139,14 +139,15 @@ def _reference(
 
 
 _URDF_FILE = re.compile(
-    r"\$\(find\s{1,8}([A-Za-z][\w-]{0,199})\s{0,8}\)/[^\s'\"]{1,300}\.(?:urdf|xacro)\b"
+    r"\$\(find\s{1,8}([A-Za-z][\w-]{0,199})\s{0,8}\)/"
+    r"[^\s'\"]{0,300}(?:\.urdf|\.xacro|\bdescription\w{0,40}\.launch)\b"
 )
 
 
 def descriptions_named(launch: XmlDocument) -> Iterator[Reference]:
-    """Yield the packages whose URDF files a launch file loads."""
+    """Yield the packages whose URDF files a launch file loads, or has their launch file load."""
     for element in launch.elements:
-        for name in ("command", "textfile", "default", "value"):
+        for name in ("command", "textfile", "default", "value", "file"):
             attribute = element.attribute(name)
             match = _URDF_FILE.search(attribute.value) if attribute is not None else None
             if match is not None:

@@ -8,8 +8,6 @@ Fix: correct the masses of the links, or the sheet.
 Source: Robot Model Checklist: reviewers add up the links and compare with "Cost and Scale".
 """
 
-import math
-
 from checker.model.robot import Robot
 from checker.model.specification.sheet import Specification
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -20,7 +18,7 @@ def check(
     robot: Robot,
     specification: Specification,
     *,
-    error_above: float = math.inf,
+    error_above: float = 1e9,
     warning_above: float = 0.02,
     approximate_factor: float = 2.0,
 ) -> Findings:

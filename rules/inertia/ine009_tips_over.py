@@ -3,7 +3,7 @@
 The tip angle is the tilt at which the centre of mass is above the nearest edge of the support.
 Below 10° the robot falls at the first stone; SubT courses have ramps beyond 25°. The rule assumes
 flat ground below the lowest collision. Shapes within 10 mm of the ground support the robot, meshes
-with their convex hull.
+with their convex hull. A robot on wheels of two sizes leans a little, and stands on both.
 
 Fix: check the centre of mass of the heaviest link (the pose of its `<inertial>`) and the places of
 wheels or feet. Also check for a part far outside, or a chassis lower than the wheels.
@@ -59,12 +59,14 @@ def _heaviest(masses: MassProperties) -> Link:
     return max(masses.links.values(), key=lambda inertia: inertia.mass).link
 
 
-def _rover(x: float, z: float = 0.0, mark: str = "") -> str:
+def _rover(x: float, z: float = 0.0, mark: str = "", front: float = 0.1) -> str:
     wheels = "".join(
         f"""
 <collision name="wheel_{number}">
   <pose>{wheel_x} {wheel_y} -0.1 1.5707963267948966 0 0</pose>
-  <geometry><cylinder><radius>0.1</radius><length>0.05</length></cylinder></geometry>
+  <geometry>
+    <cylinder><radius>{front if wheel_x > 0 else 0.1}</radius><length>0.05</length></cylinder>
+  </geometry>
 </collision>
 """
         for number, (wheel_x, wheel_y) in enumerate(
@@ -82,5 +84,10 @@ def _rover(x: float, z: float = 0.0, mark: str = "") -> str:
 
 
 _MARK = "  <!-- ^ INE009 -->"
-GOOD = [_rover(0), _rover(0.05)]
-BAD = [_rover(0.35, mark=_MARK), _rover(0.17, mark=_MARK), _rover(0, 0.3, mark=_MARK)]
+GOOD = [_rover(0), _rover(0.05), _rover(0, front=0.08)]
+BAD = [
+    _rover(0.35, mark=_MARK),
+    _rover(0.17, mark=_MARK),
+    _rover(0, 0.3, mark=_MARK),
+    _rover(0, mark=_MARK, front=0.05),
+]

@@ -9,9 +9,6 @@ joint that a plugin moves is `revolute`, with different limits or none.
 Source: SDFormat specification, joint/type.
 """
 
-import math
-
-from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -20,7 +17,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 def check(robot: Robot) -> Findings:
     """Report joints that cannot move: an error if a plugin drives them."""
     for joint in robot.joints:
-        why = _why_not(joint)
+        why = joint.immovable
         plugin = robot.driven_joints.get(joint.scoped_name)
         if not why or (plugin is None and joint.type.value == "fixed"):
             continue
@@ -35,17 +32,6 @@ def check(robot: Robot) -> Findings:
             related=[(plugin, "drives it")],
             key="driven",
         )
-
-
-def _why_not(joint: Joint) -> str:
-    """Return why a joint cannot move; nothing for a joint that can."""
-    if joint.type.value == "fixed":
-        return "it is fixed"
-    if joint.type.value not in ("revolute", "prismatic") or len(joint.axes) != 1:
-        return ""
-    lower, upper = joint.axes[0].lower, joint.axes[0].upper
-    stated = lower.stated and upper.stated and math.isfinite(lower.value)
-    return f"both limits are {lower.value:g}" if stated and lower.value == upper.value else ""
 
 
 def _hinge(limits: str, mark: str = "", kind: str = "revolute") -> str:

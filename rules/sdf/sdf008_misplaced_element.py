@@ -19,8 +19,15 @@ from checker.rule import Concern, Context, Findings, Safety, Severity, finding, 
 from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
 
-HARMLESS = {("air_pressure", "noise"), ("camera", "aspect_ratio")}
-"""Parents and elements that accepted robots have: nothing is lost."""
+HARMLESS: Mapping[tuple[str, ...], bool] = {
+    ("air_pressure", "noise"): True,
+    ("camera", "aspect_ratio"): False,
+}
+"""Parents and elements that accepted robots have: nothing is lost.
+
+Whether the place that SDF has for the element is meant: width and height of a camera's image say
+what its aspect ratio is, and no other place does.
+"""
 SETTINGS = frozenset(
     {
         *("air_pressure", "air_speed", "altimeter", "camera", "contact", "force_torque", "gps"),
@@ -60,14 +67,14 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         path = (around, parent.tag, element.tag)
         if path not in belonging:
             belonging[path] = _places(*path, parents_of(sdf.version))
-        places = belonging[path]
+        places = belonging[path] if HARMLESS.get(path[1:], True) else ()
         listed = [place for place in places if _fits(parent, kinds[parent], place)]
         named = (_named(sdf.version, tag, *path) for tag in listed)
         belongs = "; it belongs in " + " or ".join(named) if listed else ""
         is_set = len(listed) == 1 and _is_set(element, listed[0])
         belongs += ", where it is set" if is_set else ""
         of_others = bool(places) and not listed
-        harmless = is_set or of_others or (parent.tag, element.tag) in HARMLESS
+        harmless = is_set or of_others or path[1:] in HARMLESS
         idle = is_unread(element.tag, context.release) or is_appearance(element)
         yield finding(
             element,

@@ -1,9 +1,8 @@
 """A joint that needs more torque than its effort limit allows.
 
 The servos of the trial have unlimited torque, but the simulated motor stops at its limit: the robot
-starts slower, does not reach its speed, or drops its load. A joint whose limits
-do not hold 0, where the trial starts, is not judged, nor one whose effort limit the specification
-sheet explains.
+starts slower, does not reach its speed, or drops its load. A joint whose limits do not hold 0,
+where the trial starts, is not judged, nor one whose effort limit the specification sheet explains.
 
 Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
 Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without
@@ -52,17 +51,23 @@ def _starts_outside(joint: Joint) -> bool:
 _EFFORT = re.compile(
     r"\b(?:effort|torque)s?\W{1,3}limit|\blimit\w*\b[^.]{0,60}\b(?:effort|torque)", re.I
 )
+_PLACE_OF_IT = re.compile(r"\blines?\s+\d|\w\.(?:sdf|rb|xacro|urdf)\b", re.I)
 _SHORTEST_WORD = 4
 
 
 def _is_explained(joint: Joint, sheet: Specification | None) -> bool:
-    """Say whether the sheet speaks of the effort limit of such joints: then it is meant."""
+    """Say whether the sheet speaks of the effort limit of such joints: then it is meant.
+
+    A passage that only tells where the limit stands explains nothing.
+    """
     if sheet is None:
         return False
     words = re.split(r"[\W_\d]+", f"{joint.name.value} {joint.child.value}".casefold())
     parts = {word for word in words if len(word) >= _SHORTEST_WORD} - _ANY_JOINT
     return any(
-        _EFFORT.search(passage.text) and any(part in passage.text.casefold() for part in parts)
+        _EFFORT.search(passage.text)
+        and not _PLACE_OF_IT.search(passage.text)
+        and any(part in passage.text.casefold() for part in parts)
         for passage in sheet.markdown.passages
     )
 
@@ -116,6 +121,8 @@ def _rover(effort: float, mark: str = "") -> str:
 """
 
 
+_REFERENCE = "# Acme Rover\n* Torque limit of each wheel: model.sdf, lines 20 and 30\n"
+_MARK = "  <!-- ^ TRI009 -->"
 _SHEET = """# Acme Rover
 The effort limit of the wheels is low, so that they do not slip.
 """
@@ -126,4 +133,7 @@ GOOD = [
     {"model.sdf": _rover(0.1), "specifications.md": _SHEET},
     _rover(0.1).replace("</effort>", "</effort><lower>0.1</lower><upper>1e9</upper>"),
 ]
-BAD = [_rover(0.1, "  <!-- ^ TRI009 -->")]
+BAD = [
+    _rover(0.1, _MARK),
+    {"model.sdf": _rover(0.1, _MARK), "specifications.md": _REFERENCE},
+]

@@ -276,8 +276,15 @@ def test_what_a_siblings_file_starts_is_known_as_its_own(write: Write) -> None:
     assert two.base.package_name == ONE
 
 
-def test_urdf_comes_from_where_the_launch_file_loads_it(write: Write) -> None:
-    load = f'<launch><param name="d" command="xacro $(find {ONE})/urdf/rover.xacro"/></launch>'
+@pytest.mark.parametrize(
+    "element",
+    [
+        f'<param name="d" command="xacro $(find {ONE})/urdf/rover.xacro"/>',
+        f'<include file="$(find {ONE})/launch/description.launch"/>',
+    ],
+)
+def test_urdf_comes_from_where_the_launch_file_loads_it(write: Write, element: str) -> None:
+    load = f"<launch>{element}</launch>"
     two = package(
         write,
         {

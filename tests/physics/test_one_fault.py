@@ -15,6 +15,8 @@ from tests.physics.fault import SPAWNER, Fault, Swap, put_into
 BUGGY, QUADRO = ackermann.SAMPLE, multicopter.SAMPLE
 WHEEL = "<child>rear_right_wheel</child>"
 TWICE = f'<joint name="again" type="fixed"><parent>base_link</parent>{WHEEL}</joint>'
+LOOSE = '<joint name="rear_left_wheel_joint" type="revolute">'
+FIXED = '<joint name="rear_left_wheel_joint" type="fixed">'
 FACTORY = '<plugin name="ignition::launch::GazeboFactory" filename="libgazebo-factory.so">'
 
 
@@ -33,6 +35,8 @@ FAULTS = (
     (BUGGY, "KIN001", swapped(WHEEL, "<child>rear_right_whel</child>")),
     (QUADRO, "KIN001", swapped("<child>rotor_0</child>", "<child>rotor_9</child>")),
     (BUGGY, "KIN002", swapped('<link name="left_knuckle">', f'{TWICE}<link name="left_knuckle">')),
+    (BUGGY, "GEO008", swapped("<radius>0.1</radius>", "<radius>0</radius>")),
+    (BUGGY, "KIN009", swapped(LOOSE, FIXED)),
     (BUGGY, "MSH005", scaled("meshes/hull.dae")),
     (BUGGY, "MSH005", scaled("meshes/wheel.dae")),
     (QUADRO, "MSH005", scaled("meshes/body.dae")),

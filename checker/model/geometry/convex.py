@@ -29,7 +29,7 @@ def support(
 ) -> float | None:
     """Return the largest `direction · p` of all points p of a shape, in metres.
 
-    None for meshes that are not known and for shapes without end.
+    None for meshes that are not known and for shapes without end or size.
 
     Args:
         geometry: The shape.
@@ -54,6 +54,8 @@ def extent(
 
 def own_extent(geometry: Geometry, local: Vector, meshes: Meshes) -> Extent | None:
     """Return the extent of a shape about its own centre, along a direction of its own frame."""
+    if not geometry.has_size:
+        return None
     x, y, z = local
     sideways = math.hypot(x, y)
     reach: float | None = None

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from checker.base.record import Record
 from checker.source.text import Located, Span
 from checker.source.xml import Element
 
+LENGTHS = ("size", "radius", "length", "radii")
+"""Names of lengths; a negative scale mirrors a mesh."""
 
-class Geometry(Record, eq=False):
+
+class Geometry(Record, eq=False, dict=True):
     """The shape of a collision or visual.
 
     Attributes:
@@ -27,6 +32,12 @@ class Geometry(Record, eq=False):
     def span(self) -> Span:
         """The shape's start tag."""
         return self.element.span
+
+    @cached_property
+    def has_size(self) -> bool:
+        """Whether all its lengths are above 0; GEO008 reports others."""
+        lengths = (self.sizes.get(name, ()) for name in LENGTHS)
+        return all(length.value > 0.0 for each in lengths for length in each)
 
 
 class Material(Record, eq=False):

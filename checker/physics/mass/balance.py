@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise, product
 
+from msgspec.structs import replace
+
 from checker.base.record import Record
 from checker.model.components import Collision, Link
 from checker.model.geometry.shapes import Geometry
@@ -219,3 +221,39 @@ def tip_angle(stand: Stand, centre: Vector | None) -> float | None:
         return None
     x, y, z = centre
     return math.atan2(margin(stand.polygon, (x, y)), z - stand.height)
+
+
+_LEANS = math.cos(math.radians(5.0))
+"""Cosine of the greatest lean of a robot that still stands, as on wheels of two sizes."""
+
+
+def leaning_tip_angle(robot: Robot, stand: Stand, centre: Vector) -> float | None:
+    """Return the tip angle of a robot that may lean a little until other parts carry it, too.
+
+    It rests on the sides of the hull around its collisions that are nearly level and face down.
+    """
+    points = [
+        point
+        for link, collision in _collisions(robot)
+        if (pose := robot.pose_of_part(link, collision.pose)) is not None
+        for point in contact_points(collision.geometry, pose, robot.scaled_meshes)
+    ]
+    polygon = convex_hull((x, y) for x, y, _ in _lower_points(points, centre))
+    return tip_angle(replace(stand, polygon=polygon), centre)
+
+
+def _lower_points(points: Sequence[Vector], centre: Vector) -> Iterator[Vector]:
+    """Yield the corners of the hull's lower sides, and the points near these sides."""
+    # Few robots need it, and it takes long to load.
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        # What only wheels carry touches in one plane: with the centre of mass above, it has a hull.
+        hull = ConvexHull([*points, centre])
+    except (QhullError, ValueError):
+        return
+    for x, y, z, offset in hull.equations.tolist():
+        if -z >= _LEANS:
+            for a, b, c in points:
+                if -(x * a + y * b + z * c + offset) <= _TOUCHES:
+                    yield a, b, c

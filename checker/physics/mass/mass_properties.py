@@ -85,7 +85,8 @@ class MassProperties(Record, eq=False):
     @property
     def unbalanced(self) -> str:
         """Why it is not known how the robot stands, as the end of a sentence; empty when it is."""
-        return self.robot.unweighed or self.robot.unplaced_part or self.support_unknown
+        robot = self.robot
+        return robot.unweighed or robot.unplaced_part or robot.bare_wheel or self.support_unknown
 
     def share(self, name: str) -> float:
         """Return a link's share of the robot's mass, 0…1."""

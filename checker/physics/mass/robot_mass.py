@@ -16,7 +16,7 @@ from checker.model.components import Joint, Link
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
 from checker.model.tree import WORLD, rigid_bodies
-from checker.physics.mass.balance import stand_of, tip_angle
+from checker.physics.mass.balance import Stand, leaning_tip_angle, stand_of, tip_angle
 from checker.physics.mass.inertia import (
     inertial_pose,
     placed_inertia,
@@ -260,10 +260,23 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
         support=stand.polygon,
         support_height=stand.height,
         standing=stand.links,
-        tip_angle=tip_angle(stand, weights.centre),
+        tip_angle=_tip_angle(robot, stand, weights.centre),
         gravity_torques=torques,
         support_unknown=stand.unknown,
     )
+
+
+_STABLE = math.radians(30.0)
+"""A tip angle from which on nobody asks whether the robot stands even better."""
+
+
+def _tip_angle(robot: Robot, stand: Stand, centre: Vector | None) -> float | None:
+    """Return how far the ground can tilt; a robot may first lean until more of it stands."""
+    level = tip_angle(stand, centre)
+    if level is None or centre is None or level > _STABLE:
+        return level
+    leaning = leaning_tip_angle(robot, stand, centre)
+    return level if leaning is None else max(level, leaning)
 
 
 def _link_inertia(link: Link, body: Body, weight: Weight) -> LinkInertia:

@@ -44,12 +44,13 @@ class RobotTrial(Record, eq=False, dict=True):
 
     @property
     def unlike(self) -> str:
-        """Why what was driven is another robot, as the end of a sentence; empty if it is not.
+        """Why the trial is none of this robot, as the end of a sentence; empty if it is.
 
-        For the trial, parts without a place and masses that are none were put right somehow.
+        For the trial, parts without a place and masses that are none were put right somehow, and
+        shapes that cannot be used were left out.
         """
         masses = self.robot.unknown_masses.values()
-        return self.robot.unplaced_part or next(iter(masses), "")
+        return self.robot.unplaced_part or next(iter(masses), "") or self.robot.bare_wheel
 
     def leg(self, name: str) -> Leg | None:
         """Return a stretch of the course by its name; None when it was not driven."""
