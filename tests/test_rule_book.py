@@ -10,7 +10,7 @@ from checker.rulebook.discovery import all_rules
 BOOK = {
     "CFG": 4,
     "PKG": 19,
-    "SDF": 17,
+    "SDF": 18,
     "REF": 6,
     "KIN": 17,
     "INE": 13,

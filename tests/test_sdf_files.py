@@ -1,7 +1,8 @@
 """The profile `sdf`: what the SDFormat specification forbids is an error, what it allows is none.
 
 Each file of `sdf_files/invalid` breaks the one sentence at its top. A marker `^ SDF005` stands on
-the line that must be reported. The files of `sdf_files/valid` show at their top what is allowed.
+the line that must be reported. The files of `sdf_files/valid` show at their top what is allowed;
+those of `sdf_files/tolerated` break a sentence, and load all the same: that is a warning.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from checker.settings import Settings
 FILES = Path(__file__).parent / "sdf_files"
 VALID = sorted((FILES / "valid").glob("*.sdf"))
 INVALID = sorted((FILES / "invalid").glob("*.sdf"))
+TOLERATED = sorted((FILES / "tolerated").glob("*.sdf"))
 
 _MARKER = re.compile(r"\^ ([A-Z]{3}\d{3})")
 
@@ -31,13 +33,13 @@ def checked(file: Path) -> Report:
     return check_package(file, Settings(profile="sdf"))
 
 
-def errors(report: Report) -> Set[tuple[str, int]]:
-    """Return rule and line of each error."""
+def errors(report: Report, severity: Severity = Severity.ERROR) -> Set[tuple[str, int]]:
+    """Return rule and line of each error, or of each finding of another severity."""
     (package,) = report.packages
     return {
         (finding.rule, place.line)
         for finding in package.findings
-        if finding.severity is Severity.ERROR
+        if finding.severity is severity
         for place in finding.places
         if not place.note
     }
@@ -65,8 +67,16 @@ def test_what_the_specification_forbids_is_reported_at_its_line(file: Path) -> N
     assert exit_code(report) == 1
 
 
+@pytest.mark.parametrize("file", TOLERATED, ids=lambda file: file.stem)
+def test_what_loads_against_the_specification_is_a_warning(file: Path) -> None:
+    report = checked(file)
+    assert errors(report) == set()
+    assert errors(report, Severity.WARNING) >= marked(file)
+    assert len(marked(file)) == 1
+
+
 def test_each_file_says_what_it_is_about() -> None:
-    for file in (*VALID, *INVALID):
+    for file in (*VALID, *INVALID, *TOLERATED):
         first = file.read_text("utf-8").splitlines()[0]
         assert re.fullmatch(r"<!-- [^<>^]{10,}\. -->", first), file.name
 
@@ -78,7 +88,17 @@ def test_there_are_valid_files_of_every_version() -> None:
 
 def test_there_are_invalid_files_for_every_rule_on_syntax_that_gives_errors() -> None:
     rules = {rule.id for rule in all_rules() if rule.group == "SDF"}
-    never_errors = {"SDF003", "SDF004", "SDF008", "SDF010", "SDF011", "SDF013", "SDF014", "SDF015"}
+    never_errors = {
+        "SDF003",
+        "SDF004",
+        "SDF007",
+        "SDF008",
+        "SDF010",
+        "SDF011",
+        "SDF013",
+        "SDF014",
+        "SDF015",
+    }
     assert {rule for file in INVALID for rule, _ in marked(file)} >= rules - never_errors
 
 

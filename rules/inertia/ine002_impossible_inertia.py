@@ -54,7 +54,7 @@ def check(
         # A URDF's fixed links are one body for the simulator, an SDF's are each read alone.
         merged = robot.format == "urdf" and inertia.piece_eigenvalue >= -share
         possible = Severity.WARNING if merged else Severity.ERROR
-        yield from _moments(inertia, inertial, readable, possible, share)
+        yield from _moments(inertia, inertial, possible, share)
 
 
 def _spans(inertial: Inertial) -> set[Span]:
@@ -77,7 +77,7 @@ def _mass(inertia: LinkInertia, inertial: Inertial, readable: Severity) -> Itera
 
 
 def _moments(
-    inertia: LinkInertia, inertial: Inertial, readable: Severity, level: Severity, share: float
+    inertia: LinkInertia, inertial: Inertial, level: Severity, share: float
 ) -> Iterator[Finding]:
     name = inertia.link.name.value
     if any(math.isnan(moment) for moment in inertia.principal):
@@ -86,7 +86,6 @@ def _moments(
             wrong,
             f"link {name!r} has a moment of inertia of {wrong.value:g} kg·m², expected a finite "
             "number",
-            severity=readable,
         )
         return
     # A negative mass makes the eigenvalue negative by itself; it is said already.

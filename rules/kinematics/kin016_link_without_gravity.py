@@ -17,7 +17,8 @@ def check(robot: Robot) -> Findings:
     """Report links without gravity, and kinematic links."""
     for link in robot.links:
         if not link.gravity.value:
-            message = f"gravity does not act on link {link.name.value!r}: remove the setting"
+            stated = link.gravity.span.text
+            message = f"gravity does not act on link {link.name.value!r}: remove the {stated}"
             yield finding(link.gravity, message, key="gravity")
         if link.kinematic.value:
             message = (

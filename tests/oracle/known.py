@@ -42,7 +42,6 @@ REFUSED_BY_US: Sequence[Known] = (
 REFUSED_BY_THEM: Sequence[Known] = (
     Known("libsdformat ends", ("libsdformat ends with",)),
     Known("models that are not at hand", ("Unable to find uri",)),
-    Known("infinite moments of inertia", ("A link named .* has invalid inertia",)),
     Known("old axes without direction", ("Error reading element <xyz>",)),
     Known("includes in any place", ("<include> element missing",)),
     Known("colours above 1", ("Error reading element <(ambient|diffuse|specular|emissive)>",)),

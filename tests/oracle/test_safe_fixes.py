@@ -15,7 +15,7 @@ from checker.finding import Safety
 from checker.report.report import ReportedFinding
 from tests.conftest import SAMPLES
 from tests.oracle.conftest import Load
-from tests.real_packages import CORPUS, MODERN, REVIEWS, named_folder, needs
+from tests.real_packages import CORPUS, MODERN, named_folder, needs
 
 ABOUT: Mapping[str, str] = {
     "REF001": r"(uri|_map)",
@@ -123,7 +123,6 @@ def test_samples_stay_the_same(sample: str, tmp_path: Path, libsdformat: Load) -
     ("variable", "profile"),
     [
         pytest.param(CORPUS, "subt", marks=needs(CORPUS), id="corpus"),
-        pytest.param(REVIEWS, "subt", marks=needs(REVIEWS), id="reviews"),
         pytest.param(MODERN, "gazebo-harmonic", marks=needs(MODERN), id="modern"),
     ],
 )
