@@ -94,5 +94,5 @@ BAD = [
     _rover(0.35, mark=_MARK),
     _rover(0.17, mark=_MARK),
     _rover(0, 0.3, mark=_MARK),
-    _rover(0, mark=_MARK, front=0.05),
+    _rover(0, mark=_MARK, front=0.01),
 ]
