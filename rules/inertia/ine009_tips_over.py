@@ -24,7 +24,7 @@ def check(
     *,
     error_below_degrees: float = 10.0,
     warning_below_degrees: float = 25.0,
-    indoors_below_degrees: float = 15.0,
+    indoors_below_degrees: float = 20.0,
 ) -> Findings:
     """Report a small tip angle; the place is the inertial of the heaviest link.
 
@@ -33,7 +33,8 @@ def check(
             error.
         warning_below_degrees: Tilt of the ground, degrees, at which a robot for SubT tips over;
             less is at least a warning.
-        indoors_below_degrees: The same for other robots.
+        indoors_below_degrees: The same for other robots; an error only for those that tip over on
+            flat ground.
     """
     robot = masses.robot
     if robot.is_static or not (robot.drives or (robot.stands_alone and context.of_submissions)):
@@ -46,6 +47,7 @@ def check(
         return
     degrees = math.degrees(angle)
     least = warning_below_degrees if context.of_submissions else indoors_below_degrees
+    grave = degrees < (error_below_degrees if context.of_submissions else 0.0)
     if degrees >= least:
         return
     at = ", ".join(f"{part:.3f}" for part in centre[:2])
@@ -56,7 +58,7 @@ def check(
         heaviest.inertial.pose if heaviest.inertial is not None else heaviest,
         f"the robot {standing}, expected {least:g}° or more: its centre of mass "
         f"is at x, y = {at} m, {height}; the heaviest link is {heaviest.name.value!r}",
-        severity=Severity.ERROR if degrees < error_below_degrees else Severity.WARNING,
+        severity=Severity.ERROR if grave else Severity.WARNING,
     )
 
 
@@ -94,5 +96,5 @@ BAD = [
     _rover(0.35, mark=_MARK),
     _rover(0.17, mark=_MARK),
     _rover(0, 0.3, mark=_MARK),
-    _rover(0, mark=_MARK, front=0.01),
+    _rover(0, mark=_MARK, front=0.05),
 ]

@@ -35,8 +35,12 @@ def check(robot: Robot) -> Findings:
 
 
 def _faces_out(use: MeshUse, mesh: Mesh) -> bool:
-    """Say whether the triangles of a closed mesh face out; one that mirrors turns them over."""
-    return mesh.volume is not None and mesh.volume * math.prod(use.scale) >= 0
+    """Say whether the triangles of a closed mesh face out.
+
+    A scale that mirrors the mesh turns them over, which GEO008 reports.
+    """
+    facing = mesh.volume is not None and mesh.volume >= 0
+    return facing or (mesh.volume is not None and mesh.volume * math.prod(use.scale) >= 0)
 
 
 def _faults(use: MeshUse, mesh: Mesh) -> Iterator[str]:

@@ -223,7 +223,7 @@ def tip_angle(stand: Stand, centre: Vector | None) -> float | None:
     return math.atan2(margin(stand.polygon, (x, y)), z - stand.height)
 
 
-_LEANS = math.cos(math.radians(10.0))
+_LEANS = math.cos(math.radians(5.0))
 """Cosine of the greatest lean of a robot that still stands, as on wheels of two sizes."""
 
 
