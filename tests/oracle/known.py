@@ -51,6 +51,7 @@ REFUSED_BY_THEM: Sequence[Known] = (
 )
 """Files that libsdformat refuses, and the checker does not, by its first words."""
 READ_OTHERWISE: Sequence[Known] = (
+    Known("joints that end at a static model", (r"ends of .*, theirs \[.*__model__'",)),
     Known(
         "names that are truth values",
         (r"\w+: ours .*'(true|false)'", r"pose of (.*::)?[01]: "),
