@@ -56,10 +56,10 @@ def _children(element: Element, kind: ElementType, without: Severity) -> Iterato
     ends = ENDS if element.parent is not None and element.parent.tag == "model" else ()
     for child in kind.required_children:
         name = child.name
-        if name in ends:
-            continue
         stated = element.all(name)
-        if not stated and _has_to_be_stated(child):
+        if name in ends:
+            stated = stated[1:]  # KIN001 looks at the first alone
+        elif not stated and _has_to_be_stated(child):
             yield finding(
                 element,
                 f"{_named(element)} lacks <{name}>",
