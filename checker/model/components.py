@@ -290,6 +290,11 @@ class Joint(Part):
         return f"both limits are {lower.value:g}" if stated and lower.value == upper.value else ""
 
     @property
+    def starts_outside(self) -> bool:
+        """Whether 0, where a trial starts it, lies outside its limits: they push it from there."""
+        return any(not axis.lower.value <= 0.0 <= axis.upper.value for axis in self.axes)
+
+    @property
     def mimics(self) -> list[Located[str]]:
         """Names of joints that this one copies: below `<joint>` in URDF, below `<axis>` in SDF."""
         holders = (self.element, *self.element.all("axis"), *self.element.all("axis2"))

@@ -2,7 +2,8 @@
 
 Gazebo 9 never read it, and since SDF 1.7 `relative_to` replaces it. libsdformat from Gazebo 11 and
 Dome on turns it into `relative_to` in files before SDF 1.7, so that the part stands in another
-place than in Gazebo 9; in newer files it has no effect. An empty one has none in any file.
+place than in Gazebo 9; in newer files it has no effect. An empty one has none in any file. SDF017
+reports a frame that does not exist.
 
 Fix: remove the attribute, and write the pose relative to the element around it.
 Source: SDFormat specification, pose 1.5 to 1.7; how libsdformat 12 reads it. The Model Migration
@@ -10,6 +11,7 @@ Guide's own example still has the empty attribute that Gazebo 9's converter wrot
 """
 
 from checker.model.sdf.document import SdfDocument, sdf_version
+from checker.model.sdf.frame_faults import world_frame_faults
 from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 
 
@@ -18,9 +20,10 @@ def check(sdf: SdfDocument) -> Findings:
     """Report the attribute, empty or not."""
     read = sdf_version(sdf.document) < (1, 7)
     effect = "which Gazebo 9 ignores, and later ones read" if read else "which has no effect"
+    unknown = {fault.span.start for fault in world_frame_faults(sdf.document)}
     for element in sdf.elements():
         frame = element.attribute("frame") if element.tag == "pose" else None
-        if frame is None:
+        if frame is None or frame.span.start in unknown:
             continue
         if frame.value:
             yield finding(

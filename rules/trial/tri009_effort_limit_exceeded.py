@@ -33,7 +33,7 @@ def check(
         if limit is None or abs(torque.value) <= warning_above * limit:
             continue
         joint = driven.robot.joints_by_name.get(torque.part)
-        if joint is None or not (_starts_outside(joint) or _is_explained(joint, specification)):
+        if joint is None or not (joint.starts_outside or _is_explained(joint, specification)):
             unit = _unit(driven, torque.part)
             yield finding(
                 driven.part(torque.part),
@@ -41,11 +41,6 @@ def check(
                 f"limit is {limit:.3g} {unit}",
                 key="torque",
             )
-
-
-def _starts_outside(joint: Joint) -> bool:
-    """Say whether a joint is pushed to a limit when it starts, against its servo."""
-    return any(not axis.lower.value <= 0.0 <= axis.upper.value for axis in joint.axes)
 
 
 _EFFORT = re.compile(
