@@ -30,7 +30,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     without = Severity.ERROR if context.release else Severity.WARNING
     if sdf.root.tag != "sdf":
         yield finding(sdf.root, f"the root element is <{sdf.root.tag}>, expected <sdf>")
-    for element, kind in sdf.typed_elements:
+    for element, kind in sdf.typed_as(context.reads):
         if kind is None:
             continue
         findings = [*_attributes(element, kind), *_children(element, kind, without)]
