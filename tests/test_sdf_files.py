@@ -2,7 +2,7 @@
 
 Each file of `sdf_files/invalid` breaks the one sentence at its top. A marker `^ SDF005` stands on
 the line that must be reported. The files of `sdf_files/valid` show at their top what is allowed;
-those of `sdf_files/tolerated` break a sentence, and load all the same: that is a warning.
+those of `sdf_files/tolerated` break a sentence, and load all the same: that is a warning or less.
 """
 
 from __future__ import annotations
@@ -68,10 +68,10 @@ def test_what_the_specification_forbids_is_reported_at_its_line(file: Path) -> N
 
 
 @pytest.mark.parametrize("file", TOLERATED, ids=lambda file: file.stem)
-def test_what_loads_against_the_specification_is_a_warning(file: Path) -> None:
+def test_what_loads_against_the_specification_is_no_error(file: Path) -> None:
     report = checked(file)
     assert errors(report) == set()
-    assert errors(report, Severity.WARNING) >= marked(file)
+    assert errors(report, Severity.WARNING) | errors(report, Severity.INFO) >= marked(file)
     assert len(marked(file)) == 1
 
 

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import all_tags, type_of
+from checker.model.sdf.schema import all_tags
 from checker.model.sdf.unread import is_appearance, is_unread
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
@@ -31,10 +31,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report elements that no place of this SDF version knows."""
     unknown = [
         element
-        for element, kind in sdf.typed_elements
-        if kind is None
-        and element.tag not in all_tags(sdf.version)
-        and type_of(element, context.reads) is None
+        for element, kind in sdf.typed_as(context.reads)
+        if kind is None and element.tag not in all_tags(sdf.version)
     ]
     anywhere = Suggestions(all_tags(sdf.version))
     for element, siblings in _with_known_siblings(sdf, unknown):

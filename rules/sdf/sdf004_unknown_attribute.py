@@ -22,7 +22,7 @@ ELSEWHERE = {("pose", "frame")}
 @rule("SDF004", "unknown-attribute", Severity.WARNING, Concern.ROBOT)
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report attributes that this SDF version does not know at this element."""
-    for element, kind in sdf.typed_elements:
+    for element, kind in sdf.typed_as(context.reads):
         if kind is None:
             continue
         known = kind.attributes

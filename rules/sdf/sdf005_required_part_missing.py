@@ -30,7 +30,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     without = Severity.ERROR if context.release else Severity.WARNING
     if sdf.root.tag != "sdf":
         yield finding(sdf.root, f"the root element is <{sdf.root.tag}>, expected <sdf>")
-    for element, kind in sdf.typed_elements:
+    for element, kind in sdf.typed_as(context.reads):
         if kind is None:
             continue
         findings = [*_attributes(element, kind), *_children(element, kind, without)]
@@ -56,10 +56,10 @@ def _children(element: Element, kind: ElementType, without: Severity) -> Iterato
     ends = ENDS if element.parent is not None and element.parent.tag == "model" else ()
     for child in kind.required_children:
         name = child.name
-        if name in ends:
-            continue
         stated = element.all(name)
-        if not stated and _has_to_be_stated(child):
+        if name in ends:
+            stated = stated[1:]  # KIN001 looks at the first alone
+        elif not stated and _has_to_be_stated(child):
             yield finding(
                 element,
                 f"{_named(element)} lacks <{name}>",

@@ -35,7 +35,7 @@ _Attributes = Mapping[str, Sequence[str]]
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report texts and attributes that are not values of their type."""
     words = table("sdf_words")
-    for element, kind in sdf.typed_elements:
+    for element, kind in sdf.typed_as(context.reads):
         if kind is None:
             continue
         attributes = _attribute_types(element, kind, context)

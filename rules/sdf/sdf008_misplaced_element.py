@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 
 from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
-from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of, type_of
+from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of
 from checker.model.sdf.unread import is_appearance, is_unread
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
@@ -56,12 +56,10 @@ _Kinds = Mapping[Element, ElementType | None]
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report elements that this SDF version knows, but not below this parent."""
     belonging: dict[tuple[str, ...], Sequence[str]] = {}
-    kinds = dict(sdf.typed_elements)
-    for element, kind in sdf.typed_elements:
+    kinds = dict(sdf.typed_as(context.reads))
+    for element, kind in kinds.items():
         parent = element.parent
         if kind is not None or parent is None or element.tag not in all_tags(sdf.version):
-            continue
-        if type_of(element, context.reads) is not None:
             continue
         around = parent.parent.tag if parent.parent is not None else ""
         path = (around, parent.tag, element.tag)

@@ -44,7 +44,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     version = sdf_version(sdf.document)
     # Names of parts that nested models once had, flattened: SDFormat took them until 1.8.
     divided = Severity.ERROR if context.release or version >= (1, 8) else Severity.WARNING
-    for element, kind in sdf.typed_elements:
+    for element, kind in sdf.typed_as(context.reads):
         if kind is None or kind.free:
             continue
         yield from _twins(element, kind, version)

@@ -32,7 +32,8 @@ REFUSED_BY_US: Sequence[Known] = (
         "frames of parts and axes",
         (r"KIN010 (the inertial|the axis|visual|collision|sensor|light) ",),
     ),
-    Known("joints in nested models", ("KIN001 joint 'wrist' has (no )?parent",)),
+    Known("names that are truth values", (r"KIN\d+ .*'(\w+::)*(true|false)'",)),
+    Known("joints in nested models", (r"KIN00[12] joint 'wrist' (has (no )?parent|connects)",)),
     Known(
         "required parts that are not asked for",
         ("SDF005 <mesh> lacks <uri>", "SDF005 <use_parent_model_frame> of <axis> is empty"),
@@ -51,6 +52,7 @@ REFUSED_BY_THEM: Sequence[Known] = (
 )
 """Files that libsdformat refuses, and the checker does not, by its first words."""
 READ_OTHERWISE: Sequence[Known] = (
+    Known("joints that end at a static model", (r"ends of .*, theirs \[.*__model__'",)),
     Known(
         "names that are truth values",
         (r"\w+: ours .*'(true|false)'", r"pose of (.*::)?[01]: "),

@@ -187,7 +187,18 @@ class SdfDocument(Record, eq=False, dict=True):
     @cached_property
     def typed_elements(self) -> list[tuple[Element, ElementType | None]]:
         """Each element with its type in the schema; see `checker.model.sdf.schema.walk`."""
-        return list(walk(self.root, self.version))
+        return self.typed_as("")
+
+    def typed_as(self, reads: str) -> list[tuple[Element, ElementType | None]]:
+        """Return the same, with what only the version knows that the target reads the file as."""
+        if reads not in self._typed:
+            self._typed[reads] = list(walk(self.root, self.version, reads))
+        return self._typed[reads]
+
+    @cached_property
+    def _typed(self) -> dict[str, list[tuple[Element, ElementType | None]]]:
+        """What `typed_as` has given: most rules on syntax ask for the same."""
+        return {}
 
     def elements(self) -> Iterator[Element]:
         """Yield the elements that the schema knows, in document order."""

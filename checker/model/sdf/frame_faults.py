@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from checker.model.components import Link, Part, Pose
+from checker.model.components import Frame, Joint, Link, Part, Pose
 from checker.model.faults import Fault, FaultKind
 from checker.model.frames import MODEL_FRAME
 from checker.model.robot import Robot
@@ -182,13 +182,15 @@ def _attachments(robot: Robot) -> Iterator[Fault]:
             yield Fault(FaultKind.FRAME, frames[name].span, message)
     # A joint is attached to its child.
     tied = {joint.scoped_name: joint.scope + joint.child.value for joint in reversed(robot.joints)}
-    posed = {joint.scoped_name: joint.pose for joint in robot.joints}
-    posed |= {frame.scoped_name: frame.pose for frame in robot.frames}
-    for circle in _circles({**tied, **attached}):
-        named = [name for name in circle if name in frames]
-        if named and any(posed[name].relative_to for name in circle):
-            message = f"frame {named[0]!r} is attached to itself through {attached[named[0]]!r}"
-            yield Fault(FaultKind.FRAME, frames[named[0]].span, message)
+    parts: dict[str, Joint | Frame] = {joint.scoped_name: joint for joint in robot.joints}
+    parts |= frames
+    edges = {**tied, **attached}
+    for circle in _circles(edges):
+        if any(parts[name].pose.relative_to for name in circle):
+            first = next((name for name in circle if name in frames), circle[0])
+            what = f"{parts[first].element.tag} {first!r}"
+            message = f"{what} is attached to itself through {edges[first]!r}"
+            yield Fault(FaultKind.FRAME, parts[first].span, message)
 
 
 def _poses(link: Link) -> Iterator[tuple[str, Pose]]:

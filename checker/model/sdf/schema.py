@@ -170,21 +170,31 @@ def type_of(element: Element, version: str) -> ElementType | None:
     return kind
 
 
-def walk(root: Element, version: str) -> Iterator[tuple[Element, ElementType | None]]:
+def walk(
+    root: Element, version: str, reads: str = ""
+) -> Iterator[tuple[Element, ElementType | None]]:
     """Yield each element with its type, in document order; None for one that has no place there.
 
+    The version that the file is read as, `reads`, gives the type where its own does not know one.
     What stands below an unknown or a free element is passed over, and so are elements with a
     namespace prefix, which SDFormat leaves to others.
     """
-    outermost = sdf_root(version) if root.tag == "sdf" else None
-    stack: list[tuple[Element, ElementType | None]] = [(root, outermost)]
+    is_sdf = root.tag == "sdf"
+    own = sdf_root(version) if is_sdf else None
+    later = sdf_root(reads) if is_sdf and reads else None
+    stack: list[tuple[Element, ElementType | None, ElementType | None]] = [(root, own, later)]
     while stack:
-        element, kind = stack.pop()
+        element, own, later = stack.pop()
+        kind = own if own is not None else later
         yield element, kind
         if kind is None or kind.free:
             continue
         stack.extend(
-            (child, kind.children.get(child.tag))
+            (child, _child(own, child.tag), _child(later, child.tag))
             for child in reversed(element.children)
             if ":" not in child.tag
         )
+
+
+def _child(kind: ElementType | None, tag: str) -> ElementType | None:
+    return kind.children.get(tag) if kind is not None and not kind.free else None
