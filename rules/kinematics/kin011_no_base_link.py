@@ -41,7 +41,7 @@ def _canonical(robot: Robot) -> Findings:
     nested = ((f"{model.scoped_name}::", model.element) for model in robot.models)
     for scope, element in (("", robot.element), *nested):
         canonical = element.attribute("canonical_link")
-        if canonical is None or canonical.value == "":
+        if canonical is None or not canonical.value.strip():
             continue
         name = scope + canonical.value
         if name not in robot.links_by_name and not robot.may_be_included(name):
