@@ -21,7 +21,9 @@ def check(robot: Robot, context: Context, *, base: str = "base_link") -> Finding
         base: Name that a link of the robot must have; not required if the profile names no Gazebo
             release.
     """
-    yield from _canonical(robot)
+    # A model that stands still is placed as a whole: no link of it needs to exist.
+    if not robot.is_static:
+        yield from _canonical(robot)
     # Of a file for no simulator, nobody knows that it is a robot.
     if not context.release or not robot.links or base in robot.links_by_name:
         return
@@ -39,7 +41,7 @@ def _canonical(robot: Robot) -> Findings:
     nested = ((f"{model.scoped_name}::", model.element) for model in robot.models)
     for scope, element in (("", robot.element), *nested):
         canonical = element.attribute("canonical_link")
-        if canonical is None or canonical.value == "":
+        if canonical is None or not canonical.value.strip():
             continue
         name = scope + canonical.value
         if name not in robot.links_by_name and not robot.may_be_included(name):

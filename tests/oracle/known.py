@@ -27,6 +27,7 @@ REFUSED_BY_US: Sequence[Known] = (
         (r"SDF006 <\w+> contains '", r"SDF006 <\w+> is '?[\w.,+-]*.*', expected a whole number"),
     ),
     Known("values that the specification excludes", (r"SDF006 .* is .*, expected",)),
+    Known("infinite moments of inertia", (r"INE002 .* moment of inertia of -?inf ",)),
     Known("two parts of a world with one name", (r"SDF009 <\w+> '.*' has the same name as a <",)),
     Known(
         "frames of parts and axes",

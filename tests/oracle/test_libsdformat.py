@@ -16,7 +16,7 @@ from tests.oracle.mutants import mutant
 from tests.real_packages import CORPUS, MODERN, REVIEWS, needed_folder, needs
 
 MODELS = Path(__file__).parent / "models"
-MUTANTS = int(os.environ.get("SUBT_CHECK_MUTANTS", "600"))
+MUTANTS = int(os.environ.get("SUBT_CHECK_MUTANTS", "480"))
 """How many mutants are compared: some thousands in a full run."""
 PARTS = 6
 """Tests that the mutants are divided among, for several workers."""
