@@ -72,11 +72,11 @@ _MARK = "  <!-- ^ MSH010 -->"
 GOOD = [
     {"@fragment": _collision(), "meshes/part.obj": _CLOSED},
     {"@fragment": _collision(scale="-1 1 1"), "meshes/part.obj": _INSIDE_OUT},
+    {"@fragment": _collision(scale="-1 1 1"), "meshes/part.obj": _CLOSED},
     {"@fragment": _collision().replace("collision", "visual"), "meshes/part.obj": _OPEN},
 ]
 BAD = [
     {"@fragment": _collision(_MARK), "meshes/part.obj": _OPEN},
     {"@fragment": _collision(_MARK), "meshes/part.obj": _INSIDE_OUT},
-    {"@fragment": _collision(_MARK, "-1 1 1"), "meshes/part.obj": _CLOSED},
     {"@fragment": _collision(_MARK), "meshes/part.obj": _CLOSED + "f 1 1 2\n"},
 ]

@@ -19,8 +19,10 @@ from checker.model.urdf.description import UrdfDescription
 from checker.model.urdf.fixed_joints import Lumping
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
-OF_LINKS = ("linkName", "link_name", "body_name")
-"""Parameters of plugins that name a link; in `bodyName`, Gazebo writes the merged link itself."""
+OF_LINKS = ("bodyName", "linkName", "link_name", "body_name")
+"""Parameters of plugins that name a link of the simulated model."""
+_WRITTEN_ANEW = "bodyName"
+"""Gazebo puts the link that is left into it, where the plugin belongs to the whole robot."""
 OF_JOINTS = ("jointName", "joint_name")
 _COLLISION = "_collision"
 
@@ -39,7 +41,10 @@ def check(description: UrdfDescription) -> Findings:
 
 
 def _names_of(plugin: Plugin, lumping: Lumping) -> Iterator[Finding]:
-    for name in plugin.values(*OF_LINKS):
+    holder = plugin.element.parent
+    of_robot = holder is not None and holder.tag == "gazebo" and not holder.get("reference")
+    tags = [tag for tag in OF_LINKS if not (of_robot and tag == _WRITTEN_ANEW)]
+    for name in plugin.values(*tags):
         if name.value in lumping.merged:
             yield finding(
                 name,
