@@ -3,7 +3,7 @@
 A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
 adds an unintended kilogram to the total. This includes links on fixed joints. A link that only
 fixed joints connect to the world never moves, so its mass does not matter. In URDF a link without
-`<inertial>` weighs nothing (URD007), and one with only a `<mass>` has no inertia.
+`<inertial>` weighs nothing (URD007), and URD012 reports what an `<inertial>` lacks.
 
 Fix: state mass, pose and inertia of the link, from CAD or the formulas for boxes and cylinders. If
 the link is only a frame, lump it into its parent.
@@ -24,25 +24,24 @@ _MOMENTS = 6
 @rule("INE001", "no-inertia", Severity.ERROR, Concern.ROBOT)
 def check(masses: MassProperties) -> Findings:
     """Report moving links without inertial, without mass or without any moment of inertia."""
-    if masses.robot.is_static:
+    if masses.robot.is_static or masses.robot.format == "urdf":
         return
     held = _held(masses.robot)
     for link in masses.robot.links:
         if link.scoped_name not in held:
-            yield from _missing(link, sdf=masses.robot.format == "sdf")
+            yield from _missing(link)
 
 
-def _missing(link: Link, *, sdf: bool) -> Iterator[Finding]:
+def _missing(link: Link) -> Iterator[Finding]:
     name = link.name.value
     inertial = link.inertial
-    taken = "the simulator uses 1 kg·m² about each axis" if sdf else "it counts as zero"
+    taken = "the simulator uses 1 kg·m² about each axis"
     if inertial is None:
-        if sdf:
-            yield finding(
-                link,
-                f"link {name!r} has no <inertial>: the simulator uses 1 kg and 1 kg·m²",
-                key="none",
-            )
+        yield finding(
+            link,
+            f"link {name!r} has no <inertial>: the simulator uses 1 kg and 1 kg·m²",
+            key="none",
+        )
     elif _left_to_the_simulator(link):
         return
     elif not any(moment.stated for moment in inertial.moments[:_MOMENTS]):
@@ -52,9 +51,8 @@ def _missing(link: Link, *, sdf: bool) -> Iterator[Finding]:
             key="no moments",
         )
     elif not inertial.mass.stated:
-        weight = "1 kg" if sdf else "no mass"
         yield finding(
-            inertial, f"link {name!r} states no <mass>: the simulator uses {weight}", key="no mass"
+            inertial, f"link {name!r} states no <mass>: the simulator uses 1 kg", key="no mass"
         )
 
 

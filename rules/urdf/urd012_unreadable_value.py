@@ -1,6 +1,6 @@
-"""A number that URDF readers cannot read, or one that is missing.
+"""A number that URDF readers cannot read, or an element or attribute that they miss.
 
-urdfdom refuses the whole robot for a joint with such a number. Of a link it drops the inertial or
+urdfdom refuses the whole robot for a joint with such a fault. Of a link it drops the inertial or
 the shape, and all that follows in the link: the robot loads, and a part has no mass or touches
 nothing. Such faults are a decimal comma, a unit, a word, `inf`, `nan`, and a blank behind a single
 number.
@@ -13,31 +13,47 @@ Source: urdfdom, `strToDouble`: nothing may follow the number; tried with check_
 from collections.abc import Iterator
 
 from checker.model.urdf.description import UrdfDescription
-from checker.model.urdf.specification import AttributeSpec, specified_elements
+from checker.model.urdf.specification import (
+    AttributeSpec,
+    lacking_elements,
+    specified_elements,
+)
 from checker.model.values import parse_number
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element
 
+_ONLY_LOOKS = ("color",)
+"""urdfdom passes over a colour that it cannot read."""
+
 
 @rule("URD012", "unreadable-urdf-value", Severity.ERROR, Concern.ROBOT)
 def check(description: UrdfDescription) -> Findings:
-    """Report attributes of links and joints that are not the numbers that URDF asks for."""
-    level = Severity.WARNING if description.for_rviz else None
+    """Report what links and joints lack, and attributes that are not the numbers they should be."""
     for element, attributes in specified_elements(description.document):
+        harmless = description.for_rviz or element.tag in _ONLY_LOOKS
+        level = Severity.WARNING if harmless else None
+        missing = [
+            name
+            for name, spec in attributes.items()
+            if spec.required and element.attribute(name) is None
+        ]
+        if missing:
+            message = f"<{element.tag}> has no {', '.join(missing)}"
+            yield finding(element, message, severity=level, key=message)
         for name, spec in attributes.items():
-            yield from _attribute(element, name, spec, level)
+            yield from _numbers(element, name, spec, level)
+    for element, what in lacking_elements(description.document):
+        message = f"<{element.tag}> has no {what}"
+        level = Severity.WARNING if description.for_rviz else None
+        yield finding(element, message, severity=level, key=message)
 
 
-def _attribute(
+def _numbers(
     element: Element, name: str, spec: AttributeSpec, level: Severity | None
 ) -> Iterator[Finding]:
     text = element.attribute(name)
-    if text is None:
-        if spec.required:
-            message = f"<{element.tag}> has no {name}"
-            yield finding(element, message, severity=level, key=f"{element.tag} {name}")
-    elif spec.numbers and (problem := _problem(text, spec.numbers)):
+    if text is not None and spec.numbers and (problem := _problem(text, spec.numbers)):
         yield finding(text, f"{name} of <{element.tag}> {problem}", severity=level)
 
 

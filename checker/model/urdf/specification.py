@@ -13,6 +13,8 @@ from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
 FIRST = "1.0"
+_GEOMETRIES = ("link/visual/geometry", "link/collision/geometry")
+_WITHOUT_AXIS = ("fixed", "floating")
 
 
 class AttributeSpec(Record):
@@ -63,8 +65,21 @@ def specified_elements(
 ) -> Iterator[tuple[Element, Mapping[str, AttributeSpec]]]:
     """Yield the elements of links and joints with what their attributes hold, in order."""
     for element, path in _below(document):
-        if path in _elements():
+        around = element.parent.get("type") if element.parent is not None else ""
+        if path in _elements() and not (path == "joint/axis" and around in _WITHOUT_AXIS):
             yield element, _elements()[path]
+
+
+def lacking_elements(document: XmlDocument) -> Iterator[tuple[Element, str]]:
+    """Yield elements without one that they need, with what it would be."""
+    spec = table("urdf_spec")
+    shapes = spec["shapes"]
+    for element, path in _below(document):
+        for tag in spec["needs"].get(path, ()):
+            if element.child(tag) is None:
+                yield element, f"<{tag}>"
+        if path in _GEOMETRIES and not any(child.tag in shapes for child in element.children[:1]):
+            yield element, f"shape: expected <{'>, <'.join(shapes)}>"
 
 
 def newer_parts(document: XmlDocument) -> Iterator[NewerPart]:
