@@ -122,6 +122,11 @@ class Context(Record):
     sdf_version: str = "1.6"
     reads: str = "1.7"
 
+    @property
+    def of_submissions(self) -> bool:
+        """Whether every model is a robot of SubT that drives by itself."""
+        return self.release == "dome"
+
 
 Check = Callable[..., Findings]
 

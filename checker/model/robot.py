@@ -128,8 +128,12 @@ class Robot(Part, dict=True):
         and hands are mounted on something, and legs fall without their controllers. So it needs
         wheels, or a plugin that drives it.
         """
-        drives = self.locomotion.kind is not DriveKind.NONE
-        return self.format == "sdf" or bool(self.wheels) or drives
+        return self.format == "sdf" or self.drives
+
+    @cached_property
+    def drives(self) -> bool:
+        """Whether it has wheels, or a plugin that drives it."""
+        return bool(self.wheels) or self.locomotion.kind is not DriveKind.NONE
 
     @cached_property
     def tree(self) -> LinkTree:

@@ -178,6 +178,12 @@ def _first_links(robot: Robot) -> dict[str, str]:
     return first
 
 
+def is_mounted(robot: Robot, name: str) -> bool:
+    """Say whether a link is the base of a robot that does not stand alone: it never moves."""
+    above = robot.tree.above.get(name, [])
+    return not robot.stands_alone and not above
+
+
 # Links that fixed joints make one rigid body.
 
 

@@ -14,12 +14,12 @@ from checker.base.record import Record
 from checker.model.components import Link, Plugin
 from checker.model.robot import Robot
 from checker.model.tree import rigid_bodies
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 
 @rule("GEO002", "part-without-collision", Severity.ERROR, Concern.ROBOT)
-def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
+def check(robot: Robot, context: Context, *, body_share: float = 0.25) -> Findings:
     """Report wheels and tracks without collision; a warning for wheels that nothing drives.
 
     Options:
@@ -32,7 +32,7 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
         yield unchecked(robot.missing_parts or robot.unread_plugins)
     if robot.links and not any(link.collisions for link in robot.links):
         if not robot.missing_parts:
-            yield _without_any(robot)
+            yield _without_any(robot, context)
         return
     for part in _driven(robot):
         if not any(link.collisions for link in part.links):
@@ -48,9 +48,9 @@ def check(robot: Robot, *, body_share: float = 0.25) -> Findings:
         yield from _bodies(robot, body_share * robot.mass)
 
 
-def _without_any(robot: Robot) -> Finding:
+def _without_any(robot: Robot, context: Context) -> Finding:
     what = "no link of the robot has a collision"
-    if robot.stands_alone:
+    if robot.drives or (robot.stands_alone and context.of_submissions):
         return finding(robot, f"{what}: the robot falls through the ground")
     return finding(robot, f"{what}: nothing touches the robot", severity=Severity.WARNING)
 

@@ -10,12 +10,8 @@ Source: SDFormat and URDF use SI units; ground and air robots of 5 cm to 10 m an
 """
 
 from checker.model.geometry.placed_shapes import placed, union
-from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
-
-_SUBMISSIONS = "dome"
-"""The release for which every model is a robot."""
 
 
 @rule("GEO014", "robot-size", Severity.WARNING, Concern.ROBOT)
@@ -36,8 +32,7 @@ def check(
         lightest: Mass of all links of the robot, kilograms; less is reported.
         heaviest: Mass of all links of the robot, kilograms; more is reported.
     """
-    drives = bool(robot.wheels) or robot.locomotion.kind is not DriveKind.NONE
-    if robot.is_static or not (drives or context.release == _SUBMISSIONS):
+    if robot.is_static or not (robot.drives or context.of_submissions):
         return
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)

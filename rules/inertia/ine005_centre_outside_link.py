@@ -12,6 +12,7 @@ Source: definition of the centre of mass; SDFormat specification, inertial/pose.
 import math
 
 from checker.model.geometry.boxes import Box
+from checker.model.tree import is_mounted
 from checker.physics.mass.link_geometry import known_box, unknown_mesh
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -51,7 +52,8 @@ def check(
         if unknown:
             yield unchecked(unknown)
         elif box is not None and box.diagonal > 0.0:
-            grave = outside > error_above * box.diagonal
+            mounted = is_mounted(masses.robot, name)
+            grave = outside > error_above * box.diagonal and not mounted
             yield finding(
                 inertial.pose,
                 f"the centre of mass of link {inertia.link.name.value!r} is {outside:.3g} m "

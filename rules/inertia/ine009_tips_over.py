@@ -14,25 +14,30 @@ import math
 
 from checker.model.components import Link
 from checker.physics.mass.mass_properties import MassProperties
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
 @rule("INE009", "tips-over", Severity.ERROR, Concern.ROBOT)
 def check(
     masses: MassProperties,
+    context: Context,
     *,
     error_below_degrees: float = 10.0,
     warning_below_degrees: float = 25.0,
+    indoors_below_degrees: float = 20.0,
 ) -> Findings:
     """Report a small tip angle; the place is the inertial of the heaviest link.
 
     Options:
         error_below_degrees: Tilt of the ground, degrees, at which the robot tips over; less is an
             error.
-        warning_below_degrees: Tilt of the ground, degrees, at which the robot tips over; less is at
-            least a warning.
+        warning_below_degrees: Tilt of the ground, degrees, at which a robot for SubT tips over;
+            less is at least a warning.
+        indoors_below_degrees: The same for other robots; an error only for those that tip over on
+            flat ground.
     """
-    if masses.robot.is_static or not masses.robot.stands_alone:
+    robot = masses.robot
+    if robot.is_static or not (robot.drives or (robot.stands_alone and context.of_submissions)):
         return
     if masses.unbalanced:
         yield unchecked(masses.unbalanced)
@@ -41,7 +46,9 @@ def check(
     if angle is None or centre is None or ground is None:
         return
     degrees = math.degrees(angle)
-    if degrees >= warning_below_degrees:
+    least = warning_below_degrees if context.of_submissions else indoors_below_degrees
+    grave = degrees < (error_below_degrees if context.of_submissions else 0.0)
+    if degrees >= least:
         return
     at = ", ".join(f"{part:.3f}" for part in centre[:2])
     height = f"{centre[2] - ground:.3g} m above the ground"
@@ -49,9 +56,9 @@ def check(
     heaviest = _heaviest(masses)
     yield finding(
         heaviest.inertial.pose if heaviest.inertial is not None else heaviest,
-        f"the robot {standing}, expected {warning_below_degrees:g}° or more: its centre of mass "
+        f"the robot {standing}, expected {least:g}° or more: its centre of mass "
         f"is at x, y = {at} m, {height}; the heaviest link is {heaviest.name.value!r}",
-        severity=Severity.ERROR if degrees < error_below_degrees else Severity.WARNING,
+        severity=Severity.ERROR if grave else Severity.WARNING,
     )
 
 

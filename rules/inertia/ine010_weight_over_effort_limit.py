@@ -16,6 +16,9 @@ from checker.model.components import Joint
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
+_NOISE = 1e-3
+"""N·m or N: less is rounding."""
+
 
 @rule("INE010", "weight-over-effort-limit", Severity.WARNING, Concern.ROBOT)
 def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
@@ -36,7 +39,7 @@ def check(masses: MassProperties, *, factor: float = 1.0) -> Findings:
         return
     for joint, torque, limit in _held(masses):
         driven = robot.format == "urdf" or joint.scoped_name in robot.driven_joints
-        if driven and abs(torque) > factor * limit:
+        if driven and abs(torque) > max(factor * limit, _NOISE):
             unit = "N" if joint.type.value == "prismatic" else "N·m"
             yield finding(
                 joint.axes[0].effort,

@@ -2,13 +2,15 @@
 
 The physics engine holds the joint by force in every step, which costs time and yields under load; a
 fixed joint costs nothing. If a plugin drives the joint, this is an error: a wheel that does not
-turn is dragged along.
+turn is dragged along. In URDF, a joint written as fixed is a warning: Gazebo merges its links, and
+the plugin finds no joint.
 
 Fix: write `type="fixed"` and remove the axis; Ignition keeps the link, its sensors and its frame. A
 joint that a plugin moves is `revolute`, with different limits or none.
 Source: SDFormat specification, joint/type.
 """
 
+from checker.model.components import Joint
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -28,10 +30,15 @@ def check(robot: Robot) -> Findings:
         yield finding(
             joint,
             f"{message}, but {plugin.class_name} drives it",
-            severity=Severity.ERROR,
+            severity=Severity.WARNING if _is_merged(robot, joint) else Severity.ERROR,
             related=[(plugin, "drives it")],
             key="driven",
         )
+
+
+def _is_merged(robot: Robot, joint: Joint) -> bool:
+    """Say whether a joint is one that Gazebo removes: its part is fixed, as its author wrote."""
+    return robot.format == "urdf" and joint.type.value == "fixed"
 
 
 def _hinge(limits: str, mark: str = "", kind: str = "revolute") -> str:

@@ -18,7 +18,8 @@ def check(robot: Robot) -> Findings:
     for link in robot.links:
         if not link.gravity.value:
             stated = link.gravity.span.text
-            message = f"gravity does not act on link {link.name.value!r}: remove the {stated}"
+            name = link.name.value
+            message = f"no gravity acts on link {name!r}, by the value {stated}: remove the setting"
             yield finding(link.gravity, message, key="gravity")
         if link.kinematic.value:
             message = (

@@ -35,8 +35,12 @@ def check(robot: Robot) -> Findings:
 
 
 def _faces_out(use: MeshUse, mesh: Mesh) -> bool:
-    """Say whether the triangles of a closed mesh face out; one that mirrors turns them over."""
-    return mesh.volume is not None and mesh.volume * math.prod(use.scale) >= 0
+    """Say whether the triangles of a closed mesh face out.
+
+    A scale that mirrors the mesh turns them over, which GEO008 reports.
+    """
+    facing = mesh.volume is not None and mesh.volume >= 0
+    return facing or (mesh.volume is not None and mesh.volume * math.prod(use.scale) >= 0)
 
 
 def _faults(use: MeshUse, mesh: Mesh) -> Iterator[str]:
@@ -68,11 +72,11 @@ _MARK = "  <!-- ^ MSH010 -->"
 GOOD = [
     {"@fragment": _collision(), "meshes/part.obj": _CLOSED},
     {"@fragment": _collision(scale="-1 1 1"), "meshes/part.obj": _INSIDE_OUT},
+    {"@fragment": _collision(scale="-1 1 1"), "meshes/part.obj": _CLOSED},
     {"@fragment": _collision().replace("collision", "visual"), "meshes/part.obj": _OPEN},
 ]
 BAD = [
     {"@fragment": _collision(_MARK), "meshes/part.obj": _OPEN},
     {"@fragment": _collision(_MARK), "meshes/part.obj": _INSIDE_OUT},
-    {"@fragment": _collision(_MARK, "-1 1 1"), "meshes/part.obj": _CLOSED},
     {"@fragment": _collision(_MARK), "meshes/part.obj": _CLOSED + "f 1 1 2\n"},
 ]

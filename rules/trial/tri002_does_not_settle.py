@@ -2,7 +2,8 @@
 
 The robot sinks, tips, jumps, slides or folds up before any command, so all later measurements mean
 nothing: how it drives is then not checked. Usually a collision is missing or tilted, parts start
-inside each other, or the inertia of a part is far too small.
+inside each other, or the inertia of a part is far too small. Outside of SubT, only
+robots that drive are judged: others may be held by what includes them.
 
 Fix: check first the collisions and inertias of the parts that touch the ground.
 Source: experience; the robot starts 10 mm above the ground and gets no command for 2 s.
@@ -10,12 +11,13 @@ Source: experience; the robot starts 10 mm above the ground and gets no command 
 
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.settling import SETTLE_LIMITS, unrest
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 
 @rule("TRI002", "does-not-settle", Severity.ERROR, Concern.ROBOT)
 def check(
     driven: RobotTrial,
+    context: Context,
     *,
     settle_drop_above: float = SETTLE_LIMITS["settle_drop"],
     settle_rise_above: float = SETTLE_LIMITS["settle_rise"],
@@ -40,6 +42,8 @@ def check(
         rest_penetration_above: Metres that the deepest contact may be in the ground in the last 0.5
             s; more is an error.
     """
+    if not (driven.robot.drives or context.of_submissions):
+        return
     if driven.unlike:
         yield unchecked(driven.unlike)
         return

@@ -28,6 +28,9 @@ LIMITED = ("prismatic", "revolute")
 def check(description: UrdfDescription) -> Findings:
     """Report what prevents a description from being read as a tree of links."""
     robot = description.robot
+    if not robot.links:
+        yield finding(robot, "the description has no link: every reader refuses it")
+        return
     optional = has_version(description.document, "1.2")
     for joint in robot.joints:
         yield from _type_and_limit(joint, optional=optional)

@@ -70,6 +70,8 @@ def _useless(tag: GazeboTag, robot: Robot) -> Iterator[Finding]:
         return
     name = tag.reference.value
     for child in tag.element.children:
+        if child.tag == "self_collide" and not tag.reference.stated:
+            continue  # becomes a part of the model
         if not tag.reference.stated and child.tag in OF_LINKS | OF_JOINTS:
             what = "a link" if child.tag in OF_LINKS else "a joint"
             message = f"<{child.tag}> is for {what}, but this <gazebo> refers to none"

@@ -69,7 +69,9 @@ def _joint(
     joint = robot.joints_by_name.get(name)
     if joint is None:
         phrase = f"moves joint {name!r}, which does not exist{names.hint(name)}"
-        yield finding(end.name, f"transmission {own!r} {phrase}")
+        used = any("control" in plugin.filename.value for plugin in robot.plugins)
+        level = None if used else Severity.WARNING
+        yield finding(end.name, f"transmission {own!r} {phrase}", severity=level)
     elif joint.type.value not in _MOVING:
         phrase = f"moves joint {name!r}, which is {joint.type.value}"
         yield finding(end.name, f"transmission {own!r} {phrase}", severity=Severity.WARNING)

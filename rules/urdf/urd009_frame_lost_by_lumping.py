@@ -8,8 +8,8 @@ URDF file.
 Fix: name the link into which it is merged; or keep the joint with `<preserveFixedJoint>true` below
 `<gazebo reference="joint">` (`<disableFixedJointLumping>` keeps only the link).
 Source: sdformat 6, parser_urdf.cc, ReduceFixedJoints: collisions become
-`parent_fixed_joint_lump__child_collision`; gazebo_ros_p3d, gazebo_ros_force and
-gazebo_ros_ft_sensor look up `bodyName`, `linkName` and `jointName` in the model.
+`parent_fixed_joint_lump__child_collision`; ReduceSDFExtensionPluginFrameReplace
+writes `bodyName` and `frameName` anew; plugins look up `linkName` and `jointName` in the model.
 """
 
 from collections.abc import Iterator
@@ -21,6 +21,8 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 OF_LINKS = ("bodyName", "linkName", "link_name", "body_name")
 """Parameters of plugins that name a link of the simulated model."""
+_WRITTEN_ANEW = "bodyName"
+"""Gazebo puts the link that is left into it, where the plugin belongs to the whole robot."""
 OF_JOINTS = ("jointName", "joint_name")
 _COLLISION = "_collision"
 
@@ -39,7 +41,10 @@ def check(description: UrdfDescription) -> Findings:
 
 
 def _names_of(plugin: Plugin, lumping: Lumping) -> Iterator[Finding]:
-    for name in plugin.values(*OF_LINKS):
+    holder = plugin.element.parent
+    of_robot = holder is not None and holder.tag == "gazebo" and not holder.get("reference")
+    tags = [tag for tag in OF_LINKS if not (of_robot and tag == _WRITTEN_ANEW)]
+    for name in plugin.values(*tags):
         if name.value in lumping.merged:
             yield finding(
                 name,
@@ -92,11 +97,12 @@ def _sensor(collision: str) -> str:
 _MARK = "  <!-- ^ URD009 -->"
 GOOD = [
     {"@urdf": _HAND + _plugin("<bodyName>upper_arm</bodyName><frameName>hand</frameName>")},
-    {"@urdf": _HAND + _KEPT + _plugin("<bodyName>hand</bodyName>")},
+    {"@urdf": _HAND + _KEPT + _plugin("<linkName>hand</linkName>")},
+    {"@urdf": _HAND + _plugin("<bodyName>hand</bodyName>")},
     {"@urdf": _HAND + _sensor("upper_arm_fixed_joint_lump__hand_collision</collision>")},
 ]
 BAD = [
-    {"@urdf": _HAND + _plugin(f"<bodyName>hand</bodyName>{_MARK}")},
+    {"@urdf": _HAND + _plugin(f"<linkName>hand</linkName>{_MARK}")},
     {"@urdf": _HAND + _plugin(f"<jointName>wrist</jointName>{_MARK}")},
     {"@urdf": _HAND + _sensor(f"hand_collision</collision>{_MARK}")},
 ]

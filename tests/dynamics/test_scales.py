@@ -48,7 +48,7 @@ def test_known_weights_are_those_that_were_found(
 def entry(tmp_path: Path) -> tuple[Cache, list[Body], Path, Weights]:
     cache = Cache(tmp_path)
     rows = ((0.1, 0.0, 0.0), (0.0, 0.2, 0.0), (0.0, 0.0, 0.25))
-    weighed = [Body(2.0, rows, Transform())]
+    weighed = [Body(2.0, rows, Transform(), "a")]
     weights = weights_of(weighed, cache)
     (file,) = tmp_path.rglob("*.json")
     return cache, weighed, file, weights
@@ -72,9 +72,9 @@ def test_it_is_the_entry_that_is_read(tmp_path: Path) -> None:
 
 def test_other_numbers_are_another_entry(tmp_path: Path) -> None:
     cache, (body,), _, weights = entry(tmp_path)
-    moved = Body(body.mass, body.moments, Transform(translation=(1.0, 0.0, 0.0)))
+    moved = Body(body.mass, body.moments, Transform(translation=(1.0, 0.0, 0.0)), "a")
     assert weights_of([moved], cache) != weights
-    two = weights_of([body, Body(1.0, body.moments, moved.pose)], cache)
+    two = weights_of([body, Body(1.0, body.moments, moved.pose, "a")], cache)
     assert two.centre == pytest.approx((1.0 / 3.0, 0.0, 0.0))
 
 

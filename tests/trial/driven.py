@@ -10,7 +10,7 @@ from checker.model.robot import Robot
 from checker.physics.trial.measures.figures import MEASURES
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.trial import Leg, Measurement, Trial
-from checker.rule import Finding, Rule
+from checker.rule import Context, Finding, Rule
 from tests.model.robots import sdf
 
 LEGS = (
@@ -60,7 +60,8 @@ def trial_of(*measurements: Measurement, **changes: Any) -> Trial:
 
 def said_by(rule: Rule, trial: Trial, robot: Robot | None = None) -> list[Finding]:
     """Return what a rule says about a trial of a rover that has no sheet."""
-    sheet = {"specification": None} if "specification" in signature(rule.check).parameters else {}
-    found = list(rule.check(RobotTrial(robot or rover(), trial), **sheet))
+    more = {"specification": None, "context": Context()}
+    asked = {name: it for name, it in more.items() if name in signature(rule.check).parameters}
+    found = list(rule.check(RobotTrial(robot or rover(), trial), **asked))
     assert all(isinstance(each, Finding) for each in found)
     return [each for each in found if isinstance(each, Finding)]

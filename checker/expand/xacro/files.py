@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from checker.base.files import NotReadable
+from checker.package.installed import source_of
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
@@ -40,17 +41,21 @@ def package_in(path: str) -> str:
 
 
 def local_path(package: Package, path: str) -> str | None:
-    """Return a path that xacro sees as the package lists it; None if no package has it."""
+    """Return a path that xacro sees as the package lists it; None if no package has it.
+
+    Where the source has no such file, it is the one that CMake installs there.
+    """
     name = package_in(path)
     rest = posixpath.normpath(path).removeprefix(f"{ROOT}/{name}").lstrip("/")
     if not name:
         return None
-    if name == package.root.name:
-        return rest
-    other = package.workspace.package(name)
-    if other is None:
+    own = name == package.root.name
+    holder = package if own else package.workspace.package(name)
+    if holder is None:
         return None
-    return rest if other is package else f"../{other.name}/{rest}"
+    if not holder.exists(rest):
+        rest = source_of(holder, rest) or rest
+    return rest if holder is package else f"../{holder.name}/{rest}"
 
 
 FILES_LIMIT = 400

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 MANAGER_PLUGIN = "gazebo_ros_control"
 GAINS = ("p", "i", "d")
+_OF_NODE = "ros__parameters"
+"""Below this key stand the parameters of the node whose name is the key above."""
 _TYPE = re.compile(r"\w{1,200}/\w{1,200}\Z")
 _JOINTS = (
     *("joint", "joints", "left_wheel", "right_wheel"),
@@ -52,7 +54,7 @@ def read_controllers(
             # Whatever stands within a controller is its own, but for absolute names.
             if value.kind != "mapping" or not name or (inside and not name.startswith("/")):
                 continue
-            full = resolve_name(name, above)
+            full = above if name == _OF_NODE else resolve_name(name, above)
             if full.endswith(f"/{MANAGER_PLUGIN}"):
                 yield from _simulator_gains(value)
                 continue
