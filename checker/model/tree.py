@@ -138,7 +138,7 @@ class _Carriers:
         first = _first_links(robot)
         for model in robot.models:
             inside = f"{model.scoped_name}::"
-            stated = model.element.get("canonical_link")
+            stated = (model.element.get("canonical_link") or "").strip()
             carrier = inside + stated if stated else first.get(inside, "")
             self.attached.setdefault(model.scoped_name, carrier)
             self.attached[f"{model.scoped_name}::{MODEL_FRAME}"] = carrier
@@ -161,7 +161,8 @@ class _Carriers:
 
 def canonical_link(robot: Robot) -> str | None:
     """Return the link that stands for the model: the one it names, else its first."""
-    return robot.element.get("canonical_link") or _first_links(robot).get("")
+    stated = (robot.element.get("canonical_link") or "").strip()
+    return stated or _first_links(robot).get("")
 
 
 def _first_links(robot: Robot) -> dict[str, str]:

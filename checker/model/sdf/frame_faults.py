@@ -81,7 +81,8 @@ def _in_world(world: Element, scopes: _Scopes) -> Iterator[Fault]:
         if child.tag not in _IN_WORLD:
             continue
         name = _name(child)
-        at, relative_to = _stated(child.attribute("attached_to")), _relative_to(child)
+        at = _stated(child.attribute("attached_to")) if child.tag == "frame" else None
+        relative_to = _relative_to(child)
         for target, what in ((at, "attached"), (relative_to, "posed relative")):
             if (
                 target is not None
