@@ -178,12 +178,6 @@ def _first_links(robot: Robot) -> dict[str, str]:
     return first
 
 
-def is_mounted(robot: Robot, name: str) -> bool:
-    """Say whether a link is the base of a robot that does not stand alone: it never moves."""
-    above = robot.tree.above.get(name, [])
-    return not robot.stands_alone and not above
-
-
 # Links that fixed joints make one rigid body.
 
 
@@ -233,3 +227,20 @@ def rigid_bodies(robot: Robot) -> RigidBodies:
     for name in robot.tree.links:
         first.setdefault(lead(name), name)
     return RigidBodies(robot.tree, {name: first[lead(name)] for name in robot.tree.links})
+
+
+def is_held(robot: Robot, name: str) -> bool:
+    """Say whether fixed joints connect a link to the world: it never moves."""
+    ties = (tie for found in _above_body(robot, name) for tie in found)
+    return any(tie.parent == WORLD and tie.joint.type.value == "fixed" for tie in ties)
+
+
+def is_mounted(robot: Robot, name: str) -> bool:
+    """Say whether a link is of the base of a robot that does not stand alone."""
+    return not robot.stands_alone and any(not found for found in _above_body(robot, name))
+
+
+def _above_body(robot: Robot, name: str) -> list[list[Tie]]:
+    """Return what each link of a link's rigid body hangs on."""
+    bodies = rigid_bodies(robot)
+    return [robot.tree.above.get(link, []) for link in bodies.links[bodies.of_link[name]]]

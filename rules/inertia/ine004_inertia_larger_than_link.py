@@ -13,7 +13,7 @@ Source: definition of the moment of inertia.
 
 import math
 
-from checker.model.tree import is_mounted
+from checker.model.tree import is_held, is_mounted
 from checker.physics.mass.link_geometry import known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -55,7 +55,7 @@ def check(
         if unknown:
             yield unchecked(unknown)
         elif reach and (ratio > warning_above or masses.share(name) > share):
-            heavy = masses.share(name) > share
+            heavy = masses.share(name) > share and not is_held(masses.robot, name)
             grave = ratio > error_above and not is_mounted(masses.robot, name)
             severity = Severity.ERROR if grave else Severity.WARNING
             yield finding(

@@ -40,6 +40,9 @@ DESCRIPTION = {"launch/description.launch": "which loads the robot description"}
 _LOADS = re.compile(r"\brobot_description\b|\bdescription\w{0,40}\.launch\b")
 
 
+_CONFIGURATION = re.compile(r"\bconfig(?:uration)?[\s_#]{1,8}(\d{1,4})\b", re.IGNORECASE)
+
+
 @rule("PKG003", "missing-file", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Report what is missing, including inherited parts in the search."""
@@ -90,8 +93,8 @@ def _describes(package: Package, sibling: Package) -> bool:
     if sibling is package or number is None or not is_same_robot(sibling.name, package.name):
         return False
     sheet = sibling.read(SHEET)
-    words = rf"\b(?:sensor[\s_]+)?config(?:uration)?[\s_#]+{number}\b"
-    return isinstance(sheet, SourceText) and re.search(words, sheet.text, re.I) is not None
+    named = _CONFIGURATION.findall(sheet.text) if isinstance(sheet, SourceText) else []
+    return number in map(int, named)
 
 
 def _missing(

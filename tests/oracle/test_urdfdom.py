@@ -73,6 +73,8 @@ def _hurt(root: Element, chance: random.Random) -> None:
     parts = [part for part in root if part.tag in ("link", "joint")]
     pairs = [(holder, child) for part in parts for holder in part.iter() for child in holder]
     pairs += [(root, part) for part in parts]
+    if not pairs:
+        return
     holder, child = chance.choice(pairs)
     kind = chance.randrange(4)
     if kind == 0:

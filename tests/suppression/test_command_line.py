@@ -51,9 +51,9 @@ def test_a_baseline_is_written_and_holds(rover: Path, capsys: pytest.CaptureFixt
     assert "suppressed: 1 finding by the baseline\n" in capsys.readouterr().out
     mend(rover, f"\n\n{TYRE}<!-- moved -->")
     assert main(chosen) == 0
-    mend(rover, f"{TYRE}</joint>{axle('<child>spare</child>', 'spare')[:-10]}")
+    mend(rover, f"{TYRE}</joint>{axle('<child>ghost</child>', 'spare')[:-10]}")
     assert main(chosen) == 1
-    assert "joint 'spare' has child 'spare'" in capsys.readouterr().out
+    assert "joint 'spare' has child 'ghost'" in capsys.readouterr().out
 
 
 def test_what_is_mended_is_asked_to_be_taken_out(
