@@ -1,8 +1,8 @@
 """Transmissions, but no plugin that uses them.
 
 Gazebo itself ignores transmissions. Without `gazebo_ros_control` there is no controller manager,
-the spawner waits for one forever, and the joints are loose. It is a warning where no launch file of
-the package starts a controller: transmissions also serve real robots, and the plugin may be in
+the spawner waits for one forever, and the joints are loose. It is information where no launch file
+of the package starts a controller: transmissions also serve real robots, and the plugin may be in
 another file.
 
 Fix: add `<gazebo><plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/></gazebo>`
@@ -32,7 +32,7 @@ def check(control: ControlSystem, context: Context) -> Findings:
             transmission,
             f"the robot has {len(control.transmissions)} transmissions, but no plugin "
             "gazebo_ros_control: nothing in Gazebo uses them",
-            severity=None if control.spawned else Severity.WARNING,
+            severity=None if control.spawned else Severity.INFO,
             key="no gazebo_ros_control",
         )
 

@@ -40,7 +40,7 @@ DESCRIPTION = {"launch/description.launch": "which loads the robot description"}
 _LOADS = re.compile(r"\brobot_description\b|\bdescription\w{0,40}\.launch\b")
 
 
-_CONFIGURATION = re.compile(r"\bconfig(?:uration)?[\s_#]{1,8}(\d{1,4})\b", re.IGNORECASE)
+_CONFIGURATION = re.compile(r"(?<![a-z])config(?:uration)?[\s_#]{1,8}(\d{1,4})\b", re.IGNORECASE)
 
 
 @rule("PKG003", "missing-file", Severity.ERROR, Concern.PAPERWORK)

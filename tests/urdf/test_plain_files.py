@@ -121,7 +121,7 @@ def test_an_interface_is_asked_of_ros_control_alone(
     )
     found = severities(checked(_BASE + leaning("boom") + motor, tmp_path))
     assert ("URD008" in found) is reported
-    assert found["CTL006"] is Severity.WARNING
+    assert found["CTL006"] is Severity.INFO
 
 
 def test_no_collision_matters_to_a_robot_that_stands(tmp_path: Path) -> None:
