@@ -24,17 +24,18 @@ def check(robot: Robot) -> Findings:
     suggestions = Suggestions(names)
     for joint in robot.joints:
         for role, end in (("parent", joint.parent), ("child", joint.child)):
-            if _exists(joint, role, end, names) or robot.may_be_included(end.value):
+            if _exists(robot, joint, role, end) or robot.may_be_included(end.value):
                 continue
             hint = suggestions.hint(end.value)
             phrase = f"{role} {end.value!r}, which does not exist" if end.value else f"no {role}"
             yield finding(end, f"joint {joint.name.value!r} has {phrase}{hint}")
 
 
-def _exists(joint: Joint, role: str, end: Located[str], names: frozenset[str]) -> bool:
-    if end.value == "world" and role == "parent":
+def _exists(robot: Robot, joint: Joint, role: str, end: Located[str]) -> bool:
+    # SDF knows the world; in URDF it is a link like any other.
+    if end.value == "world" and role == "parent" and robot.format == "sdf":
         return True
-    return joint.scope + end.value in names
+    return joint.scope + end.value in robot.attachable_names
 
 
 GOOD = [

@@ -31,6 +31,8 @@ def check(description: UrdfDescription) -> Findings:
     if not robot.links:
         yield finding(robot, "the description has no link: every reader refuses it")
         return
+    if not robot.name.value:
+        yield finding(robot, "the robot has no name: every reader refuses it")
     optional = has_version(description.document, "1.2")
     for joint in robot.joints:
         yield from _type_and_limit(joint, optional=optional)

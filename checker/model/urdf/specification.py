@@ -14,6 +14,7 @@ from checker.source.xml import Element, XmlDocument
 
 FIRST = "1.0"
 _GEOMETRIES = ("link/visual/geometry", "link/collision/geometry")
+_SEVERAL = ("visual", "collision")
 _WITHOUT_AXIS = ("fixed", "floating")
 
 
@@ -102,4 +103,12 @@ def _below(document: XmlDocument) -> Iterator[tuple[Element, str]]:
         element, path = waiting.pop()
         yield element, path
         if path.count("/") < 3:
-            waiting += [(child, f"{path}/{child.tag}") for child in reversed(element.children)]
+            waiting += [(child, f"{path}/{child.tag}") for child in reversed(_read(element))]
+
+
+def _read(parent: Element) -> list[Element]:
+    """Return the children that readers look at: the first of each tag, and all shapes."""
+    first = {child.tag: child for child in reversed(parent.children)}
+    return [
+        child for child in parent.children if child.tag in _SEVERAL or first[child.tag] is child
+    ]
