@@ -195,3 +195,24 @@ def test_what_no_release_expands_is_reported_as_the_newer_one_does(describe: Des
     files = files_of(describe({FILE: robot('<xacro:leg/><link name="a"/>')}))
     assert files.old == ()
     assert [fault.message for fault in files.faults] == ["unknown macro name: xacro:leg"]
+
+
+def loading(folder: str) -> str:
+    """Return what loads a YAML file of a folder that is not there."""
+    return (
+        f'<xacro:property name="file" value="$(find {NAME})/config/{folder}/limits.yaml"/>'
+        '<xacro:property name="limits" value="${xacro.load_yaml(file)}"/>'
+        "<link name=\"${limits['a']}\"/>"
+    )
+
+
+def test_a_file_that_another_argument_would_name_is_not_checked(describe: Describe) -> None:
+    body = '<xacro:arg name="kind" default="none"/>' + loading("$(arg kind)")
+    files = files_of(describe({FILE: robot(body)}))
+    assert not files.faults
+    assert any("another value of the argument 'kind'" in reason for reason in files.unread)
+
+
+def test_a_file_that_is_not_there_is_named(describe: Describe) -> None:
+    (fault,) = files_of(describe({FILE: robot(loading("kind"))})).faults
+    assert f"{NAME}/config/kind/limits.yaml does not exist" in fault.message

@@ -261,7 +261,17 @@ class _Expansion:
             raise _Stopped(self.fault("limit", message)) from None
 
     def _load_yaml(self, filename: str, budget: Budget) -> Any:
-        return read(self._text(xacro.abs_filename_spec(filename)), budget)
+        path = xacro.abs_filename_spec(filename)
+        try:
+            text = self._text(path)
+        except FileNotFoundError:
+            shown = path.removeprefix(f"{ROOT}/")[:200]
+            name = _argument_in(path)
+            if name is None:
+                raise xacro.XacroException(f"the file {shown} does not exist") from None
+            reason = f"needs another value of the argument {name!r}: {shown} does not exist"
+            raise _Stopped({"unread": reason}) from None
+        return read(text, budget)
 
     def _origins(self, root: Any) -> list[tuple[int, int]]:
         return [element.getUserData(_ORIGIN) or (-1, -1) for element in _elements(root)]
@@ -324,6 +334,13 @@ def _elements(root: Any) -> list[Any]:
             nodes.append(node)
             waiting.extend(reversed(node.childNodes))
     return nodes
+
+
+def _argument_in(path: str) -> str | None:
+    """Return the argument whose value is a part of a path; None if there is none."""
+    parts = set(path.removeprefix(f"{ROOT}/").split("/")[1:])
+    given = xacro.substitution_args_context.get("arg", {})
+    return next((str(name)[:80] for name, value in given.items() if str(value) in parts), None)
 
 
 def _folder_of_package(name: str) -> str:
