@@ -36,10 +36,6 @@ ABOUT_SOMETHING_MISSING = {
     "BAT005": "the minutes are worked out from the marked time",
     "SEN021": "the marked value says that the sensor is visualized",
     "URD008": "interfaces may be written with the package in front",
-    "INE009": "the centre of mass is worked out; the marked place says where it is",
-    "INE005": "the marked <inertial> is where the centre of mass stands, or could",
-    "TRI003": "the whole robot moves; the plugin that moves it is marked",
-    "TRI006": "the whole robot moves; the plugin that moves it is marked",
 }
 """Rules whose message names what is not at the marked place, and why."""
 
