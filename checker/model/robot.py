@@ -130,6 +130,10 @@ class Robot(Part, dict=True):
         """
         return self.format == "sdf" or self.drives
 
+    def is_mounted(self, name: str) -> bool:
+        """Say whether a link is of the base of a robot that does not stand alone."""
+        return not self.stands_alone and name in self.tree.base
+
     @cached_property
     def drives(self) -> bool:
         """Whether it has wheels, or a plugin that drives it."""

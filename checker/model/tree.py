@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -88,6 +88,40 @@ class LinkTree(Record, eq=False, dict=True):
             groups.setdefault(lead(name), []).append(name)
         return list(groups.values())
 
+    @cached_property
+    def rigid_bodies(self) -> RigidBodies:
+        """The links, joined where fixed joints tie them."""
+        leader = {name: name for name in self.links}
+
+        def lead(name: str) -> str:
+            while leader[name] != name:
+                leader[name] = name = leader[leader[name]]
+            return name
+
+        for tie in self.ties:
+            if _is_fixed(tie) and tie.parent != WORLD:
+                leader[lead(tie.child)] = lead(tie.parent)
+        first: dict[str, str] = {}
+        for name in self.links:
+            first.setdefault(lead(name), name)
+        return RigidBodies(self, {name: first[lead(name)] for name in self.links})
+
+    @cached_property
+    def held(self) -> frozenset[str]:
+        """Links that fixed joints connect to the world, directly or through others."""
+        fixed = (tie.child for tie in self.ties if tie.parent == WORLD and _is_fixed(tie))
+        return self._with_their_bodies(fixed)
+
+    @cached_property
+    def base(self) -> frozenset[str]:
+        """Links that hang on nothing, and those that are fixed to them."""
+        return self._with_their_bodies(name for name in self.links if name not in self.above)
+
+    def _with_their_bodies(self, names: Iterable[str]) -> frozenset[str]:
+        bodies = self.rigid_bodies
+        wanted = {bodies.of_link[name] for name in names}
+        return frozenset(name for body in wanted for name in bodies.links[body])
+
     def loops(self) -> Iterator[list[Tie]]:
         """Yield the circles in which links hang on one another, each by its first tie above."""
         done: set[str] = set()
@@ -101,6 +135,10 @@ class LinkTree(Record, eq=False, dict=True):
                 names = list(path)
                 yield [path[name] for name in names[names.index(at) :]]
             done.update(path)
+
+
+def _is_fixed(tie: Tie) -> bool:
+    return tie.joint.type.value == "fixed"
 
 
 def link_tree(robot: Robot) -> LinkTree:
@@ -209,38 +247,3 @@ class RigidBodies(Record, eq=False, dict=True):
         for link, body in self.of_link.items():
             links.setdefault(body, []).append(link)
         return links
-
-
-def rigid_bodies(robot: Robot) -> RigidBodies:
-    """Join the links that fixed joints tie."""
-    leader = {name: name for name in robot.tree.links}
-
-    def lead(name: str) -> str:
-        while leader[name] != name:
-            leader[name] = name = leader[leader[name]]
-        return name
-
-    for tie in robot.tree.ties:
-        if tie.joint.type.value == "fixed" and tie.parent != WORLD:
-            leader[lead(tie.child)] = lead(tie.parent)
-    first: dict[str, str] = {}
-    for name in robot.tree.links:
-        first.setdefault(lead(name), name)
-    return RigidBodies(robot.tree, {name: first[lead(name)] for name in robot.tree.links})
-
-
-def is_held(robot: Robot, name: str) -> bool:
-    """Say whether fixed joints connect a link to the world: it never moves."""
-    ties = (tie for found in _above_body(robot, name) for tie in found)
-    return any(tie.parent == WORLD and tie.joint.type.value == "fixed" for tie in ties)
-
-
-def is_mounted(robot: Robot, name: str) -> bool:
-    """Say whether a link is of the base of a robot that does not stand alone."""
-    return not robot.stands_alone and any(not found for found in _above_body(robot, name))
-
-
-def _above_body(robot: Robot, name: str) -> list[list[Tie]]:
-    """Return what each link of a link's rigid body hangs on."""
-    bodies = rigid_bodies(robot)
-    return [robot.tree.above.get(link, []) for link in bodies.links[bodies.of_link[name]]]

@@ -13,7 +13,6 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.components import Link, Plugin
 from checker.model.robot import Robot
-from checker.model.tree import rigid_bodies
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
@@ -57,7 +56,7 @@ def _without_any(robot: Robot, context: Context) -> Finding:
 
 def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:
     of_wheels = {link.scoped_name for part in _driven(robot) for link in part.links}
-    for body in rigid_bodies(robot).links.values():
+    for body in robot.tree.rigid_bodies.links.values():
         links = [robot.tree.links[name] for name in body if name not in of_wheels]
         mass = sum(link.mass for link in links)
         seen = [link for link in links if link.visuals]

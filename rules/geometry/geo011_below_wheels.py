@@ -12,7 +12,6 @@ Source: geometry of collisions in the robot's initial pose.
 from checker.model.geometry.placed_shapes import Placed, placed
 from checker.model.locomotion.rolling_parts import carriers, on_one_axle, rolling_parts
 from checker.model.robot import Robot
-from checker.model.tree import rigid_bodies
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
@@ -35,7 +34,7 @@ def check(robot: Robot, *, tolerance: float = 0.005, least_clearance: float = 0.
     ground = min(part.box.low[2] for part in parts)
     radius = max(part.box.high[2] - part.box.low[2] for part in parts) / 2
     rolling = {link.scoped_name for part in parts for link in part.links}
-    bodies = rigid_bodies(robot)
+    bodies = robot.tree.rigid_bodies
     carrying = {bodies.of_link[name] for name in carriers(robot, parts)}
     for link in robot.tree.links.values():
         name = link.scoped_name

@@ -13,8 +13,6 @@ Source: SDFormat specification, link/inertial: the defaults.
 from collections.abc import Iterator
 
 from checker.model.components import Link
-from checker.model.robot import Robot
-from checker.model.tree import WORLD
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
@@ -26,9 +24,8 @@ def check(masses: MassProperties) -> Findings:
     """Report moving links without inertial, without mass or without any moment of inertia."""
     if masses.robot.is_static or masses.robot.format == "urdf":
         return
-    held = _held(masses.robot)
     for link in masses.robot.links:
-        if link.scoped_name not in held:
+        if link.scoped_name not in masses.robot.tree.held:
             yield from _missing(link)
 
 
@@ -60,23 +57,6 @@ def _left_to_the_simulator(link: Link) -> bool:
     """Whether SDF 1.11 computes the inertia from shapes and density, as the model asks."""
     element = link.element.child("inertial")
     return element is not None and (element.get("auto") or "").strip().lower() in ("1", "true")
-
-
-def _held(robot: Robot) -> set[str]:
-    """Return the links that fixed joints connect to the world, directly or through others."""
-    fixed: dict[str, list[str]] = {}
-    for tie in robot.tree.ties:
-        if tie.joint.type.value == "fixed":
-            fixed.setdefault(tie.parent, []).append(tie.child)
-            fixed.setdefault(tie.child, []).append(tie.parent)
-    held = {WORLD}
-    waiting = [WORLD]
-    while waiting:
-        for name in fixed.get(waiting.pop(), []):
-            if name not in held:
-                held.add(name)
-                waiting.append(name)
-    return held
 
 
 _INERTIA = "<inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia>"

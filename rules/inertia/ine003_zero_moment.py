@@ -8,7 +8,6 @@ Fix: state the moments of the part itself, or of a small box of its size: m/12·
 Source: MuJoCo documentation, body/inertial: the inertia of moving bodies must be positive.
 """
 
-from checker.model.tree import rigid_bodies
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -24,7 +23,7 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
     """
     if masses.robot.is_static:
         return
-    body = rigid_bodies(masses.robot).of_link
+    body = masses.robot.tree.rigid_bodies.of_link
     sound = {body[name] for name, link in masses.links.items() if not _zero(link, least, relative)}
     for name, inertia in masses.links.items():
         if inertia.link.inertial is None or not _possible(inertia):

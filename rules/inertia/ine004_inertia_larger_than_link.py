@@ -13,7 +13,6 @@ Source: definition of the moment of inertia.
 
 import math
 
-from checker.model.tree import is_held, is_mounted
 from checker.physics.mass.link_geometry import known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -55,8 +54,8 @@ def check(
         if unknown:
             yield unchecked(unknown)
         elif reach and (ratio > warning_above or masses.share(name) > share):
-            heavy = masses.share(name) > share and not is_held(masses.robot, name)
-            grave = ratio > error_above and not is_mounted(masses.robot, name)
+            heavy = masses.share(name) > share and name not in masses.robot.tree.held
+            grave = ratio > error_above and not masses.robot.is_mounted(name)
             severity = Severity.ERROR if grave else Severity.WARNING
             yield finding(
                 inertia.moments_span,

@@ -12,7 +12,6 @@ Source: definition of the centre of mass; SDFormat specification, inertial/pose.
 import math
 
 from checker.model.geometry.boxes import Box
-from checker.model.tree import is_mounted
 from checker.physics.mass.link_geometry import known_box, unknown_mesh
 from checker.physics.mass.mass_properties import MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -52,7 +51,7 @@ def check(
         if unknown:
             yield unchecked(unknown)
         elif box is not None and box.diagonal > 0.0:
-            mounted = is_mounted(masses.robot, name)
+            mounted = masses.robot.is_mounted(name)
             grave = outside > error_above * box.diagonal and not mounted
             yield finding(
                 inertial.pose,

@@ -14,7 +14,6 @@ Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 8
 
 from collections.abc import Iterator
 
-from checker.model.tree import rigid_bodies
 from checker.physics.mass.link_geometry import not_looked_at, volume_bounds
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -76,7 +75,7 @@ def check(
 
 def _carried(masses: MassProperties) -> set[str]:
     """Return the links that are fixed to a heavier one: it may hold the mass of both."""
-    bodies = rigid_bodies(masses.robot)
+    bodies = masses.robot.tree.rigid_bodies
     heaviest = {
         body: max(masses.links[name].mass for name in names) for body, names in bodies.links.items()
     }

@@ -10,7 +10,7 @@ Source: general experience with iterative contact solvers; the ratio is a starti
 
 from collections.abc import Iterator
 
-from checker.model.tree import WORLD, Tie, rigid_bodies
+from checker.model.tree import WORLD, Tie
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mass.mechanism import SpanningTree, spanning_tree_of
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
@@ -29,7 +29,7 @@ def check(masses: MassProperties, *, ratio: float = 1e4, share: float = 0.001) -
     if masses.robot.is_static:
         return
     spanning_tree = spanning_tree_of(masses.robot)
-    body = rigid_bodies(masses.robot).of_link
+    body = masses.robot.tree.rigid_bodies.of_link
     weight = dict.fromkeys(body.values(), 0.0)
     for name, inertia in masses.links.items():
         weight[body[name]] += max(inertia.mass, 0.0)

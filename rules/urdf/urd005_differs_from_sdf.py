@@ -11,7 +11,6 @@ Source: Model Migration Guide: the URDF file is converted from the SDF model, so
 from collections.abc import Iterator
 
 from checker.model.robot import Robot
-from checker.model.tree import rigid_bodies
 from checker.model.urdf.description import UrdfDescription
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
@@ -66,7 +65,7 @@ class _Bodies:
     """The links of a robot by their plain names, and their fixed joints."""
 
     def __init__(self, robot: Robot) -> None:
-        bodies = rigid_bodies(robot)
+        bodies = robot.tree.rigid_bodies
         self.links = {_plain(link.scoped_name): link for link in robot.links}
         self._body = {_plain(name): body for name, body in bodies.of_link.items()}
         self._mass: dict[str, float] = {}

@@ -13,7 +13,7 @@ from checker.model.geometry.boxes import close_pairs
 from checker.model.geometry.convex import face_directions, overlap_depth
 from checker.model.geometry.placed_shapes import Placed, placed
 from checker.model.mesh import Mesh
-from checker.model.tree import RigidBodies, rigid_bodies
+from checker.model.tree import RigidBodies
 
 if TYPE_CHECKING:
     from checker.model.robot import Robot
@@ -54,7 +54,7 @@ def interpenetrations(robot: Robot, depth: float) -> Iterator[Inside]:
         for piece in placed(robot, link, link.collisions)
         if is_convex(robot, piece)
     ]
-    bodies = rigid_bodies(robot)
+    bodies = robot.tree.rigid_bodies
     tied = _tied(robot, bodies)
     wheels = {link.scoped_name for link in robot.wheels}
     pairs: set[tuple[str, str]] = set()

@@ -15,7 +15,7 @@ from checker.base.resources import version_of
 from checker.model.components import Joint, Link
 from checker.model.geometry.transform import Transform, Vector
 from checker.model.robot import Robot
-from checker.model.tree import WORLD, rigid_bodies
+from checker.model.tree import WORLD
 from checker.physics.mass.balance import Stand, leaning_tip_angle, stand_of, tip_angle
 from checker.physics.mass.inertia import (
     inertial_pose,
@@ -235,7 +235,7 @@ def weigh(robot: Robot, cache: Cache = NO_CACHE) -> MassProperties:
         robot: What is weighed.
         cache: Where weights are kept.
     """
-    pieces = rigid_bodies(robot).of_link
+    pieces = robot.tree.rigid_bodies.of_link
     bodies = [
         Body(link.mass, rows_of(link), inertial_pose(robot, link), pieces[name])
         for name, link in robot.tree.links.items()
