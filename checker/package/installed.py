@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Iterator
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from checker.source.cmake import Install, read_cmake
-from checker.source.text import SourceText
+from checker.source.cmake import CMakeFile, Install
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -25,7 +23,7 @@ def source_of(package: Package, path: str) -> str | None:
     """
     if path.startswith(".."):
         return None
-    for target, origin in _installed(package):
+    for target, origin in package.installed:
         if target in (path, ".") or path.startswith(f"{target}/"):
             found = posixpath.normpath(posixpath.join(origin, posixpath.relpath(path, target)))
             if package.exists(found):
@@ -33,19 +31,13 @@ def source_of(package: Package, path: str) -> str | None:
     return None
 
 
-def _installed(package: Package) -> tuple[tuple[str, str], ...]:
-    source = package.read("CMakeLists.txt")
-    return _pairs(source) if isinstance(source, SourceText) else ()
+def installed_items(build: CMakeFile) -> Iterator[tuple[str, str]]:
+    """Yield where files and folders go, below the installed package, and where they come from."""
+    for install in build.installs:
+        yield from _items(install)
 
 
-@lru_cache(maxsize=16)
-def _pairs(source: SourceText) -> tuple[tuple[str, str], ...]:
-    installs = read_cmake(source).installs
-    return tuple(pair for install in installs for pair in _of(install))
-
-
-def _of(install: Install) -> Iterator[tuple[str, str]]:
-    """Yield where the items of a call go, and where they come from."""
+def _items(install: Install) -> Iterator[tuple[str, str]]:
     if install.kind not in ("DIRECTORY", "FILES") or not install.destination.startswith(_SHARE):
         return
     below = install.destination.removeprefix(_SHARE).partition("/")[2]

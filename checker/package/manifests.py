@@ -7,8 +7,8 @@ from functools import cached_property
 from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.package.package import Package
-from checker.source.cmake import CMakeFile, read_cmake
-from checker.source.text import Located, SourceText, Span
+from checker.source.cmake import CMakeFile
+from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 from checker.source.xml_positions import XmlFault
 
@@ -202,8 +202,7 @@ class Paperwork(Record, eq=False, dict=True):
         document = self.package.xml("model.config")
         return read_model_config(document) if isinstance(document, XmlDocument) else None
 
-    @cached_property
+    @property
     def build(self) -> CMakeFile | None:
         """CMakeLists.txt; None when it is missing or no text."""
-        source = self.package.read("CMakeLists.txt")
-        return read_cmake(source) if isinstance(source, SourceText) else None
+        return self.package.build

@@ -28,6 +28,7 @@ from checker.package.inheritance import (
     find_part,
     inherited_parts,
 )
+from checker.package.installed import installed_items
 from checker.package.kind import PackageKind, kind_of
 from checker.package.mentions import mentioned_names
 from checker.package.model_file import own_model
@@ -39,6 +40,7 @@ from checker.package.references import (
 )
 from checker.package.unused_model import unused_model
 from checker.package.walk import build_index, entry_at
+from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.text import SourceText
 from checker.source.text_file import read_text
 from checker.source.xml import XmlDocument, parse_xml
@@ -179,6 +181,17 @@ class Package(Record, eq=False, dict=True):
             source = self.read(path)
             self._documents[path] = source if isinstance(source, NotReadable) else parse_xml(source)
         return self._documents[path]
+
+    @cached_property
+    def build(self) -> CMakeFile | None:
+        """CMakeLists.txt; None when it is missing or no text."""
+        source = self.read("CMakeLists.txt")
+        return read_cmake(source) if isinstance(source, SourceText) else None
+
+    @cached_property
+    def installed(self) -> tuple[tuple[str, str], ...]:
+        """Where CMake installs files and folders, and where they come from."""
+        return tuple(installed_items(self.build)) if self.build else ()
 
     @cached_property
     def xml_files(self) -> tuple[str, ...]:
