@@ -140,11 +140,11 @@ class ShapeWriter:
         self, body: Body, part: PartOfBody, shape: Collision | Visual, kind: str, count: int
     ) -> str:
         """Name a shape as Gazebo's parser does; what states a name keeps it."""
-        own = shape.name.value if shape.name.stated else ""
-        own = own or self.naming.local(part.link.name.value)
+        stated = shape.name.value if shape.name.stated else ""
+        own = stated or self.naming.local(part.link.name.value)
         if part.link is not body.link:
             own = f"{self.naming.local(body.link.name.value)}{_LUMP}{own}"
-        elif shape.name.stated and shape.name.value:
+        elif stated:
             return own
         stem = own if own.endswith(f"_{kind}") else f"{own}_{kind}"
         return f"{stem}_{count}" if count else stem

@@ -53,7 +53,7 @@ class ValueReader:
         for word, span in _words(text):
             value = parse_number(word)
             if value is None:
-                self.fault(FaultKind.VALUE, span, f"{_short(word)!r} is not a number")
+                self.fault(FaultKind.VALUE, span, f"{short(word)!r} is not a number")
             read.append(Located(0.0 if value is None else value, span))
         return tuple(read)
 
@@ -122,7 +122,7 @@ class ValueReader:
         self.fault(
             FaultKind.VALUE,
             child.text.span,
-            f"<{tag}> is {_short(child.text.value)!r}, expected true or false",
+            f"<{tag}> is {short(child.text.value)!r}, expected true or false",
         )
         return Located(default, child.text.span, stated=False)
 
@@ -160,5 +160,6 @@ def _words(text: Located[str]) -> list[tuple[str, Span]]:
     ]
 
 
-def _short(text: str) -> str:
+def short(text: str) -> str:
+    """Return a text, or its beginning when it is longer than a message can show."""
     return text if len(text) <= 40 else text[:37] + "..."

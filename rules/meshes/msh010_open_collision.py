@@ -39,8 +39,8 @@ def _faces_out(use: MeshUse, mesh: Mesh) -> bool:
 
     A scale that mirrors the mesh turns them over, which GEO008 reports.
     """
-    facing = mesh.volume is not None and mesh.volume >= 0
-    return facing or (mesh.volume is not None and mesh.volume * math.prod(use.scale) >= 0)
+    volume = mesh.volume
+    return volume is not None and (volume >= 0 or volume * math.prod(use.scale) >= 0)
 
 
 def _faults(use: MeshUse, mesh: Mesh) -> Iterator[str]:

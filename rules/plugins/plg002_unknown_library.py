@@ -23,8 +23,6 @@ from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
-_SUBMISSIONS = "dome"
-
 
 @rule("PLG002", "unknown-plugin-library", Severity.ERROR, Concern.INTERFACE)
 def check(robot: Robot, package: Package, context: Context) -> Findings:
@@ -37,15 +35,15 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
         return
     lenders = lenders_of(package)
     known = lenders.libraries() | of_release.keys()
-    absent = lenders.unknown
     suggestions = Suggestions(sorted(known))
     for plugin in robot.all_plugins:
         stem = library_stem(plugin.filename.value)
         if not stem or stem in known or classic_plugin(stem) is not None:
             continue
-        if absent:
+        if lenders.unknown:
             yield unchecked(
-                f"{plugin.filename.value} may come from {', '.join(absent)}, which is not available"
+                f"{plugin.filename.value} may come from {', '.join(lenders.unknown)}, which is not "
+                "available"
             )
             continue
         yield finding(
@@ -64,7 +62,7 @@ def _must_be_there(stem: str, context: Context) -> bool:
     Submissions bring nothing along. Elsewhere, libraries of other packages are found by the
     simulator's paths; only those that bear Gazebo's own name are expected to be its own.
     """
-    return context.release == _SUBMISSIONS or stem.startswith(("ignition-gazebo-", "gz-sim-"))
+    return context.of_submissions or stem.startswith(("ignition-gazebo-", "gz-sim-"))
 
 
 _CMAKE = """project(acme_rover_sensor_config_1)

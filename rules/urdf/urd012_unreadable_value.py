@@ -18,7 +18,7 @@ from checker.model.urdf.specification import (
     lacking_elements,
     specified_elements,
 )
-from checker.model.values import parse_number
+from checker.model.values import parse_number, short
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import Element
@@ -63,7 +63,7 @@ def _problem(text: Located[str], count: int) -> str:
     for word in words:
         value = parse_number(word)
         if value is None:
-            return f"holds {_short(word)!r}, which is not a number"
+            return f"holds {short(word)!r}, which is not a number"
         if value in (float("inf"), float("-inf")):
             return f"is {word}, which URDF readers refuse; expected a finite number"
     if len(words) != count:
@@ -72,10 +72,6 @@ def _problem(text: Located[str], count: int) -> str:
     if count == 1 and text.value != text.value.rstrip():
         return "ends with a blank, which URDF readers refuse"
     return ""
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= 40 else text[:37] + "..."
 
 
 _MOMENTS = 'ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"'
