@@ -6,7 +6,6 @@ import os
 import signal
 import zipfile
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from pathlib import Path
 from time import sleep
 
@@ -57,11 +56,13 @@ def read_by(module: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_one_that_dies_is_replaced(tmp_path: Path) -> None:
     before = {*tasks(), *launchers()}
     looked, path = ArchiveIndexes(), archive(tmp_path, "p/package.xml")
+    looked.start()
+    assert eventually(lambda: len({*tasks()} - before) == 4)  # each starts a moment later
     looked.check(path, "a.zip")
+    assert eventually(lambda: len({*tasks()} - before) == 3)  # and ends a moment later
     waiting = {*tasks()} - before
     for each in waiting:
-        with suppress(ProcessLookupError):  # the one that has read is just ending
-            os.kill(each, signal.SIGKILL)
+        os.kill(each, signal.SIGKILL)
     assert eventually(lambda: not any(map(is_alive, waiting)))
     for _ in range(3):
         with pytest.raises(UnreadableInput, match="has an index that cannot be read"):
