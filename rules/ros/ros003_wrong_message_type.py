@@ -18,7 +18,7 @@ from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, by_topic, channels
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}
 _RANGE = "sensor_msgs/Range"
@@ -26,12 +26,12 @@ _VECTOR, _SINGLE = "ignition.msgs.Pose_V", "ignition.msgs.Pose"
 
 
 @rule("ROS003", "wrong-message-type", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, launch: LaunchGraph) -> Findings:
+def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     """Report bridges whose types or direction do not fit their topic."""
     for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):
         if reason:
             yield unchecked(reason)
-    ends = _ends(robot)
+    ends = _ends(robot, context.release)
     bridged = by_topic(launch.bridges)
     for topic, bridges in bridged.items():
         here = ends.get(topic, ())
@@ -43,10 +43,10 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
             yield finding(bridges[0], f"{_named(bridges[0])} {fault}", key="one row of many")
 
 
-def _ends(robot: Robot) -> dict[str, list[Channel]]:
+def _ends(robot: Robot, release: str) -> dict[str, list[Channel]]:
     """Return the robot's channels of each topic; several plugins may share one."""
     ends: dict[str, list[Channel]] = defaultdict(list)
-    for channel in channels(robot):
+    for channel in channels(robot, release):
         for topic in channel.topics:
             ends[topic].append(channel)
     return ends

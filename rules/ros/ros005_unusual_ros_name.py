@@ -18,7 +18,7 @@ from checker.expand.launch.graph import LaunchGraph
 from checker.expand.spawner.reader import SAMPLE_NAME
 from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, channels, comparable
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _NAMESPACE = f"/{SAMPLE_NAME}/"
 _WORDS: Mapping[str, re.Pattern[str]] = {
@@ -30,12 +30,14 @@ _LONGEST = 100
 
 
 @rule("ROS005", "unusual-ros-name", Severity.WARNING, Concern.INTERFACE)
-def check(robot: Robot, launch: LaunchGraph) -> Findings:
+def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     """Report names of bridged topics that do not follow the patterns."""
     for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):
         if reason:
             yield unchecked(reason)
-    known = {topic: channel for channel in channels(robot) for topic in channel.topics}
+    known = {
+        topic: channel for channel in channels(robot, context.release) for topic in channel.topics
+    }
     for bridge in launch.bridges:
         # The args of a template say where a name starts, not how it goes on.
         if bridge.node.assumed_from or "$(" in bridge.ros_topic:
