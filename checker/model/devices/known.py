@@ -35,6 +35,11 @@ class KnownDevices(Record, eq=False):
             text: Its first 500 characters count.
             types: Types of `<sensor>`; devices that none of them may stand for do not count.
         """
+        named = self.all_named_in(text, types)
+        return named[0] if len(named) == 1 else None
+
+    def all_named_in(self, text: str, types: Iterable[str] | None = None) -> list[Device]:
+        """Return all devices that running text names; see `named_in`."""
         wanted = None if types is None else frozenset(types)
         named: list[tuple[Device, int, int]] = []
         for device in self.devices:
@@ -47,7 +52,7 @@ class KnownDevices(Record, eq=False):
             # What overlaps is another reading of the same words, and the first one counts.
             if not any(start < other_end and first < end for _, first, other_end in named):
                 named.append((device, start, end))
-        return named[0][0] if len(named) == 1 else None
+        return [device for device, _, _ in named]
 
     def named(self, name: str, types: Iterable[str] | None = None) -> Device | None:
         """Return the device in a name such as `front_vlp16_link`; see `named_in`."""
