@@ -153,6 +153,16 @@ def test_the_only_device_of_a_class_in_the_rest_of_the_sheet_counts() -> None:
     assert found(sensor("scan"), by=sheet(plain, below=two)) == {}
 
 
+def test_the_rest_of_the_sheet_names_the_model_of_a_family() -> None:
+    listed = "FLIR Blackfly S, modeled by camera plugin"
+    link = "## Links\n\n[camera](https://www.flir.com/?model=BFS-U3-88S6C-C)\n"
+    assert found(sensor("eye", "camera"), by=sheet(listed)) == {"eye": "flir_blackfly_s"}
+    by = sheet(listed, below=link)
+    assert found(sensor("eye", "camera"), by=by) == {"eye": "flir_by_code bfs-u3-88s6c"}
+    other = sheet(listed, below=link + "\n[the other](https://www.flir.com/?model=BFS-U3-23S3C)\n")
+    assert found(sensor("eye", "camera"), by=other) == {"eye": "flir_blackfly_s"}
+
+
 def test_the_rest_of_the_sheet_does_not_overrule_the_list() -> None:
     for item in ("Livox Mid-70 lidar, modeled by gpu_lidar", "Ouster OS0 lidar"):
         assert "velodyne_vlp16" not in found(sensor("scan"), by=sheet(item, below=LINKS)).values()

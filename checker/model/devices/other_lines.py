@@ -36,10 +36,10 @@ def devices_in_other_lines(
         known: Devices to look for.
         configurations: Lines, and sections by their headings, that speak of others are left out.
     """
-    named: dict[Device, NamedDevice] = {}
+    named: dict[str, NamedDevice] = {}
     for words in _lines(sheet, configurations):
         for device in known.all_named_in(words.value):
-            named.setdefault(device, NamedDevice(device, words))
+            named.setdefault(device.id, NamedDevice(device, words))
     return tuple(named.values())
 
 

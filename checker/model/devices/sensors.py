@@ -21,7 +21,7 @@ from checker.model.devices.lidar_class import (
     class_of_kind,
     class_of_sensor,
 )
-from checker.model.devices.other_lines import devices_in_other_lines
+from checker.model.devices.other_lines import NamedDevice, devices_in_other_lines
 from checker.model.robot import Robot
 from checker.model.specification.sensor_kinds import TYPES
 from checker.model.specification.sensors import ListedSensor
@@ -77,8 +77,9 @@ def find_sensor_devices(
     if sheet is None:
         return SensorDevices(tuple(_decided(sensors, [])))
     items = list(_items(sheet, known, configurations))
-    decided = list(_decided(sensors, items))
-    decided += _by_other_lines(sensors, items, decided, sheet, known, configurations)
+    others = devices_in_other_lines(sheet, known, configurations)
+    decided = [_of_family(device, others) for device in _decided(sensors, items)]
+    decided += _by_other_lines(sensors, items, decided, others)
     section = sheet.section("diversions")
     paragraphs = section.passages[:PASSAGES_LIMIT] if section is not None else ()
     return SensorDevices(tuple(decided), tuple(paragraph.words for paragraph in paragraphs))
@@ -211,9 +212,7 @@ def _by_other_lines(
     sensors: Sequence[_Named],
     items: Sequence[_Item],
     decided: Iterable[SensorDevice],
-    sheet: Specification,
-    known: KnownDevices,
-    configurations: Set[int],
+    others: Sequence[NamedDevice],
 ) -> Iterator[SensorDevice]:
     """Yield the sensors for which one device alone is named outside the list of sensors."""
     taken = {each.sensor for each in decided}
@@ -222,17 +221,25 @@ def _by_other_lines(
         for named in sensors
         if named.sensor not in taken and named.device is None and _is_seen_with(named.sensor)
     ]
-    if not left:
-        return
-    listed = {item.device for item in items}
-    others = devices_in_other_lines(sheet, known, configurations)
+    listed = {item.device.id for item in items if item.device is not None}
     for named in left:
         fitting = [each for each in others if _may_stand_for(each.device, named)]
-        if len(fitting) != 1 or fitting[0].device in listed:
+        if len(fitting) != 1 or fitting[0].device.id in listed:
             continue
         alike = [other for other in left if _may_stand_for(fitting[0].device, other)]
         if len({_settings(other.sensor) for other in alike}) == 1 and not _has_other(items, named):
             yield SensorDevice(named.sensor, fitting[0].device, fitting[0].words, from_sheet=True)
+
+
+def _of_family(known: SensorDevice, others: Sequence[NamedDevice]) -> SensorDevice:
+    """Return the one device of a family whose type code the rest of the sheet names, if any."""
+    if not known.from_sheet or known.names_the_model:
+        return known
+    maker = known.device.name.split()[0]
+    coded = [o for o in others if o.device.code and o.device.name.split()[0] == maker]
+    if len(coded) != 1 or not coded[0].device.sdf_types & known.device.sdf_types:
+        return known
+    return SensorDevice(known.sensor, coded[0].device, coded[0].words, from_sheet=True)
 
 
 def _is_seen_with(sensor: Sensor) -> bool:
