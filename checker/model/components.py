@@ -10,6 +10,7 @@ from checker.base.record import Record
 from checker.model.geometry.shapes import Geometry, Material
 from checker.model.geometry.transform import Transform
 from checker.model.lights import Attenuation, read_attenuation
+from checker.model.plugin_library import library_stem
 from checker.model.sensing.camera import Camera, read_camera
 from checker.model.sensing.imu import Imu, read_imu
 from checker.model.sensing.kind import SensorType, sensor_type
@@ -117,6 +118,12 @@ class Plugin(Part):
     def class_name(self) -> str:
         """Last word of the class: `DiffDrive` of `ignition::gazebo::systems::DiffDrive`."""
         return self.name.value.rsplit("::", 1)[-1]
+
+    @property
+    def called(self) -> str:
+        """What a message calls it: its class, or its library where the name is free to choose."""
+        library = "" if "::" in self.name.value else library_stem(self.filename.value)
+        return library or self.class_name
 
     def values(self, *tags: str) -> list[Located[str]]:
         """Return the texts of all elements of these names, at any depth."""

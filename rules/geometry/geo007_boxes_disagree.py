@@ -39,7 +39,8 @@ def check(
     """
     wheels = {link.scoped_name for link in robot.wheels}
     exempt = {rotor.link.scoped_name for rotor in robot.locomotion.rotors if rotor.link}
-    exempt |= {w.link.scoped_name for w in robot.locomotion.wheels if stands_askew(robot, w)}
+    rolling = (*robot.locomotion.wheels, *robot.locomotion.undriven)
+    exempt |= {w.link.scoped_name for w in rolling if stands_askew(robot, w)}
     least_mass = mass_share * robot.mass if not robot.unweighed else math.inf
     for link in robot.links:
         name = link.scoped_name

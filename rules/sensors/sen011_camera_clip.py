@@ -8,7 +8,7 @@ holds for the colour picture, and for depth too unless `<depth_camera><clip>` sa
 
 Fix: write near below far; `<depth_camera><clip><far>10` for depth and `<clip><far>300` for the
 picture; `<clip><far>100` for thermal cameras.
-Source: SDFormat specification, camera/clip; gz-sensors, RgbdCameraSensor: both pictures are rendered
+Source: SDFormat specification, camera/clip; gz-sensors, RgbdCameraSensor: both pictures are drawn
 within `<clip>`, then depth is cut at that of `<depth_camera>`; SubT review findings
 (`subt_standards.json`: rgbd, thermal).
 """
