@@ -106,9 +106,16 @@ def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[
 
 
 def _against_its_side(wheels: Sequence[Wheel], least_cosine: float) -> Iterator[Finding]:
-    """Report wheels that no plugin drives and that turn against most others of their side."""
+    """Report wheels that no plugin drives and that turn against most others of their side.
+
+    Which way the axis of a caster or of a swerve drive points says nothing.
+    """
     for side in Side:
-        along = [(_dot(w.axis, _LEFT), w) for w in wheels if w.side is side and w.axis is not None]
+        along = [
+            (_dot(wheel.axis, _LEFT), wheel)
+            for wheel in wheels
+            if wheel.side is side and wheel.axis is not None and wheel.steering is None
+        ]
         leftward = [wheel for cosine, wheel in along if cosine >= least_cosine]
         rightward = [wheel for cosine, wheel in along if cosine <= -least_cosine]
         fewer, more = sorted((rightward, leftward), key=len)

@@ -235,7 +235,8 @@ class Locomotion(Record, eq=False):
 
     Attributes:
         undriven: Of a robot that no plugin drives, the links that are called wheels and turn
-            freely about an axis that lies; the side is the one that they stand on.
+            freely about an axis that lies. The side is the one that they stand on; casters are
+            steered.
     """
 
     kind: DriveKind

@@ -18,21 +18,22 @@ if TYPE_CHECKING:
 _LIES = 0.5
 """Cosine of the angle between an axis and the vertical, above which it is none to roll about."""
 
+_PARTS = 8
+"""Links fixed to each other between a wheel and what it swivels with; a caster's fork is one."""
+
 
 def undriven_wheels(robot: Robot) -> Iterator[Wheel]:
     """Yield links that are called wheels and turn freely about an axis that lies.
 
-    Wheels of casters and of swerve drives are left out: they turn freely about an upright axis
-    too, and which way their own axes point says nothing.
+    Casters and swerve drives turn freely about an upright axis too: that joint steers them.
     """
     reader = WheelReader(robot)
     called = {link.scoped_name for link in robot.wheels}
     for tie in robot.tree.ties:
         if tie.child not in called or not _turns_freely(tie.joint):
             continue
-        if _hangs_on_one_that_turns(robot, tie.parent):
-            continue
-        wheel = reader.below(tie.joint, Side.LEFT, {})
+        pivot = _pivot(robot, tie.parent)
+        wheel = reader.below(tie.joint, Side.LEFT, {tie.parent: pivot} if pivot else {})
         if wheel is None or wheel.axis is None or wheel.centre is None:
             continue
         if abs(wheel.axis[2]) <= _LIES:
@@ -40,15 +41,16 @@ def undriven_wheels(robot: Robot) -> Iterator[Wheel]:
             yield wheel if left else replace(wheel, side=Side.RIGHT)
 
 
-def _hangs_on_one_that_turns(robot: Robot, link: str) -> bool:
-    """Say whether the first joint above a link that moves turns without end."""
-    seen: set[str] = set()
-    while link not in seen and (above := robot.tree.above.get(link)):
-        seen.add(link)
+def _pivot(robot: Robot, link: str) -> Joint | None:
+    """Return the first joint above a link that moves, if it turns without end."""
+    for _ in range(_PARTS):
+        above = robot.tree.above.get(link)
+        if not above:
+            return None
         if above[0].joint.type.value != "fixed":
-            return _turns_freely(above[0].joint)
+            return above[0].joint if _turns_freely(above[0].joint) else None
         link = above[0].parent
-    return False
+    return None
 
 
 def _turns_freely(joint: Joint) -> bool:
