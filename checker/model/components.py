@@ -9,7 +9,7 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.model.geometry.shapes import Geometry, Material
 from checker.model.geometry.transform import Transform
-from checker.model.lights import Attenuation, read_attenuation
+from checker.model.lights import Attenuation, Beam, read_attenuation, read_beam
 from checker.model.plugin_library import library_stem
 from checker.model.sensing.camera import Camera, read_camera
 from checker.model.sensing.imu import Imu, read_imu
@@ -203,6 +203,11 @@ class Light(Part, dict=True):
     def attenuation(self) -> Attenuation | None:
         """How it grows weaker with distance; None when it does not say."""
         return read_attenuation(self.element)
+
+    @cached_property
+    def beam(self) -> Beam | None:
+        """The cone that it shines in; None for one that shines all around."""
+        return read_beam(self.element)
 
     @cached_property
     def casts_shadows(self) -> bool:
