@@ -31,7 +31,7 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):
         if reason:
             yield unchecked(reason)
-    ends = _ends(robot)
+    ends = _ends(robot, context.release)
     bridged = by_topic(launch.bridges)
     for topic, bridges in bridged.items():
         here = ends.get(topic, ())
@@ -43,10 +43,10 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
             yield finding(bridges[0], f"{_named(bridges[0])} {fault}", key="one row of many")
 
 
-def _ends(robot: Robot) -> dict[str, list[Channel]]:
+def _ends(robot: Robot, release: str) -> dict[str, list[Channel]]:
     """Return the robot's channels of each topic; several plugins may share one."""
     ends: dict[str, list[Channel]] = defaultdict(list)
-    for channel in channels(robot):
+    for channel in channels(robot, release):
         for topic in channel.topics:
             ends[topic].append(channel)
     return ends
