@@ -16,6 +16,11 @@ NAME_IN_PATH = re.compile(
 TEMPLATE = re.compile(r"\bThe (\w{1,100}_\w{1,100}) package\b", re.I)
 """The description that `catkin_create_pkg` writes."""
 
+NUMBERED = r"(?:sensor[\s_]+)?config(?:uration)?[\s_#]+(\d{1,3})\b(?!\s*(?:to|and|-|,|&|or)\s*\d)"
+"""A configuration by its number, in plain words: `Sensor Config 1`."""
+
+_TITLE = re.compile(r"^#{1,3}[ \t]*(\S[^\n]*?sensor[ _]config(?:uration)?[ _]\d+)", re.M | re.I)
+_NUMBERED = re.compile(NUMBERED, re.I)
 _MEANT = re.compile(
     r"\b(?:as|based|copy|copied|derived|extends|from|identical|in|inherits|like|of|on|see|than"
     r"|same|to|uses|version|with)\W+(?:\w+\W+){0,2}\Z",
@@ -38,6 +43,12 @@ def configuration_number(name: str) -> int | None:
     match = _NUMBER.search(name)
     digits = match.group().rpartition("_")[2] if match else ""
     return int(digits) if 0 < len(digits) <= _DIGITS else None
+
+
+def stated_number(text: str) -> int | None:
+    """Return the one configuration that plain words name; None when they name none or several."""
+    numbers = _NUMBERED.findall(text)
+    return int(numbers[0]) if len(numbers) == 1 else None
 
 
 def is_same_robot(name: str, other: str) -> bool:
@@ -65,3 +76,11 @@ def left_from_copying(text: str, own: str) -> Iterator[re.Match[str]]:
         before = text[max(0, match.start() - _LOOK_BACK) : match.start()]
         if not is_same_robot(match.group(), own) and _MEANT.search(before) is None:
             yield match
+
+
+def title_of_another(sheet: str, own: str) -> re.Match[str] | None:
+    """Return the title of a specification sheet if it shares no word with the robot's name."""
+    title = _TITLE.search(sheet)
+    words = set(re.split(r"[\W_]+", title.group(1).casefold())) if title else set()
+    is_other = words.isdisjoint(robot_of(own).casefold().split("_"))
+    return title if is_other else None

@@ -10,7 +10,6 @@ Source: model reviews: the name of another team in model.config. A launch comman
 another robot is an error, since that one then runs.
 """
 
-import re
 from collections.abc import Iterator
 
 from checker.package.inheritance import SUBMISSION_NAME
@@ -22,23 +21,18 @@ from checker.package.submissions import (
     blank_xml_comments,
     is_same_robot,
     left_from_copying,
-    robot_of,
+    title_of_another,
 )
+from checker.package.teams import TEAM_OF, teams
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, SourceText, Span
 
 SHEET = "specifications.md"
-TEAMS = ("barcs", "cerberus", "coordinated", "costar", "csiro", "ctu", "dynamo", "emesent")
-MORE_TEAMS = ("explorer", "flyabot", "marble", "nctu", "robotika", "sophisticated", "ssci")
-
-_TITLE = re.compile(r"^#{1,3}[ \t]*(\S[^\n]*?sensor[ _]config(?:uration)?[ _]\d+)", re.M | re.I)
-_TEAM = re.compile(r"\b(?:of|by)\s+(?:the\s+)?(?:team\s+)?([A-Z]\w+)(?:'s)?\s+team\b", re.I)
+TEAMS = tuple(team.prefix.partition("_")[0] for team in teams())
 
 
 @rule("PKG012", "left-from-copying", Severity.WARNING, Concern.PAPERWORK)
-def check(
-    package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS + MORE_TEAMS
-) -> Findings:
+def check(package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS) -> Findings:
     """Look for other names in package.xml, model.config, the specification sheet and the spawner.
 
     Options:
@@ -74,7 +68,7 @@ def _named(package: Package, text: Located[str]) -> Iterator[Finding]:
 
 
 def _other_team(package: Package, text: Located[str], teams: tuple[str, ...]) -> Iterator[Finding]:
-    for match in _TEAM.finditer(text.value):
+    for match in TEAM_OF.finditer(text.value):
         team = match.group(1)
         words = package.name.casefold().split("_")
         if team.casefold() in teams and team.casefold() not in words:
@@ -102,11 +96,8 @@ def _commands(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
 
 def _title(package: Package, sheet: SourceText) -> Iterator[Finding]:
     """Report a title that shares no word with the robot's name."""
-    title = _TITLE.search(sheet.text)
-    if title is None:
-        return
-    words = set(re.split(r"[\W_]+", title.group(1).casefold()))
-    if words.isdisjoint(robot_of(package.name).casefold().split("_")):
+    title = title_of_another(sheet.text, package.name)
+    if title is not None:
         where = Span(sheet, *title.span(1))
         message = f"the title is {title.group(1)!r}, but the package is {package.name}"
         yield finding(where, message)
