@@ -54,6 +54,7 @@ class PackageManifest(Record, eq=False):
         licenses: Licenses.
         dependencies: All dependencies, in order.
         build_type: `export/build_type`; empty, thus catkin, when absent.
+        urls: Links to pages about the package.
         span: The root's start tag.
     """
 
@@ -66,6 +67,7 @@ class PackageManifest(Record, eq=False):
     licenses: tuple[Located[str], ...]
     dependencies: tuple[Dependency, ...]
     build_type: Located[str]
+    urls: tuple[Located[str], ...]
     span: Span
 
     def depends_on(self, package: str) -> bool:
@@ -120,6 +122,7 @@ def read_package_xml(document: XmlDocument) -> PackageManifest:
             if child.tag in DEPENDENCY_TAGS
         ),
         build_type=_text(root.child("export") or root, "build_type"),
+        urls=tuple(entry.text for entry in root.all("url")),
         span=root.span,
     )
 

@@ -13,8 +13,11 @@ NAME_IN_PATH = re.compile(
 )
 """The same, also as a part of a URI or path."""
 
-TEMPLATE = re.compile(r"\bThe (\w{1,100}_\w{1,100}) package\b", re.I)
-"""The description that `catkin_create_pkg` writes."""
+_TEMPLATE = re.compile(
+    r"\bThe (\w{1,100}_\w{1,100})(?P<kind>(?: [a-z]{1,30}){1,3})? package\b", re.I
+)
+"""The description that `catkin_create_pkg` writes; authors add what kind of robot it is."""
+_EXPLAINED = re.compile(r" (?:based|derived|like)\b", re.I)
 
 NUMBERED = r"(?:sensor[\s_]+)?config(?:uration)?[\s_#]+(\d{1,3})\b(?!\s*(?:to|and|-|,|&|or)\s*\d)"
 """A configuration by its number, in plain words: `Sensor Config 1`."""
@@ -43,6 +46,16 @@ def configuration_number(name: str) -> int | None:
     match = _NUMBER.search(name)
     digits = match.group().rpartition("_")[2] if match else ""
     return int(digits) if 0 < len(digits) <= _DIGITS else None
+
+
+def described_package(text: str, *names: str) -> str:
+    """Return the other package that a description of the template's form is about, else nothing."""
+    match = _TEMPLATE.search(text)
+    if match is None or match[1].casefold() in map(str.casefold, names):
+        return ""
+    kind = match["kind"] or ""
+    # With more words than the template has, only the name of a submission is surely a package's.
+    return "" if kind and (_EXPLAINED.search(kind) or not NAME.fullmatch(match[1])) else match[1]
 
 
 def stated_number(text: str) -> int | None:
