@@ -94,6 +94,7 @@ class ModelConfig(Record, eq=False):
         sdf: The model files, in order.
         authors: Authors.
         description: Description.
+        depends: URIs of the models that it needs.
         span: The root's start tag.
     """
 
@@ -102,6 +103,7 @@ class ModelConfig(Record, eq=False):
     sdf: tuple[SdfEntry, ...]
     authors: tuple[Person, ...]
     description: Located[str]
+    depends: tuple[Located[str], ...]
     span: Span
 
 
@@ -139,6 +141,12 @@ def read_model_config(document: XmlDocument) -> ModelConfig:
             for author in root.all("author")
         ),
         description=_text(root, "description"),
+        depends=tuple(
+            uri.text
+            for depend in root.all("depend")
+            for model in depend.all("model")
+            for uri in model.all("uri")
+        ),
         span=root.span,
     )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from difflib import SequenceMatcher
 
 NAME = re.compile(r"(?<![\w/-])[a-z0-9]+(?:_[a-z0-9]+){0,8}?_sensor_config_\d{1,4}(?!\w)", re.I)
 """A package name of the challenge's form, such as `acme_rover_sensor_config_1`."""
@@ -68,6 +69,39 @@ def is_same_robot(name: str, other: str) -> bool:
     """Say whether two packages are configurations of one robot, organizations left out or not."""
     short, long = sorted((robot_of(name).casefold(), robot_of(other).casefold()), key=len)
     return f"_{long}".endswith(f"_{short}")
+
+
+_NEAR = 0.7
+_SHORT = 3
+_WORD = re.compile(r"[_-]")
+
+
+def is_slip_for(written: str, meant: str) -> bool:
+    """Say whether a package's name is another one's with one word misspelt or left out.
+
+    Words with digits and short ones tell robots apart, and so does a first word that only one of
+    them has: none of these is a slip.
+    """
+    short, long = sorted((_WORD.split(written.casefold()), _WORD.split(meant.casefold())), key=len)
+    if "".join(short) == "".join(long):
+        return True
+    differing = [
+        index for index, pair in enumerate(zip(short, long, strict=False)) if len(set(pair)) > 1
+    ]
+    if len(short) == len(long):
+        words = [(short[index], long[index]) for index in differing]
+        return len(words) == 1 and all(map(str.isalpha, words[0])) and _is_near(*words[0])
+    if len(short) + 1 != len(long):
+        return False
+    at = differing[0] if differing else len(short)
+    lost = long[at]
+    is_left_out = short == [*long[:at], *long[at + 1 :]]
+    return is_left_out and (not differing if lost.isdigit() else at > 0 and len(lost) > _SHORT)
+
+
+def _is_near(word: str, other: str) -> bool:
+    near = SequenceMatcher(None, word, other).ratio() >= _NEAR
+    return near and min(len(word), len(other)) > _SHORT
 
 
 def blank_xml_comments(text: str) -> str:

@@ -2,8 +2,9 @@
 
 A copied package keeps the name of the other robot in titles, descriptions and commands; people then
 read about another robot, or start it. Names in `find`, `require`, Fuel URIs and dependencies are
-intended, and so are names that words such as "derived from" explain. None of the accepted packages
-that we checked shows this.
+intended, and so are names that words such as "derived from" explain. A `$(find …)` or `package://`
+URI of another robot's package is reported if this package has the file under the same path: it was
+copied, and the URI still leads to the original.
 
 Fix: write this package's name.
 Source: model reviews: the name of another team in model.config. A launch command that starts
@@ -12,6 +13,7 @@ another robot is an error, since that one then runs.
 
 from collections.abc import Iterator
 
+from checker.package.dependencies import taken_in_vain
 from checker.package.inheritance import SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
@@ -48,6 +50,12 @@ def check(package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TE
             yield from _named(package, text)
         yield from _other_team(package, paperwork.config.description, teams)
     yield from _commands(package, paperwork)
+    for use in taken_in_vain(package):
+        yield finding(
+            use.place,
+            f"{use.how} is of another robot, but {package.name} has this file",
+            key=f"file of {use.package_name}",
+        )
     sheet = package.read(SHEET)
     if isinstance(sheet, SourceText):
         yield from _title(package, sheet)
@@ -113,7 +121,19 @@ def _described(text: str) -> dict[str, str]:
     }
 
 
+def _launch(name: str, file: str, mark: str = "") -> str:
+    return f'<launch>\n<param name="r" textfile="$(find {name})/{file}"/>{mark}\n</launch>\n'
+
+
+_TOPICS = "launch/vehicle_topics.launch"
+_XML_MARK = "  <!-- ^ PKG012 -->"
+
 GOOD = [
+    {
+        _TOPICS: _launch("marble_husky_sensor_config_1", "urdf/husky.urdf"),
+        "urdf/rover.urdf": "<robot name='r'/>",
+    },
+    {_TOPICS: _launch("marble_husky_sensor_config_1", _TOPICS)},
     _described(
         "The acme_rover_sensor_config_1 package, derived from x1_sensor_config_4</description>"
     ),
@@ -126,6 +146,15 @@ GOOD = [
     },
 ]
 BAD = [
+    {
+        _TOPICS: _launch("marble_husky_sensor_config_1", "urdf/rover.urdf", _XML_MARK),
+        "urdf/rover.urdf": "<robot name='r'/>",
+    },
+    {
+        "urdf/arm.xacro": '<robot><mesh filename="package://marble_spot_sensor_config_1/'
+        f'meshes/arm.dae"/></robot>{_XML_MARK}',
+        "meshes/arm.dae": "<COLLADA/>",
+    },
     _described("The x1_sensor_config_4 package</description>  <!-- ^ PKG012 -->"),
     {"specifications.md": "# MARBLE HD2 Sensor Config 1 <!-- ^ PKG012 -->\n"},
     {"specifications.md": "# Rover\nX1_SENSOR_CONFIG_4 has a lidar. <!-- ^ PKG012 -->\n"},
