@@ -14,7 +14,7 @@ another robot is an error, since that one then runs.
 from collections.abc import Iterator
 
 from checker.package.dependencies import taken_in_vain
-from checker.package.inheritance import SUBMISSION_NAME
+from checker.package.inheritance import SHEET, SUBMISSION_NAME, own_sheet
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
@@ -29,7 +29,6 @@ from checker.package.teams import TEAM_OF, teams
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, SourceText, Span
 
-SHEET = "specifications.md"
 TEAMS = tuple(team.prefix.partition("_")[0] for team in teams())
 
 
@@ -56,7 +55,7 @@ def check(package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TE
             f"{use.how} is of another robot, but {package.name} has this file",
             key=f"file of {use.package_name}",
         )
-    sheet = package.read(SHEET)
+    sheet = package.read(own_sheet(package) or SHEET)
     if isinstance(sheet, SourceText):
         yield from _title(package, sheet)
         yield from _named(package, Located("", Span(sheet, 0, len(sheet.text))))
