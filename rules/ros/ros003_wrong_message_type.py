@@ -36,7 +36,7 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     for topic, bridges in bridged.items():
         here = ends.get(topic, ())
         for bridge in bridges:
-            for fault in _faults(bridge, here):
+            for fault in (*_faults(bridge, here), *_of_later_release(bridge, context.release)):
                 yield finding(bridge, f"{_named(bridge)} {fault}")
         fault = _one_row_of_many(here)
         if fault and f"{topic}/points" not in bridged:
@@ -74,6 +74,13 @@ def _faults(bridge: Bridge, ends: Sequence[Channel]) -> Iterator[str]:
     if bridge.direction not in (*ways, Direction.BOTH):
         stated, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
         yield f"bridges {whose} from {stated}, expected {expected}"
+
+
+def _of_later_release(bridge: Bridge, release: str) -> Iterator[str]:
+    """Yield what is wrong with a message that ros_ign_bridge of ROS 1 does not know."""
+    later = bridge.ign_type.startswith("gz.") and "/msg/" not in bridge.ros_type
+    if later and release == "dome" and bridge.node.package == "ros_ign_bridge":
+        yield f"names {bridge.ign_type}, which Dome calls {_ign(bridge.ign_type)}"
 
 
 def _stated_types(channel: Channel) -> tuple[str, ...]:
@@ -159,4 +166,5 @@ BAD = [
         _plugin("PosePublisher", _POSES),
         _POSE.format("geometry_msgs/TransformStamped", _SINGLE) + _MARK,
     ),
+    _robot(_LIDAR.format(1), f"{_HERE}@sensor_msgs/LaserScan[gz.msgs.LaserScan{_MARK}"),
 ]
