@@ -26,6 +26,7 @@ FILES = {
     **dict.fromkeys(("*.swp", "*.swo", "*.tmp"), "a temporary file of an editor"),
     **dict.fromkeys((".ds_store", "thumbs.db", "desktop.ini"), "a file of a file manager"),
     "*.pyc": "compiled Python",
+    "cmakecache.txt": "what CMake writes in a build folder",
     **dict.fromkeys(("*.step", "*.stp", "*.iges", "*.igs"), "the source of a mesh, for CAD"),
     **dict.fromkeys(("*.sldprt", "*.sldasm", "*.f3d", "*.fcstd"), "the source of a mesh, for CAD"),
 }
