@@ -18,6 +18,7 @@ _TEMPLATE = re.compile(
     r"\bThe (\w{1,100}_\w{1,100})(?P<kind>(?: [a-z]{1,30}){1,3})? package\b", re.I
 )
 """The description that `catkin_create_pkg` writes; authors add what kind of robot it is."""
+_SUBJECT = re.compile(r"\W*The (\w{1,200}_sensor_config_\d{1,4}) (?:is|has)\b", re.I)
 _EXPLAINED = re.compile(r" (?:based|derived|like)\b", re.I)
 
 _ONE = r"(\d{1,3})\b(?!\s*(?:to|and|-|,|&|or)\s*\d)"
@@ -52,10 +53,10 @@ def configuration_number(name: str) -> int | None:
 
 def described_package(text: str, *names: str) -> str:
     """Return the other package that a description of the template's form is about, else nothing."""
-    match = _TEMPLATE.search(text)
+    match = _TEMPLATE.search(text) or _SUBJECT.match(text)
     if match is None or match[1].casefold() in map(str.casefold, names):
         return ""
-    kind = match["kind"] or ""
+    kind = match.groupdict().get("kind") or ""
     # With more words than the template has, only the name of a submission is surely a package's.
     return "" if kind and (_EXPLAINED.search(kind) or not NAME.fullmatch(match[1])) else match[1]
 
