@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.finding import Place
-from checker.package.inheritance import SUBMISSION_NAME
-from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
 from checker.package.submissions import is_same_robot
@@ -180,16 +178,6 @@ def _place_of(element: Element, text: str) -> Place:
     names = (name for name, value in element.attributes.items() if value == text)
     name = next(names, None)
     return element.text.span.place() if name is None else _place(element, name)
-
-
-def started_robots(package: Package) -> Iterator[Reference]:
-    """Yield the commands of a robot's own spawner that start another robot, declared or not."""
-    if package.kind is PackageKind.ROBOT:
-        for reference in package.references:
-            name = reference.package_name
-            started = reference.kind is ReferenceKind.ROSLAUNCH and not reference.by_sibling
-            if started and SUBMISSION_NAME.search(name) and not is_same_robot(name, package.name):
-                yield reference
 
 
 def _is_foreign(package: Package, name: str) -> bool:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from checker.base.resources import table
 from checker.finding import Fix
-from checker.package.dependencies import Use, started_robots, taken_in_vain, uses_of
+from checker.package.dependencies import Use, taken_in_vain, uses_of
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
@@ -45,13 +45,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     if manifest is None:
         return
     others: dict[str, Use] = {}
-    # PKG012 reports these: they are to be replaced, not declared.
-    copied = {use.place for use in taken_in_vain(package)}
-    copied |= {
-        start.place
-        for start in started_robots(package)
-        if not manifest.depends_on(start.package_name)
-    }
+    copied = {use.place for use in taken_in_vain(package)}  # PKG012: to be replaced, not declared
     for use in uses_of(package):
         name = use.package_name
         if name in (package.name, manifest.name.value) or use.place in copied:

@@ -13,12 +13,15 @@ another robot is an error, since that one then runs.
 
 from collections.abc import Iterator
 
-from checker.package.dependencies import started_robots, taken_in_vain
+from checker.package.dependencies import taken_in_vain
 from checker.package.inheritance import SHEET, SUBMISSION_NAME, own_sheet
+from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
+from checker.package.references import ReferenceKind
 from checker.package.submissions import (
     blank_xml_comments,
+    is_same_robot,
     left_from_copying,
     title_of_another,
 )
@@ -84,8 +87,13 @@ def _other_team(package: Package, text: Located[str], teams: tuple[str, ...]) ->
 def _commands(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
     """Report commands that start another robot, unless it is declared or provides the model."""
     manifest = paperwork.manifest
-    for reference in started_robots(package):
+    for reference in package.references:
         name = reference.package_name
+        started = reference.kind is ReferenceKind.ROSLAUNCH and not reference.by_sibling
+        if not started or package.kind is not PackageKind.ROBOT:
+            continue
+        if SUBMISSION_NAME.search(name) is None or is_same_robot(name, package.name):
+            continue
         if manifest is None or not manifest.depends_on(name):
             message = (
                 f"the command starts {reference.file} of {name}, but the package is {package.name}"
