@@ -153,6 +153,11 @@ def _depends_on_plugin(mark: str = "") -> dict[str, str]:
 _PLUGIN = "<package><name>p</name></package>"
 
 GOOD = [
+    {
+        "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
+        "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),
+    },
+    {"launch/vehicle_topics.launch": "<launch><!-- $(find x1_sensor_config_6) --></launch>"},
     _depends_on_plugin(),
     {
         **_depends_on_plugin(),
@@ -160,17 +165,8 @@ GOOD = [
         "../acme_rover_gazebo_plugins_1/package.xml": _PLUGIN,
     },
     {**_depends_on_plugin(), "../acme_crawler_gazebo_plugin_1/package.xml": _PLUGIN},
-    {
-        "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
-        "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),
-    },
-    {"launch/vehicle_topics.launch": "<launch><!-- $(find x1_sensor_config_6) --></launch>"},
 ]
 BAD = [
-    {
-        **_depends_on_plugin("  <!-- ^ PKG007 -->"),
-        "../acme_rover_ignition_gazebo_plugin_1/package.xml": _PLUGIN,
-    },
     {
         "launch/vehicle_topics.launch": _launch("x1_sensor_config_6", "  <!-- ^ PKG007 -->"),
         "package.xml": _manifest("<build_depend>x1_sensor_config_6</build_depend>"),
@@ -180,5 +176,9 @@ BAD = [
         "model.sdf": None,
         "launch/spawner.rb": None,
         "package.xml": '<package format="2"><name>a</name></package>  <!-- ^ PKG007 -->',
+    },
+    {
+        **_depends_on_plugin("  <!-- ^ PKG007 -->"),
+        "../acme_rover_ignition_gazebo_plugin_1/package.xml": _PLUGIN,
     },
 ]
