@@ -23,6 +23,9 @@ from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
 
+_OF_A_BODY = 1e-4
+"""kg·m²: a link without mass that has a larger moment is no frame."""
+
 
 @rule("INE002", "impossible-inertia", Severity.ERROR, Concern.ROBOT)
 def check(
@@ -49,7 +52,8 @@ def check(
         # Without mass it is a frame; without moments, INE003 reports it.
         if robot.format == "urdf" and (inertia.mass == 0.0 or not inertia.has_moments):
             # What Gazebo makes of a body without mass, URD007 reports.
-            if inertia.has_moments and inertia.link.collisions and not robot.is_for_gazebo:
+            heavy = inertia.link.collisions and max(inertia.principal) > _OF_A_BODY
+            if heavy and not robot.is_for_gazebo:
                 yield from _mass(inertia, inertial, Severity.WARNING)
             continue
         if inertia.mass < 0.0 or not robot.is_static:

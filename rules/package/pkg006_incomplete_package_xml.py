@@ -162,18 +162,15 @@ GOOD = [
     },
 ]
 BAD = [
-<<<<<<< HEAD
-    {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"TODO</license>{_MARK}")},
-=======
     {"package.xml": _manifest(_DESCRIPTION, f">A</maintainer>{_MARK}", _LICENSE)},
     {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"</license>{_MARK}")},
+    {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"TODO</license>{_MARK}")},
     {
         "package.xml": _manifest(
             f"The x1_sensor_config_6 package</description>{_MARK}", _MAINTAINER, _LICENSE
         )
     },
     {"package.xml": f"<package><name>rover</name></package>{_MARK}"},
->>>>>>> names
     {
         "package.xml": _manifest(
             f"The acme_rover_sensor_config_2 package</description>{_MARK}", _MAINTAINER, _LICENSE
