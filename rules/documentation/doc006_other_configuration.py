@@ -32,6 +32,7 @@ from checker.source.text import Located, Span
 
 _ITSELF = re.compile(
     rf"\b(?:this|the)\s+(?:[\w-]+\s+){{1,4}}with\s+{NUMBERED}(?=[\s,]+(?:includes|carries|has|is)\b)"
+    rf"|\b(?:description|proof)\b[^.]{{0,160}}?\bwith\s+{NUMBERED}"
     rf"|\bvalidation\s+for\b[^.]{{0,120}}?\bwith\s+{NUMBERED}"
     rf"|\bthis\s+{NUMBERED}",
     re.IGNORECASE,

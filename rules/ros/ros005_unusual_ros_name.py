@@ -38,7 +38,8 @@ _WORDS: Mapping[str, re.Pattern[str]] = {
 }
 _DEVICE = re.compile(
     r"\b(?:realsense|velodyne|ouster|hokuyo|rplidar|robosense|livox|kinect|xtion|orbbec|zed|flir"
-    r"|blackfly|basler|arducam|ladybug|ueye|ximea|[a-z]{1,2}\d{3,4}[a-z]{0,2})\b"
+    r"|blackfly|basler|arducam|ladybug|ueye|ximea|sick|gopro"
+    r"|(?!cam|rgb|fov)[a-z]{1,3}\d{3,4}[a-z]{0,2})\b"
 )
 """Makers and families of cameras and lidars, and type codes such as `d435i`."""
 _PLACE = re.compile(
@@ -67,7 +68,7 @@ def check(robot: Robot, launch: LaunchGraph, devices: KnownDevices, context: Con
         if bridge.node.assumed_from or "$(" in bridge.ros_topic:
             continue
         channel = known.get(comparable(bridge.ign_topic))
-        faults = [*_faults(bridge, channel), *_by_device(bridge, channel, devices)]
+        faults = [*_faults(bridge, channel)] or [*_by_device(bridge, channel, devices)]
         for fault in faults:
             yield finding(bridge, fault)
         if channel is None or not isinstance(channel.owner, Sensor):
@@ -216,6 +217,7 @@ GOOD = [
     _robot("gimbal/imu/data", kind="imu", topic="imu"),
     _robot("front_d435/image_raw"),
     _robot("background360/image_raw"),
+    _robot("cam360/image_raw"),
     _depth("front/depth", "front/depth/points"),
     _depth("front/depth", "rgbd_front/depth/points", kind="rgbd_camera"),
     _lidars("points"),
@@ -226,6 +228,7 @@ BAD = [
     _robot("MARK rs_front/image_raw"),
     _robot("MARK d435i/image_raw"),
     _robot("MARK realsense/image_raw"),
+    _robot("MARK tim571_scan", kind="gpu_lidar", topic="scan"),
     _robot("MARK hokuyo_scan", kind="gpu_lidar", topic="scan"),
     _robot("MARK bpearl/points", kind="gpu_lidar", topic="scan/points"),
     _depth("MARK top/depth", "front/depth/points"),
