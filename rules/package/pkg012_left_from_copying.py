@@ -143,6 +143,7 @@ GOOD = [
         "urdf/rover.urdf": "<robot name='r'/>",
     },
     {_TOPICS: _launch("marble_husky_sensor_config_1", _TOPICS)},
+    {_TOPICS: _launch("marble_husky_sensor_config_1", "launch")},
 ]
 BAD = [
     _described("The x1_sensor_config_4 package</description>  <!-- ^ PKG012 -->"),

@@ -153,6 +153,15 @@ def test_the_only_device_of_a_class_in_the_rest_of_the_sheet_counts() -> None:
     assert found(sensor("scan"), by=sheet(plain, below=two)) == {}
 
 
+def test_remarks_below_an_item_count() -> None:
+    remark = "\n  * Velodyne VLP-16 with 16 rows"
+    assert found(sensor("scan"), by=sheet(f"3D lidar{remark}")) == {"scan": "velodyne_vlp16"}
+    assert found(sensor("scan"), by=sheet(f"3D lidar, not modeled{remark}")) == {}
+    other = sheet(f"Sensor config 2 adds a 3D lidar{remark}")
+    assert found(sensor("scan"), by=other) == {}
+    assert found(sensor("scan"), by=other, number=2) == {"scan": "velodyne_vlp16"}
+
+
 def test_the_rest_of_the_sheet_names_the_model_of_a_family() -> None:
     listed = "FLIR Blackfly S, modeled by camera plugin"
     link = "## Links\n\n[camera](https://www.flir.com/?model=BFS-U3-88S6C-C)\n"

@@ -1,4 +1,4 @@
-"""Devices that a specification sheet names outside its list of sensors: links, costs, text."""
+"""Devices that a specification sheet names beside its list of sensors: remarks, links, costs."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def devices_in_other_lines(
 
 
 def _lines(sheet: Specification, configurations: Set[int]) -> Iterator[Located[str]]:
-    listed = _listed(sheet)
+    listed = [(span.start, span.end) for span in _listed(sheet, configurations)]
     of_section = frozenset[int]()
     for number, match in enumerate(_LINE.finditer(sheet.markdown.text)):
         if number == _LINES_LIMIT:
@@ -63,9 +63,18 @@ def _lines(sheet: Specification, configurations: Set[int]) -> Iterator[Located[s
         yield Located(line, Span(sheet.source, *match.span()))
 
 
-def _listed(sheet: Specification) -> list[tuple[int, int]]:
-    """Return where the items of the list of sensors stand."""
+def _listed(sheet: Specification, configurations: Set[int]) -> Iterator[Span]:
+    """Yield the items of the list of sensors, and of those left out what stands below them."""
     section = sheet.section("sensors")
-    passages = section.passages if section is not None else ()
-    spans = (passage.span for passage in passages if passage.kind is PassageKind.ITEM)
-    return [(span.start, span.end) for span in spans]
+    lead = frozenset[int]()
+    left_out = False
+    for passage in section.passages if section is not None else ():
+        if passage.kind is not PassageKind.ITEM:
+            lead = configurations_in(passage.words)
+            continue
+        if passage.level == 1:
+            meant = configurations_in(passage.words) or lead
+            others = bool(meant) and not meant & configurations
+            left_out = others or NOT_MODELED.search(passage.text) is not None
+        if passage.level == 1 or left_out:
+            yield passage.span
