@@ -141,9 +141,9 @@ MANIFEST = (
     kind("no description", "PKG006", xml(PACKAGE, "/package/description", removed)),
     kind("a licence to be decided", "PKG006", xml(PACKAGE, "/package/license", with_text("TODO"))),
     kind(
-        "the untouched description of a template",
+        "the description of another package's template",
         "PKG006",
-        xml(PACKAGE, "/package/description", with_text("The rover package")),
+        xml(PACKAGE, "/package/description", with_text("The x1_sensor_config_6 package")),
     ),
     kind("a version that is none", "PKG006", xml(PACKAGE, "/package/version", with_text("first"))),
     kind(

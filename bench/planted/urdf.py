@@ -303,11 +303,6 @@ KINDS: tuple[Kind, ...] = (
         urdf("/robot/joint/origin", with_attribute("rpy", "0 90 0")),
     ),
     kind(
-        "URDF: a wheel that turns backwards",
-        "GEO013",
-        urdf("/robot/joint[@name='wheel_left_joint']/axis", with_attribute("xyz", "0 0 -1")),
-    ),
-    kind(
         "URDF: a wheel's axis askew",
         "GEO003",
         urdf("/robot/joint[@name='wheel_left_joint']/axis", with_attribute("xyz", "1 0 0")),

@@ -150,7 +150,7 @@ def _in_model(element: Element) -> Iterator[Use]:
 
 _TAKEN = re.compile(
     r"(?:\$\(find\s{1,8}(?P<found>\w{1,200}_sensor_config_\d{1,4})\s{0,8}\)"
-    r"|package://(?P<named>\w{1,200}_sensor_config_\d{1,4}))/{1,4}(?P<path>[\w./-]{1,300})(?![\w$%{])"
+    r"|package://(?P<named>\w{1,200}_sensor_config_\d{1,4}))/{1,4}(?P<path>[\w./-]{1,300})(?![\w./$%{-])"
 )
 
 
@@ -169,7 +169,8 @@ def taken_in_vain(package: Package) -> Iterator[Use]:
             for text in (*element.attributes.values(), element.value):
                 for match in _TAKEN.finditer(text):
                     name, path = match["found"] or match["named"], match["path"]
-                    if path != file.path and package.exists(path) and _is_foreign(package, name):
+                    own = package.index.find(path) if path != file.path else None
+                    if own is not None and own.is_file and _is_foreign(package, name):
                         yield Use(name, _place_of(element, text), match.group())
 
 

@@ -18,13 +18,15 @@ _TEMPLATE = re.compile(
     r"\bThe (\w{1,100}_\w{1,100})(?P<kind>(?: [a-z]{1,30}){1,3})? package\b", re.I
 )
 """The description that `catkin_create_pkg` writes; authors add what kind of robot it is."""
+_SUBJECT = re.compile(r"\W*The (\w{1,200}_sensor_config_\d{1,4}) (?:is|has)\b", re.I)
 _EXPLAINED = re.compile(r" (?:based|derived|like)\b", re.I)
 
-NUMBERED = r"(?:sensor[\s_]+)?config(?:uration)?[\s_#]+(\d{1,3})\b(?!\s*(?:to|and|-|,|&|or)\s*\d)"
+_ONE = r"(\d{1,3})\b(?!\s*(?:to|and|-|,|&|or)\s*\d)"
+NUMBERED = rf"(?:sensor[\s_]+)?config(?:uration)?[\s_#]+{_ONE}"
 """A configuration by its number, in plain words: `Sensor Config 1`."""
 
 _TITLE = re.compile(r"^#{1,3}[ \t]*(\S[^\n]*?sensor[ _]config(?:uration)?[ _]\d+)", re.M | re.I)
-_NUMBERED = re.compile(NUMBERED, re.I)
+_NUMBERED = re.compile(rf"(?<![a-z])config(?:uration)?[\s_#-]{{0,3}}{_ONE}", re.I)
 _MEANT = re.compile(
     r"\b(?:as|based|copy|copied|derived|extends|from|identical|in|inherits|like|of|on|see|than"
     r"|same|to|uses|version|with)\W+(?:\w+\W+){0,2}\Z",
@@ -51,18 +53,18 @@ def configuration_number(name: str) -> int | None:
 
 def described_package(text: str, *names: str) -> str:
     """Return the other package that a description of the template's form is about, else nothing."""
-    match = _TEMPLATE.search(text)
+    match = _TEMPLATE.search(text) or _SUBJECT.match(text)
     if match is None or match[1].casefold() in map(str.casefold, names):
         return ""
-    kind = match["kind"] or ""
+    kind = match.groupdict().get("kind") or ""
     # With more words than the template has, only the name of a submission is surely a package's.
     return "" if kind and (_EXPLAINED.search(kind) or not NAME.fullmatch(match[1])) else match[1]
 
 
 def stated_number(text: str) -> int | None:
     """Return the one configuration that plain words name; None when they name none or several."""
-    numbers = _NUMBERED.findall(text)
-    return int(numbers[0]) if len(numbers) == 1 else None
+    numbers = set(map(int, _NUMBERED.findall(text)))
+    return numbers.pop() if len(numbers) == 1 else None
 
 
 def is_same_robot(name: str, other: str) -> bool:

@@ -17,8 +17,9 @@ _CONFIGURED = (
     r"(?=\W{1,4}(?:[A-Z0-9][\w-]{0,40}\W{1,4}){0,3}?(?:with\W{1,4})?[Ss]ensor\W{1,4}[Cc]onfig)"
 )
 _ORIGIN = re.compile(
-    r"\b(?:adapted|as|based|copied|copy|courtesy|derived|from|identical|inherits|like|modified"
-    r"|originally|provided|similar|thanks|than|uses|using|version|with)\b[^.]{0,80}\Z",
+    r"\b(?:adapted|based|cop(?:y|ied)|courtesy|derived|identical|inherits|modified|originally"
+    r"|provided|similar|thanks)\b[^.]{0,80}\Z"
+    r"|\b(?:as|from|like|than|uses|using|version|with)\W+(?:[\w']+\W+){0,2}\Z",
     re.I,
 )
 _SENTENCE = re.compile(r"(?:[^.]|\.(?!\s)){1,2000}\.?")
@@ -45,22 +46,34 @@ def teams() -> tuple[Team, ...]:
     return tuple(
         Team(
             entry["prefix"],
-            _pattern(entry["match"], entry.get("common_word", False)),
+            _common(entry["match"], entry.get("known_as"))
+            if entry.get("common_word")
+            else _pattern(entry["match"]),
             (entry["prefix"], *entry.get("partners", ())),
         )
         for entry in table("teams")["teams"]
     )
 
 
-def _pattern(name: str, common_word: bool) -> re.Pattern[str]:
-    if common_word:
-        word = name.capitalize()
-        name = (
-            rf"(?:{name.upper()}|(?<=[Tt]eam ){word}|{word}(?=\s[Tt]eam\b|'s\s)|\A{word}(?=\s-\s)"
-            rf"|{word}{_CONFIGURED})"
-        )
-    else:
-        name = f"(?i:{name.replace(' ', '[ _-]{1,4}')})"
+def _pattern(name: str) -> re.Pattern[str]:
+    return _alone(f"(?i:{name.replace(' ', '[ _-]{1,4}')})")
+
+
+def _common(name: str, known_as: str | None) -> re.Pattern[str]:
+    """Return the pattern for a name that is a common word: it counts where it is plainly a name."""
+    word = name.capitalize()
+    forms = [
+        name.upper(),
+        f"(?<=[Tt]eam ){word}",
+        rf"{word}(?=\s[Tt]eam\b|'s\s)",
+        rf"\A{word}(?=\s-\s)",
+        f"{word}{_CONFIGURED}",
+        *([known_as] if known_as else []),
+    ]
+    return _alone(f"(?:{'|'.join(forms)})")
+
+
+def _alone(name: str) -> re.Pattern[str]:
     return re.compile(rf"(?<![\w/.@-]){name}(?![^\W_]|[/.@]\w)")
 
 

@@ -32,10 +32,13 @@ from checker.source.text import Located, Span
 
 _ITSELF = re.compile(
     rf"\b(?:this|the)\s+(?:[\w-]+\s+){{1,4}}with\s+{NUMBERED}(?=[\s,]+(?:includes|carries|has|is)\b)"
+    rf"|\b(?:description|proof)\b[^.]{{0,160}}?\bwith\s+{NUMBERED}"
     rf"|\bvalidation\s+for\b[^.]{{0,120}}?\bwith\s+{NUMBERED}"
     rf"|\bthis\s+{NUMBERED}",
     re.IGNORECASE,
 )
+_INTRODUCTION = 4
+"""Passages that say what the sheet is about: the title, and what stands below it."""
 _COMMAND = re.compile(
     r"\b(?:roslaunch|ign\s+launch|rosrun|robotConfig\d*:=|modelName:=)[^\n]{0,500}", re.IGNORECASE
 )
@@ -71,10 +74,10 @@ def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
 
 
 def _introduced(sheet: Specification, owner: str) -> Iterator[Finding]:
-    """Report another team in the title or in what stands below it, up to the next heading."""
+    """Report another team in the title or in the first passages, up to the next heading."""
     is_reported = title_of_another(sheet.source.text, owner) is not None
     headings = 0
-    for passage in sheet.markdown.passages:
+    for passage in sheet.markdown.passages[:_INTRODUCTION]:
         is_heading = passage.kind is PassageKind.HEADING
         headings += is_heading
         if headings > 1:
@@ -162,6 +165,17 @@ _XML_MARK = "  <!-- ^ DOC006 -->"
 GOOD = [
     _sheet(
         "# Acme Rover Sensor Config 1",
+        "Validation for the Rover with Sensor Configuration 1. It is launched using an",
+        "`ign launch` command with the variable name `ACME_ROVER_SENSOR_CONFIG_1`.",
+        "```",
+        "ign launch competition.ign robotConfig1:=ACME_ROVER_SENSOR_CONFIG_1",
+        "```",
+        "This rover with sensor configuration 1 includes an IMU.",
+        "Sensor configuration 2 adds 12 breadcrumbs. Based on x1_sensor_config_4.",
+    ),
+    _sheet("# Acme Rover Sensor Config 1 to 4", "Acme Rover with sensor configuration 3 flies."),
+    _sheet(
+        "# Acme Rover Sensor Config 1",
         "This sheet describes the Acme Rover. It is based on the MARBLE Husky.",
         "## Usage",
         "It is used in the same manner as the MARBLE Husky.",
@@ -172,19 +186,12 @@ GOOD = [
         **_sheet("# BARCS QAV500", "Validation for the BARCS MARBLE QAV500."),
     },
     _config("An explorer of caves by Acme Robotics. Derived from CTU-CRAS-Norlab's Absolem."),
-    _sheet(
-        "# Acme Rover Sensor Config 1",
-        "Validation for the Rover with Sensor Configuration 1. It is launched using an",
-        "`ign launch` command with the variable name `ACME_ROVER_SENSOR_CONFIG_1`.",
-        "```",
-        "ign launch competition.ign robotConfig1:=ACME_ROVER_SENSOR_CONFIG_1",
-        "```",
-        "This rover with sensor configuration 1 includes an IMU.",
-        "Sensor configuration 2 adds 12 breadcrumbs. Based on x1_sensor_config_4.",
-    ),
-    _sheet("# Acme Rover Sensor Config 1 to 4", "Acme Rover with sensor configuration 3 flies."),
 ]
 BAD = [
+    _sheet(f"# Acme Rover Sensor Config 2{_MARK}"),
+    _sheet("# R", f"ign launch c.ign robotConfig1:=X1_SENSOR_CONFIG_4{_MARK}"),
+    _sheet("# R", f"Use the variable name `acme_rover_sensor_config_3`.{_MARK}"),
+    _sheet("# R", f"This rover with sensor configuration 2 includes an IMU.{_MARK}"),
     _sheet(
         "# Rover", f"Proof of the Coordinated Robotics Rover with Sensor Configuration 1.{_MARK}"
     ),
@@ -192,8 +199,4 @@ BAD = [
     _sheet(f"# Explorer - Rover{_MARK}"),
     _config("CTU-CRAS-NORLAB Rover for SubT.", _XML_MARK),
     _config("Team Explorer's rover for SubT.", _XML_MARK),
-    _sheet(f"# Acme Rover Sensor Config 2{_MARK}"),
-    _sheet("# R", f"ign launch c.ign robotConfig1:=X1_SENSOR_CONFIG_4{_MARK}"),
-    _sheet("# R", f"Use the variable name `acme_rover_sensor_config_3`.{_MARK}"),
-    _sheet("# R", f"This rover with sensor configuration 2 includes an IMU.{_MARK}"),
 ]

@@ -3,8 +3,8 @@
 catkin finds a package by the name in package.xml, CMake installs it under the name of `project()`,
 and the SubT launcher uses the folder's name. If they differ, `roslaunch` does not find the package.
 The names in model.config and `<model name>` are only displayed; a name in plain words need only
-state the right number: `Acme Rover Config 2`. The folder of a URDF package may
-have any name: no launcher builds one from it.
+state the right number: `Acme Rover Config 2`. The folder of a URDF package may have any name: no
+launcher builds one from it.
 
 Fix: use the same name in package.xml, `project()` and for the folder.
 Source: REP 140 and catkin: the project name must equal the package name.
@@ -108,13 +108,6 @@ GOOD = [
     {"model.config": "<model><name>Acme X2 Sensor Config 1</name><sdf>model.sdf</sdf></model>"},
 ]
 BAD = [
-    {
-        "model.config": """<model>
-  <name>Acme Rover Sensor Config 2</name>  <!-- ^ PKG002 -->
-  <sdf>model.sdf</sdf>
-</model>
-"""
-    },
     {"package.xml": _manifest("acme_rover_sensor_config_2")},
     {"CMakeLists.txt": "project(rover)  # ^ PKG002\n"},
     {
@@ -125,4 +118,11 @@ BAD = [
 """
     },
     {"model.sdf": '<sdf version="1.6"><model name="rover"/></sdf>  <!-- ^ PKG002 -->\n'},
+    {
+        "model.config": """<model>
+  <name>Acme Rover Sensor Config 2</name>  <!-- ^ PKG002 -->
+  <sdf>model.sdf</sdf>
+</model>
+"""
+    },
 ]

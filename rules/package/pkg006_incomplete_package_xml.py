@@ -29,6 +29,7 @@ _PAGE = re.compile(
     re.IGNORECASE,
 )
 """The page of a robot's package, as templates of package.xml name it."""
+_TO_DO = re.compile(r"\s*(?:TODO|TBD|FIXME)\b")
 _COMMON = {
     "bringup",
     "config",
@@ -103,6 +104,14 @@ def _required(manifest: PackageManifest) -> Iterator[Finding]:
     if not manifest.licenses:
         yield _missing("license", Located("", manifest.span, stated=False))
     yield from (_missing("license", text) for text in manifest.licenses if not text.value)
+    for text in (manifest.description, *manifest.licenses):
+        if _TO_DO.match(text.value):
+            yield finding(
+                text,
+                f"{text.value[:60]!r} is left from a template",
+                severity=Severity.WARNING,
+                key="template",
+            )
 
 
 def _people(manifest: PackageManifest) -> Iterator[Finding]:
@@ -153,6 +162,15 @@ GOOD = [
     },
 ]
 BAD = [
+    {"package.xml": _manifest(_DESCRIPTION, f">A</maintainer>{_MARK}", _LICENSE)},
+    {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"</license>{_MARK}")},
+    {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"TODO</license>{_MARK}")},
+    {
+        "package.xml": _manifest(
+            f"The x1_sensor_config_6 package</description>{_MARK}", _MAINTAINER, _LICENSE
+        )
+    },
+    {"package.xml": f"<package><name>rover</name></package>{_MARK}"},
     {
         "package.xml": _manifest(
             f"The acme_rover_sensor_config_2 package</description>{_MARK}", _MAINTAINER, _LICENSE
@@ -163,12 +181,4 @@ BAD = [
             f"{_DESCRIPTION}\n  {_WIKI}/quadrotor_description</url>{_MARK}", _MAINTAINER, _LICENSE
         )
     },
-    {"package.xml": _manifest(_DESCRIPTION, f">A</maintainer>{_MARK}", _LICENSE)},
-    {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"</license>{_MARK}")},
-    {
-        "package.xml": _manifest(
-            f"The x1_sensor_config_6 package</description>{_MARK}", _MAINTAINER, _LICENSE
-        )
-    },
-    {"package.xml": f"<package><name>rover</name></package>{_MARK}"},
 ]

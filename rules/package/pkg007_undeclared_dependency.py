@@ -2,7 +2,7 @@
 
 A package that package.xml does not name is not installed with the robot: launch files of another
 submission, or the bridge to ROS, are then missing where the robot runs. Comments do not count. The
-same happens if package.xml misspells the package of a robot or plugin: it is reported if a package
+same happens if package.xml misspells the package of a team or plugin: it is reported if a package
 of a similar name is available, and that one is not.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used.
@@ -21,6 +21,7 @@ from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.package.references import PROVIDED
 from checker.package.submissions import is_slip_for, robot_of
+from checker.package.teams import teams
 from checker.rule import (
     Concern,
     Context,
@@ -97,11 +98,13 @@ def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
 
 
 def _misspelt(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
-    """Report a robot's or plugin's package that is not there, while one of a near name is."""
+    """Report a team's or plugin's package that is not there, while one of a near name is."""
+    prefixes = (f"{package.name.split('_')[0]}_", *(f"{team.prefix}_" for team in teams()))
     for dependency in manifest.dependencies:
         name = dependency.package.value
         is_plugin = "plugin" in name
-        if not (is_plugin or SUBMISSION_NAME.search(name)) or package.workspace.package(name):
+        is_of_teams = is_plugin or SUBMISSION_NAME.search(name) or name.startswith(prefixes)
+        if not is_of_teams or package.workspace.package(name):
             continue
         for other in package.workspace.packages:
             slip = is_slip_for(name, other) or (is_plugin and _is_own(package, name, other))
@@ -153,6 +156,11 @@ def _depends_on_plugin(mark: str = "") -> dict[str, str]:
 _PLUGIN = "<package><name>p</name></package>"
 
 GOOD = [
+    {
+        "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
+        "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),
+    },
+    {"launch/vehicle_topics.launch": "<launch><!-- $(find x1_sensor_config_6) --></launch>"},
     _depends_on_plugin(),
     {
         **_depends_on_plugin(),
@@ -160,17 +168,8 @@ GOOD = [
         "../acme_rover_gazebo_plugins_1/package.xml": _PLUGIN,
     },
     {**_depends_on_plugin(), "../acme_crawler_gazebo_plugin_1/package.xml": _PLUGIN},
-    {
-        "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
-        "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),
-    },
-    {"launch/vehicle_topics.launch": "<launch><!-- $(find x1_sensor_config_6) --></launch>"},
 ]
 BAD = [
-    {
-        **_depends_on_plugin("  <!-- ^ PKG007 -->"),
-        "../acme_rover_ignition_gazebo_plugin_1/package.xml": _PLUGIN,
-    },
     {
         "launch/vehicle_topics.launch": _launch("x1_sensor_config_6", "  <!-- ^ PKG007 -->"),
         "package.xml": _manifest("<build_depend>x1_sensor_config_6</build_depend>"),
@@ -180,5 +179,9 @@ BAD = [
         "model.sdf": None,
         "launch/spawner.rb": None,
         "package.xml": '<package format="2"><name>a</name></package>  <!-- ^ PKG007 -->',
+    },
+    {
+        **_depends_on_plugin("  <!-- ^ PKG007 -->"),
+        "../acme_rover_ignition_gazebo_plugin_1/package.xml": _PLUGIN,
     },
 ]

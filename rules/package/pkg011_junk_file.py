@@ -123,8 +123,6 @@ GOOD = [
     {"CMakeLists.txt": f"{_ROOT}add_subdirectory(${{PROJECT_SOURCE_DIR}}/plugin)\n", **_PLUGIN},
 ]
 BAD = [
-    {"CMakeLists.txt": _ROOT, **_PLUGIN, "@reported": ["plugin/CMakeLists.txt:1"]},
-    {"launch/package.xml": "<package/>", "@reported": ["launch/package.xml:1"]},
     {
         "launch/spawner.rb~": "",
         "meshes/Wheel.STEP": "",
@@ -132,4 +130,6 @@ BAD = [
     },
     {".vscode/settings.json": "{}", "@reported": [".vscode:1"]},
     {"model_old.sdf": "<sdf version='1.6'/>", "@reported": ["model_old.sdf:1"]},
+    {"CMakeLists.txt": _ROOT, **_PLUGIN, "@reported": ["plugin/CMakeLists.txt:1"]},
+    {"launch/package.xml": "<package/>", "@reported": ["launch/package.xml:1"]},
 ]

@@ -128,11 +128,6 @@ _TOPICS = "launch/vehicle_topics.launch"
 _XML_MARK = "  <!-- ^ PKG012 -->"
 
 GOOD = [
-    {
-        _TOPICS: _launch("marble_husky_sensor_config_1", "urdf/husky.urdf"),
-        "urdf/rover.urdf": "<robot name='r'/>",
-    },
-    {_TOPICS: _launch("marble_husky_sensor_config_1", _TOPICS)},
     _described(
         "The acme_rover_sensor_config_1 package, derived from x1_sensor_config_4</description>"
     ),
@@ -143,17 +138,14 @@ GOOD = [
         "specifications.md": "# MARBLE HD2 Sensor Config 1\n",
         "launch/spawner.rb": None,
     },
-]
-BAD = [
     {
-        _TOPICS: _launch("marble_husky_sensor_config_1", "urdf/rover.urdf", _XML_MARK),
+        _TOPICS: _launch("marble_husky_sensor_config_1", "urdf/husky.urdf"),
         "urdf/rover.urdf": "<robot name='r'/>",
     },
-    {
-        "urdf/arm.xacro": '<robot><mesh filename="package://marble_spot_sensor_config_1/'
-        f'meshes/arm.dae"/></robot>{_XML_MARK}',
-        "meshes/arm.dae": "<COLLADA/>",
-    },
+    {_TOPICS: _launch("marble_husky_sensor_config_1", _TOPICS)},
+    {_TOPICS: _launch("marble_husky_sensor_config_1", "launch")},
+]
+BAD = [
     _described("The x1_sensor_config_4 package</description>  <!-- ^ PKG012 -->"),
     {"specifications.md": "# MARBLE HD2 Sensor Config 1 <!-- ^ PKG012 -->\n"},
     {"specifications.md": "# Rover\nX1_SENSOR_CONFIG_4 has a lidar. <!-- ^ PKG012 -->\n"},
@@ -162,5 +154,14 @@ BAD = [
   <description>A rover of the Marble team</description>  <!-- ^ PKG012 -->
 </model>
 """
+    },
+    {
+        _TOPICS: _launch("marble_husky_sensor_config_1", "urdf/rover.urdf", _XML_MARK),
+        "urdf/rover.urdf": "<robot name='r'/>",
+    },
+    {
+        "urdf/arm.xacro": '<robot><mesh filename="package://marble_spot_sensor_config_1/'
+        f'meshes/arm.dae"/></robot>{_XML_MARK}',
+        "meshes/arm.dae": "<COLLADA/>",
     },
 ]

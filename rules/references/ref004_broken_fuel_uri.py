@@ -100,15 +100,15 @@ _MARK = "  <!-- ^ REF004 -->"
 _OWN = "ACME_ROVER_SENSOR_CONFIG_1/tip/files/meshes/wheel.dae"
 
 GOOD = [
-    _needs("acme_arm"),
-    _needs("Cave Bend 01"),
     {"@fragment": _visual(f"{_OWN}</uri>"), "meshes/wheel.dae": "<COLLADA/>"},
     _visual("Rover/2/files/meshes/wheel%20rim.dae</uri>"),
+    _needs("acme_arm"),
+    _needs("Cave Bend 01"),
 ]
 BAD = [
-    _needs("acme arm", _MARK),
-    _needs("acme_arm/meshes/arm.dae", _MARK),
     _visual("Rover/tip/files/meshes/wheel rim.dae</uri>  <!-- ^ REF004 -->"),
     _visual("Rover/meshes/wheel.dae</uri>  <!-- ^ REF004 -->"),
     _visual(f"{_OWN}</uri>  <!-- ^ REF004 -->"),
+    _needs("acme arm", _MARK),
+    _needs("acme_arm/meshes/arm.dae", _MARK),
 ]

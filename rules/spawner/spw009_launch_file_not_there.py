@@ -20,7 +20,7 @@ from checker.expand.spawner.reader import Spawner
 from checker.package.inheritance import SUBMISSION_NAME, Found
 from checker.package.package import Package
 from checker.package.references import PROVIDED, ReferenceKind
-from checker.package.submissions import robot_of
+from checker.package.submissions import is_slip_for, robot_of
 from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 from checker.source.text import Located
 
@@ -111,7 +111,13 @@ def _judge(package: Package, start: _Start) -> Iterator[Finding | Unchecked]:
             return
     if holder is None and name in PROVIDED:
         return
-    if holder is None:
+    if holder is None and not _is_meant(package, name) and is_slip_for(name, package.name):
+        yield finding(
+            start.where,
+            f"the command starts {start.file} of {name}, which is not available; did you mean "
+            f"{package.name!r}?",
+        )
+    elif holder is None:
         yield unchecked(f"{name}, whose {start.file} is started, is not available")
     elif not any(
         entry.path.rsplit("/", 1)[-1] == start.file
@@ -189,8 +195,6 @@ GOOD = [
     },
 ]
 BAD = [
-    {**_SECOND, "package.xml": _DECLARED, "launch/spawner.rb": _of_first(_MARK)},
-    {"launch/spawner.rb": _spawner(f"acme_rover_sensor_config_11 description.launch{_END}{_MARK}")},
     {
         "launch/spawner.rb": _spawner(
             f"x1_sensor_config_6 description.launch{_END}{_MARK}",
@@ -201,5 +205,8 @@ BAD = [
             f"{_NAME} description.launch{_END}", f"{_NAME} t.launch{_END}{_MARK}", f"# {_MARK}"
         )
     },
+    {"launch/spawner.rb": _spawner(f"acme_rover_sensorconfig_1 description.launch{_END}{_MARK}")},
     {"launch/spawner.rb": _spawner(_TOPICS, mark=f"# {_MARK}")},
+    {**_SECOND, "package.xml": _DECLARED, "launch/spawner.rb": _of_first(_MARK)},
+    {"launch/spawner.rb": _spawner(f"acme_rover_sensor_config_11 description.launch{_END}{_MARK}")},
 ]
