@@ -1,15 +1,18 @@
 """A skid-steer robot without the WheelSlip plugin.
 
 The wheels of such a robot must slip sideways in a turn. Without the plugin they grip the ground:
-the robot hops, turns in jerks or does not turn. None of the accepted packages that we checked shows
-this.
+the robot hops, turns in jerks or does not turn. Wheels count over all DiffDrive plugins: one for
+the front and one for the rear wheels make a skid-steer robot, too. None of the accepted packages
+that we checked shows this.
 
 Fix: add WheelSlip to what the spawner emits, with a `<wheel>` for each wheel:
 `slip_compliance_lateral` above zero, `wheel_normal_force` m·g/n in N and `wheel_radius` in m.
 Source: SubT maintainers ask for it in their reviews of skid-steer robots.
 """
 
-from checker.model.locomotion.locomotion import Side
+from collections.abc import Sequence
+
+from checker.model.locomotion.locomotion import Side, WheelDrive
 from checker.model.robot import Robot
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -25,14 +28,23 @@ def check(robot: Robot) -> Findings:
     slips = any(plugin.class_name == "WheelSlip" for plugin in robot.all_plugins)
     if slips or moves.tracks or moves.tracked_drives:
         return
-    for drive in moves.wheel_drives:
-        most = max(len(drive.on(side)) for side in Side)
-        if drive.plugin.class_name == "DiffDrive" and most > 1:
+    drives = [drive for drive in moves.wheel_drives if drive.plugin.class_name == "DiffDrive"]
+    alone = [drive for drive in drives if _most([drive]) > 1]
+    for drive in alone or drives:
+        most = _most([drive] if alone else drives)
+        who = "DiffDrive turns" if alone else f"{len(drives)} DiffDrive plugins turn"
+        if most > 1:
             yield finding(
                 drive.plugin,
-                f"DiffDrive turns {most} wheels on a side, but there is no WheelSlip: skid-steer "
-                "wheels must slip sideways in a turn",
+                f"{who} {most} wheels on a side, but there is no WheelSlip: skid-steer wheels "
+                "must slip sideways in a turn",
             )
+
+
+def _most(drives: Sequence[WheelDrive]) -> int:
+    """Return how many wheels drives turn on the side that has more, each counted once."""
+    sides = ({wheel.joint for drive in drives for wheel in drive.on(side)} for side in Side)
+    return max(map(len, sides))
 
 
 def _rover(wheels: int, more: str = "", drive: str = "DiffDrive", mark: str = "") -> str:
@@ -52,11 +64,27 @@ def _rover(wheels: int, more: str = "", drive: str = "DiffDrive", mark: str = ""
 """
 
 
+def _twice(second: int, mark: str = "") -> str:
+    """Return a robot of four wheels with a drive for the front ones, and one for others."""
+    drive = """
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">{}
+  <left_joint>axle_{}</left_joint><right_joint>axle_{}</right_joint>
+</plugin>"""
+    rover = _rover(4, drive="AckermannSteering")
+    bare = rover[: rover.index("<plugin")]
+    return bare + drive.format(mark, 0, 1) + drive.format(mark, second, second + 1)
+
+
 _MARK = "  <!-- ^ DRV007 -->"
 GOOD = [
+    _twice(0),
     _rover(2),
     _rover(4, '<plugin filename="libw.so" name="ignition::gazebo::systems::WheelSlip"/>'),
     _rover(4, drive="AckermannSteering"),
     _rover(4, '<plugin filename="libt.so" name="gz::sim::systems::TrackedVehicle"/>'),
 ]
-BAD = [_rover(4, mark=_MARK), _rover(6, mark=_MARK).replace("ignition::gazebo", "gz::sim")]
+BAD = [
+    _rover(4, mark=_MARK),
+    _rover(6, mark=_MARK).replace("ignition::gazebo", "gz::sim"),
+    _twice(2, _MARK),
+]

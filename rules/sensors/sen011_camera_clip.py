@@ -1,16 +1,17 @@
 """A camera that sees too far, or nothing.
 
 A camera sees only what is between `<near>` and `<far>`: if near is not below far, nothing is
-rendered. In the SubT challenge RGBD cameras measure up to 10 m and thermal cameras see up to 100 m;
-with a copied 300 m the robot sees farther than any device. An RGBD camera has two ranges: `<clip>`
-holds for the colour picture, and for depth too unless `<depth_camera><clip>` says otherwise. With
-`<clip><far>10` alone, the picture also ends at 10 m, and all that is farther away is missing in it.
+rendered, and a renderer refuses a near of 0. In the SubT challenge RGBD cameras measure up to 10 m
+and thermal cameras see up to 100 m; with a copied 300 m the robot sees farther than any device. An
+RGBD camera has two ranges: `<clip>` holds for the colour picture, and for depth too unless
+`<depth_camera><clip>` says otherwise. With `<clip><far>10` alone, the picture also ends at 10 m,
+and all that is farther away is missing in it.
 
-Fix: write near below far; `<depth_camera><clip><far>10` for depth and `<clip><far>300` for the
-picture; `<clip><far>100` for thermal cameras.
-Source: SDFormat specification, camera/clip; gz-sensors, RgbdCameraSensor: both pictures are drawn
-within `<clip>`, then depth is cut at that of `<depth_camera>`; SubT review findings
-(`subt_standards.json`: rgbd, thermal).
+Fix: write near above 0 and below far; `<depth_camera><clip><far>10` for depth and
+`<clip><far>300` for the picture; `<clip><far>100` for thermal cameras.
+Source: SDFormat specification, camera/clip; OGRE, Frustum::setNearClipDistance; gz-sensors,
+RgbdCameraSensor: both pictures are drawn within `<clip>`, then depth is cut at that of
+`<depth_camera>`; SubT review findings (`subt_standards.json`: rgbd, thermal).
 """
 
 from collections.abc import Iterator
@@ -52,6 +53,14 @@ def _empty(sensor: Sensor, camera: Camera) -> Iterator[Finding]:
     clips = {"sees": camera.clip, "measures depth": measured}
     for what, clip in clips.items():
         near, far = clip.near, clip.far
+        if near.stated and near.value <= 0.0:
+            yield finding(
+                near,
+                f"camera {sensor.name.value!r} {what} from {near.value:g} m, which the renderer "
+                "refuses; expected more than 0",
+                severity=Severity.ERROR,
+            )
+            return
         if near.value < far.value:
             continue
         yield finding(
@@ -118,6 +127,7 @@ GOOD = [
     _camera("depth_camera", _clip("0.1", "4")),
 ]
 BAD = [
+    _camera("camera", f"<clip><near>0</near>{_MARK}\n<far>2</far></clip>"),
     _camera("camera", f"<clip><near>5</near>{_MARK}\n<far>2</far></clip>"),
     _camera("camera", f"<clip>\n<near>200</near>{_MARK}\n</clip>"),
     _camera("thermal_camera", _clip("0.1", f"300{_MARK}")),

@@ -2,9 +2,13 @@
 
 The SubT launcher cannot load the file, so it cannot start the robot.
 
-Fix: correct the code that the message names.
-Source: Ruby's grammar; only errors that cannot be anything else are reported. None of the accepted
-packages that we checked shows this.
+Only errors that cannot be anything else are reported: what Ruby never accepts, such as a heredoc
+whose end has blanks behind it, and a missing `end`, quote, bracket or comma with which the whole
+file could be read. What is only likely is a warning of SPW002.
+
+Fix: correct the code that the message names; `ruby -c launch/spawner.rb` tells whether more is
+left.
+Source: Ruby's grammar. None of the accepted packages that we checked shows this.
 """
 
 from checker.expand.spawner.reader import Spawner
@@ -18,8 +22,24 @@ def check(spawner: Spawner) -> Findings:
         yield finding(span, message)
 
 
-GOOD = [{"launch/spawner.rb": "def spawner(_name)\n  <<-SDF\n<spawn/>\n  SDF\nend\n"}]
+_SPAWNER = "def spawner(_name)\n  <<-SDF\n<spawn/>\n  SDF\nend\n"
+_NODES = """
+def rosExecutables(_name, _worldName)
+  nodes = ['a', 'b']
+  nodes.map do |node|
+    "<executable name='#{node}'/>\\n"
+  end.join
+end
+"""
+_MARK = " # ^ SPW001"
+
+GOOD = [{"launch/spawner.rb": _SPAWNER}, {"launch/spawner.rb": _SPAWNER + _NODES}]
 BAD = [
-    {"launch/spawner.rb": "def spawner(_name)\n  <<-SDF # ^ SPW001\n<spawn/>\nend\n"},
-    {"launch/spawner.rb": "def spawner(_name)\n  'x'\nend\nend # ^ SPW001\n"},
+    {"launch/spawner.rb": f"def spawner(_name)\n  <<-SDF{_MARK}\n<spawn/>\nend\n"},
+    {"launch/spawner.rb": f"def spawner(_name)\n  <<-SDF{_MARK}\n<spawn/>\n  SDF \nend\n"},
+    {"launch/spawner.rb": f"def spawner(_name)\n  'x'\nend\nend{_MARK}\n"},
+    {"launch/spawner.rb": f"def spawner(_name){_MARK}\n  'x'\n{_NODES}"},
+    {"launch/spawner.rb": _SPAWNER + _NODES.replace("'b']", f"'b]{_MARK}")},
+    {"launch/spawner.rb": _SPAWNER + _NODES.replace("'b']", f"'b'{_MARK}")},
+    {"launch/spawner.rb": _SPAWNER + _NODES.replace("_name, _worldName)", f"_name _world){_MARK}")},
 ]

@@ -4,7 +4,11 @@ The checker never runs uploaded Ruby. It evaluates a small part of the language:
 conditions, loops, strings, numbers, arrays, hashes and YAML files. The message names code outside
 this part; rules that need what the spawner emits are then not checked.
 
-Fix: build the XML from the function's parameters only, without other programs, files or network.
+What the grammar does not know is a warning, for Ruby most likely refuses the file (SPW001 reports
+it where that is certain); so is an error that Ruby raises.
+
+Fix: correct what was mistyped, and build the XML from the function's parameters only, without other
+programs, files or network.
 Source: the Ruby evaluator of this checker. None of the accepted packages that we checked goes
 beyond it.
 """
@@ -23,8 +27,13 @@ ARGUMENTS = {"spawner": SPAWNER_ARGUMENTS, "rosExecutables": EXECUTABLES_ARGUMEN
 
 @rule("SPW002", "spawner-not-readable", Severity.INFO, Concern.INTERFACE)
 def check(spawner: Spawner) -> Findings:
-    """Report what stopped the evaluation; errors that Ruby itself raises are warnings."""
+    """Report what stopped the evaluation; what Ruby itself refuses or raises are warnings."""
     if spawner.syntax_faults:
+        return
+    for span in spawner.not_understood:
+        message = "the grammar does not know this Ruby, so what the spawner emits is not certain"
+        yield finding(span, message, severity=Severity.WARNING)
+    if spawner.not_understood:
         return
     for unread in spawner.unread:
         if unread in _not_to_be_called(spawner):
@@ -64,4 +73,5 @@ GOOD = [
 BAD = [
     {"launch/spawner.rb": _spawner("noise = Net::HTTP.get('a') # ^ SPW002")},
     {"launch/spawner.rb": _spawner("noise = nois + 1 # ^ SPW002")},
+    {"launch/spawner.rb": _spawner("noise = 1 if noise = 2 then # ^ SPW002")},
 ]

@@ -28,7 +28,7 @@ def check(spawner: Spawner) -> Findings:
         function = spawner.functions.get(name)
         if function is not None:
             yield from _judge(function, expected)
-        elif spawner.lacks(name) and not spawner.syntax_faults:
+        elif spawner.lacks(name):
             yield finding(
                 spawner.entry.whole(),
                 f"there is no function {name}({', '.join(expected)})",

@@ -10,7 +10,7 @@ this.
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.emitted_xml import SpawnedXml, models_of
 from checker.expand.spawner.reader import Spawner
 from checker.rule import Concern, Findings, Safety, Severity, finding, replace_text, rule
 from checker.source.text import Located
@@ -45,7 +45,8 @@ def _names(spawn: Element) -> Iterator[tuple[str, int, Located[str]]]:
     for parent in (spawn, *_includes(spawn)[:1]):
         for name in parent.all("name"):
             if name.text.stated:
-                yield f"<name> of <{parent.tag}>", NAME, name.text
+                what = "include" if parent.tag == "include" else "spawn"
+                yield f"<name> of <{what}>", NAME, name.text
 
 
 def _uris(spawn: Element) -> Iterator[tuple[str, int, Located[str]]]:
@@ -56,8 +57,7 @@ def _uris(spawn: Element) -> Iterator[tuple[str, int, Located[str]]]:
 
 def _includes(spawn: Element) -> list[Element]:
     """Return the included models; the first is the robot, others may be its payload."""
-    sdf = spawn.child("sdf")
-    return sdf.all("include") if sdf is not None else []
+    return [model for model in models_of(spawn) if model.tag == "include"]
 
 
 def _spawner(name: str, uri: str) -> str:

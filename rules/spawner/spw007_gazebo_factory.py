@@ -38,8 +38,28 @@ end
 """
 
 
-_PLUGIN = """<plugin name="ignition::launch::GazeboFactory"
-            filename="libignition-launch-gazebo-factory.so"> <!-- ^ SPW007 -->"""
+_FACTORY = "ignition::launch::GazeboFactory"
+_LIBRARY = "libignition-launch-gazebo-factory.so"
+_MARK = "<!-- ^ SPW007 -->"
 
-GOOD = [{"launch/spawner.rb": _spawner('<spawn name="#{_name}">', "</spawn>")}]
-BAD = [{"launch/spawner.rb": _spawner(_PLUGIN.replace("\n            ", " "), "</plugin>")}]
+GOOD = [
+    {"launch/spawner.rb": _spawner('<spawn name="#{_name}">', "</spawn>")},
+    {
+        "launch/spawner.rb": _spawner(
+            '<spawn name="#{_name}"><sdf><include><plugin name="acme::Factory" filename="f"/>',
+            "</include></sdf></spawn>",
+        )
+    },
+]
+BAD = [
+    {
+        "launch/spawner.rb": _spawner(
+            f'<plugin name="{_FACTORY}" filename="{_LIBRARY}"> {_MARK}', "</plugin>"
+        )
+    },
+    {
+        "launch/spawner.rb": _spawner(
+            f'<plugin name="{_FACTORY}" filename="factory"><spawn> {_MARK}', "</spawn></plugin>"
+        )
+    },
+]

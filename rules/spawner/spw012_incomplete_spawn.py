@@ -2,17 +2,18 @@
 
 Without `<is_performer>true</is_performer>` the robot does not count as a member of the team. If
 renaming is allowed, its topics may have another name than the robot: this is a warning. Without
-`<world>` it is not spawned.
+`<world>` it is not spawned, nor with an `<include>` that stands in no `<sdf>`.
 
 Fix: write `<world>#{_worldName}</world>`, `<is_performer>true</is_performer>` and
-`<allow_renaming>false</allow_renaming>` below `<spawn>`.
+`<allow_renaming>false</allow_renaming>` below `<spawn>`, and `<sdf version="1.6">` around the
+`<include>`.
 Source: Model Migration Guide, example spawner. None of the accepted packages that we checked shows
 this.
 """
 
 from collections.abc import Iterator
 
-from checker.expand.spawner.emitted_xml import SpawnedXml
+from checker.expand.spawner.emitted_xml import SpawnedXml, models_of
 from checker.expand.spawner.launcher import WORLD as LAUNCHED_WORLD
 from checker.expand.spawner.reader import Spawner
 from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, replace_text, rule
@@ -35,6 +36,9 @@ def check(spawner: Spawner, spawned: SpawnedXml) -> Findings:
         yield finding(function or spawner.entry.whole(), "the spawner emits no <spawn>")
     for spawn in spawned.spawns:
         yield from _judge_flags(spawn)
+        if spawn.child("sdf") is None:
+            for model in models_of(spawn):
+                yield finding(model, f"<{model.tag}> stands in no <sdf>, so nothing is spawned")
         world = spawn.child("world")
         if world is None or not world.text.stated:
             yield finding(world or spawn, "<spawn> names no <world>")
@@ -84,10 +88,16 @@ _PERFORMER = "<is_performer>true</is_performer>"
 _RENAMING = "<allow_renaming>false</allow_renaming>"
 _MARK = "<!-- ^ SPW012 -->"
 
-GOOD = [{"launch/spawner.rb": _spawner(_WORLD + _PERFORMER + _RENAMING)}]
+_INCLUDE = "<include><uri>#{_modelURI}</uri></include>"
+
+GOOD = [
+    {"launch/spawner.rb": _spawner(_WORLD + _PERFORMER + _RENAMING)},
+    {"launch/spawner.rb": _spawner(f"{_WORLD}{_PERFORMER}{_RENAMING}<sdf>{_INCLUDE}</sdf>")},
+]
 BAD = [
     {"launch/spawner.rb": _spawner(_WORLD + _RENAMING, _MARK)},
     {"launch/spawner.rb": _spawner(_PERFORMER + _RENAMING, _MARK)},
+    {"launch/spawner.rb": _spawner(f"{_WORLD}{_PERFORMER}{_RENAMING}{_INCLUDE}{_MARK}")},
     {
         "launch/spawner.rb": _spawner(
             f"<world>tunnel</world>{_PERFORMER}<allow_renaming>1</allow_renaming>{_MARK}"

@@ -98,6 +98,8 @@ _BEHIND = {
     "heredocs, all closed": ("1\n", "<<A\nA\n" * 9_900),
     "statements": ("1\n", "1;" * 29_000),
     "parentheses": ("1\n", "(" * 59_000),
+    "parentheses that close nothing": ("1\n", ")" * 59_000),
+    "arguments without commas": ("1\n", "f(a b, " * 8_000),
     "literals that are never closed": ("1\n", "%q( " * 14_900),
     "backticks": ("1\n", "`" * 59_000),
     "comments that are never closed": ("1\n", "\n=begin\n" * 7_000),

@@ -6,7 +6,7 @@ The table `models_common` says what is assumed of each, and from where.
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
 from msgspec.structs import replace
@@ -31,17 +31,37 @@ def assumed_nodes(
         include: Of a file that is not available.
         remaps: Those in force where it is included, in order of the file.
     """
-    folder, file = posixpath.split(include.file)
-    template = table("models_common")["templates"].get(file)
-    if include.package != PACKAGE or folder != FOLDER or template is None:
+    template = _template(include)
+    if template is None:
         return None
-    values = {
-        name: include.arguments.get(name, default) for name, default in template["args"].items()
-    }
+    values = _values(template, include)
     if any(value is None or len(value) > MAX_LENGTH for value in values.values()):
         return None
     around = tuple(replace(remap, inherited=True) for remap in reversed(remaps))
     return tuple(_node(entry, values, include, around) for entry in template["nodes"])
+
+
+def unknown_nodes(include: UnresolvedInclude) -> Hashable:
+    """Return what tells apart the nodes of a template that starts some whose names are not known.
+
+    Two includes with the same answer start nodes of the same names; None where they are known.
+    """
+    template = _template(include)
+    if template is None or template["nodes"]:
+        return None
+    return include.file, include.namespace, tuple(_values(template, include).items())
+
+
+def _template(include: UnresolvedInclude) -> Mapping[str, Any] | None:
+    folder, file = posixpath.split(include.file)
+    template: Mapping[str, Any] | None = table("models_common")["templates"].get(file)
+    return template if (include.package, folder) == (PACKAGE, FOLDER) else None
+
+
+def _values(template: Mapping[str, Any], include: UnresolvedInclude) -> dict[str, Any]:
+    return {
+        name: include.arguments.get(name, default) for name, default in template["args"].items()
+    }
 
 
 def assumed_bridges(node: Node) -> tuple[Bridge, ...]:

@@ -19,6 +19,9 @@ from checker.source.xml import Element, XmlDocument
 from checker.source.xml_fragments import parse_fragments, unwrapped
 from checker.source.xml_positions import XmlFault
 
+_FACTORY = "GazeboFactory"
+_MODELS = ("include", "model")
+
 
 class WorkspaceFiles(Record):
     """Gives the spawner reader the texts of a package and of its siblings."""
@@ -78,26 +81,40 @@ class SpawnedXml(EmittedXml, dict=True):
 
     @cached_property
     def spawns(self) -> list[Element]:
-        """The outermost `<spawn>` elements, and the plugins that older spawners have instead."""
-        return [*self.document.root.all("spawn"), *self.gazebo_factories]
+        """The outermost `<spawn>` elements, and what older spawners have instead."""
+        wrapped = [each for plugin in self.gazebo_factories for each in _spawns_in(plugin)]
+        return [*self.document.root.all("spawn"), *wrapped]
 
     @cached_property
     def gazebo_factories(self) -> list[Element]:
-        """The plugins that older spawners wrap the robot in instead of `<spawn>`."""
+        """The launcher's plugins that older spawners wrap the robot in."""
         plugins = self.document.root.descendants("plugin")
-        return [plugin for plugin in plugins if "gazebo-factory" in (plugin.get("filename") or "")]
+        return [
+            plugin
+            for plugin in plugins
+            if "gazebo-factory" in (plugin.get("filename") or "")
+            or (plugin.get("name") or "").rpartition("::")[2] == _FACTORY
+        ]
 
     @cached_property
     def plugins(self) -> list[Element]:
         """The plugins that `spawner` adds to the robot."""
-        models = [
-            model
-            for spawn in self.spawns
-            for sdf in spawn.all("sdf")
-            for tag in ("include", "model")
-            for model in sdf.all(tag)
-        ]
+        models = [model for spawn in self.spawns for model in models_of(spawn)]
         return [plugin for model in models for plugin in model.all("plugin")]
+
+
+def _spawns_in(factory: Element) -> list[Element]:
+    """Return what a plugin spawns: the `<spawn>` elements in it, else what itself describes."""
+    return factory.all("spawn") or [factory]
+
+
+def models_of(spawn: Element) -> list[Element]:
+    """Return the models in a `<spawn>`: the robot first, then its payload.
+
+    They belong into `<sdf>`; where it was left out, they are still what is meant.
+    """
+    holders = spawn.all("sdf") or [spawn]
+    return [model for holder in holders for tag in _MODELS for model in holder.all(tag)]
 
 
 class StartedXml(EmittedXml, dict=True):

@@ -33,8 +33,10 @@ from checker.expand.spawner.signals import (
     Unreadable,
 )
 from checker.expand.spawner.values import RubyString, Value, class_name
-from checker.source.ruby import ParsesTooSlowly, RubyNode, SyntaxFault, parse_ruby, syntax_faults
-from checker.source.text import SourceText
+from checker.source.ruby import ParsesTooSlowly, RubyNode, parse_ruby
+from checker.source.ruby_repairs import SyntaxFault
+from checker.source.ruby_syntax import not_understood, syntax_faults
+from checker.source.text import SourceText, Span
 
 Argument = str | int | float | bool | None
 
@@ -68,6 +70,7 @@ class Spawner(Record, eq=False):
         sources: All files read for it, the entry first.
         unread: What could not be read; empty when everything was.
         syntax_faults: Syntax errors that are certain.
+        not_understood: Where a file first goes beyond the grammar, if it has no such error.
     """
 
     entry: SourceText
@@ -77,6 +80,7 @@ class Spawner(Record, eq=False):
     sources: tuple[SourceText, ...]
     unread: tuple[Unread, ...]
     syntax_faults: tuple[SyntaxFault, ...]
+    not_understood: tuple[Span, ...]
     _program: _Program
 
     @property
@@ -85,13 +89,14 @@ class Spawner(Record, eq=False):
         return tuple(self._program.trees.values())
 
     def lacks(self, function: str) -> bool:
-        """Whether the file was read to its end and defines no such function.
+        """Whether the file was understood to its end and defines no such function.
 
         Args:
             function: `spawner` or `rosExecutables`.
         """
         result = self.spawn if function == "spawner" else self.executables
-        return isinstance(result, Unread) and result.reason == _NO_FUNCTION.format(function)
+        lacking = isinstance(result, Unread) and result.reason == _NO_FUNCTION.format(function)
+        return lacking and not (self.syntax_faults or self.not_understood)
 
     def evaluate(
         self, function: str, arguments: Sequence[Argument], *, ground_truth: bool = False
@@ -125,6 +130,7 @@ def read_spawner(files: SpawnerFiles, path: str, entry: SourceText) -> Spawner:
         if isinstance(result, Unread):
             unread.setdefault((result.span.start, result.span.end, result.reason), result)
     faults = tuple(fault for tree in program.trees.values() for fault in syntax_faults(tree))
+    strange = () if faults else tuple(filter(None, map(not_understood, program.trees.values())))
     sources = {path: entry, **program.sources}
     return Spawner(
         entry,
@@ -134,6 +140,7 @@ def read_spawner(files: SpawnerFiles, path: str, entry: SourceText) -> Spawner:
         tuple(sources.values()),
         tuple(unread.values()),
         faults,
+        strange,
         program,
     )
 
