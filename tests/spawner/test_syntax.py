@@ -46,6 +46,8 @@ CERTAIN = {
     "x = [\n  'a'\n  'b',\n]\n": (2, "'"),
     "def f\n  1\nelse\n  2\nend\n": (3, "else"),
     "x = 00.5\n": (1, "00.5"),
+    "def f\n  RADIUS = 0.1\nend\n": (2, "RADIUS"),
+    "def f\n  [1].each { |x| A ||= x }\nend\n": (2, "A"),
     "$x 1\n": (1, "$x"),
 }
 UNCERTAIN = {
@@ -86,6 +88,7 @@ def test_certain_fault(text):
         "def f\n  1\nrescue\n  2\nelse\n  3\nend\n",
         "def f\n  begin\n    1\n  rescue A\n    2\n  else\n    3\n  end\nend\n",
         "def f(n)\n  n <<X\nend\nX = 1\n",
+        "RADIUS = 0.1\ndef f\n  a = RADIUS\n  f(B: 1)\nend\nclass A\n  B = 1\nend\n",
         "x = 0.5 + 10.0\ny = a / b / c\nz = /a/mix\n",
         "def f(if:, in: 1)\n  {else: 1, end: 2}\nend\n",
     ],
