@@ -111,7 +111,7 @@ def noise(number: int, megabytes: float) -> bytes:
     from PIL import Image
 
     side = int((megabytes * 1e6 / 3) ** 0.5)
-    noise = random.Random(number).randbytes(3 * side**2)  # noqa: S311 - the same each time
+    noise = random.Random(number).randbytes(3 * side**2)
     picture = Image.frombytes("RGB", (side, side), noise)
     made = io.BytesIO()
     picture.save(made, "PNG", compress_level=1)

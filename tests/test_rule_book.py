@@ -14,7 +14,7 @@ BOOK = {
     "REF": 6,
     "KIN": 17,
     "INE": 13,
-    "GEO": 15,
+    "GEO": 16,
     "MSH": 10,
     "SEN": 27,
     "PLG": 9,
@@ -24,7 +24,7 @@ BOOK = {
     "BRD": 3,
     "ROS": 15,
     "DOC": 9,
-    "URD": 14,
+    "URD": 15,
     "CTL": 8,
     "TRI": 18,
 }

@@ -11,6 +11,7 @@ from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, sensor_channels
 from checker.model.sensing.kind import SensorType
 
+_RELEASE = "dome"
 _ANY_ROBOT = "/world/*/model/*/"
 _ROBOT = "/world/$(arg world_name)/model/$(arg name)/"
 _SIDES = ("front", "left", "rear", "right")
@@ -79,7 +80,8 @@ def sensor_bridges(robot: Robot) -> list[SensorBridges]:
     taken: set[str] = set()
     bridged = []
     for sensor in robot.sensors:
-        channels = [channel for channel in sensor_channels(sensor) if _is_wanted(sensor, channel)]
+        published = sensor_channels(sensor, _RELEASE)
+        channels = [channel for channel in published if _is_wanted(sensor, channel)]
         if not channels:
             continue
         base = _free(_ros_base(robot, sensor), taken)

@@ -9,7 +9,8 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.model.geometry.shapes import Geometry, Material
 from checker.model.geometry.transform import Transform
-from checker.model.lights import Attenuation, read_attenuation
+from checker.model.lights import Attenuation, Beam, read_attenuation, read_beam
+from checker.model.plugin_library import library_stem
 from checker.model.sensing.camera import Camera, read_camera
 from checker.model.sensing.imu import Imu, read_imu
 from checker.model.sensing.kind import SensorType, sensor_type
@@ -118,6 +119,12 @@ class Plugin(Part):
         """Last word of the class: `DiffDrive` of `ignition::gazebo::systems::DiffDrive`."""
         return self.name.value.rsplit("::", 1)[-1]
 
+    @property
+    def called(self) -> str:
+        """What a message calls it: its class, or its library where the name is free to choose."""
+        library = "" if "::" in self.name.value else library_stem(self.filename.value)
+        return library or self.class_name
+
     def values(self, *tags: str) -> list[Located[str]]:
         """Return the texts of all elements of these names, at any depth."""
         return [e.text for e in self.element.descendants() if e.tag in tags and e.text.stated]
@@ -196,6 +203,11 @@ class Light(Part, dict=True):
     def attenuation(self) -> Attenuation | None:
         """How it grows weaker with distance; None when it does not say."""
         return read_attenuation(self.element)
+
+    @cached_property
+    def beam(self) -> Beam | None:
+        """The cone that it shines in; None for one that shines all around."""
+        return read_beam(self.element)
 
     @cached_property
     def casts_shadows(self) -> bool:

@@ -1,8 +1,11 @@
-"""How a light grows weaker with distance."""
+"""How a light grows weaker with distance, and where it shines."""
 
 from __future__ import annotations
 
+import math
+
 from checker.base.record import Record
+from checker.model.geometry.transform import Vector
 from checker.model.values import ValueReader
 from checker.source.text import Located, Span
 from checker.source.xml import Element
@@ -57,3 +60,32 @@ def read_attenuation(light: Element) -> Attenuation | None:
         values.number(element, "quadratic", 0.0),
         element,
     )
+
+
+_DOWN: Vector = (0.0, 0.0, -1.0)
+
+
+class Beam(Record):
+    """The cone of a spot light.
+
+    Attributes:
+        along: Its axis in the light's frame, of length 1.
+        half: Radians from the axis to the edge.
+    """
+
+    along: Vector
+    half: float
+
+
+def read_beam(light: Element) -> Beam | None:
+    """Read the cone of a `<light>`; None for one that shines all around, and without a cone."""
+    spot = light.child("spot")
+    if light.get("type") != "spot" or spot is None:
+        return None
+    values = ValueReader()
+    x, y, z = (number.value for number in values.numbers(light, "direction", _DOWN))
+    half = values.number(spot, "outer_angle", 0.0).value / 2.0
+    length = math.hypot(x, y, z)
+    if not (0.0 < length < math.inf and 0.0 < half < math.pi):
+        return None
+    return Beam((x / length, y / length, z / length), half)

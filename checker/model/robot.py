@@ -93,6 +93,16 @@ class Robot(Part, dict=True):
         on_links = [sensor for link in self.links for sensor in link.sensors]
         return (*on_links, *(sensor for joint in self.joints for sensor in joint.sensors))
 
+    def poses(self) -> Iterator[tuple[Pose, str]]:
+        """Yield every pose, those of collisions with the name of their link."""
+        for link in self.links:
+            yield from ((shape.pose, link.scoped_name) for shape in link.collisions)
+            parts: tuple[Link | Visual | Sensor, ...] = (link, *link.visuals, *link.sensors)
+            yield from ((part.pose, "") for part in parts)
+            if link.inertial is not None:
+                yield link.inertial.pose, ""
+        yield from ((joint.pose, "") for joint in self.joints)
+
     @property
     def is_for_gazebo(self) -> bool:
         """Whether it is written for Gazebo: as SDF, or as URDF with a `<gazebo>` element."""

@@ -10,6 +10,7 @@ from checker.base.record import Record
 from checker.finding import Place
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
+from checker.package.submissions import is_same_robot
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.text import SourceText
 from checker.source.xml import Element, XmlDocument
@@ -142,3 +143,50 @@ def _place(element: Element, attribute: str) -> Place:
 def _in_model(element: Element) -> Iterator[Use]:
     if element.tag == "uri" and (match := _MODEL.match(element.value)):
         yield Use(match[1], element.text.span.place(), match.group())
+
+
+# What a package takes from another robot's package although it has the file itself.
+
+
+_TAKEN = re.compile(
+    r"(?:\$\(find\s{1,8}(?P<found>\w{1,200}_sensor_config_\d{1,4})\s{0,8}\)"
+    r"|package://(?P<named>\w{1,200}_sensor_config_\d{1,4}))/{1,4}(?P<path>[\w./-]{1,300})(?![\w./$%{-])"
+)
+
+
+def taken_in_vain(package: Package) -> Iterator[Use]:
+    """Yield the files of other robots' packages that this package has under the same path.
+
+    Launch files and robot descriptions are searched. A file that a package's own file of that path
+    takes from elsewhere builds on it; and what package.xml declares of the same team is meant.
+    """
+    for file in package.index.with_suffix(".launch", ".urdf", ".xacro", ".sdf"):
+        source = package.read(file.path)
+        if not isinstance(source, SourceText) or "_sensor_config_" not in source.text:
+            continue
+        document = package.xml(file.path)
+        for element in document.elements if isinstance(document, XmlDocument) else ():
+            for text in (*element.attributes.values(), element.value):
+                for match in _TAKEN.finditer(text):
+                    name, path = match["found"] or match["named"], match["path"]
+                    own = package.index.find(path) if path != file.path else None
+                    if own is not None and own.is_file and _is_foreign(package, name):
+                        yield Use(name, _place_of(element, text), match.group())
+
+
+def _place_of(element: Element, text: str) -> Place:
+    """Return the place of the attribute that holds a text, else that of the element's text."""
+    names = (name for name, value in element.attributes.items() if value == text)
+    name = next(names, None)
+    return element.text.span.place() if name is None else _place(element, name)
+
+
+def _is_foreign(package: Package, name: str) -> bool:
+    """Whether a package is of another robot, and not used on purpose."""
+    if is_same_robot(name, package.name) or (package.base and package.base.package_name == name):
+        return False
+    same_team = name.casefold().split("_")[0] == package.name.casefold().split("_")[0]
+    return not same_team or not any(
+        reference.package_name == name and reference.kind is ReferenceKind.DEPENDENCY
+        for reference in package.references
+    )

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 SPAWNER = "launch/spawner.rb"
 SUBMISSION_NAME = re.compile(r"_sensor_config_\d+\Z")
 NEVER_INHERITED = frozenset({"package.xml", "CMakeLists.txt", SPAWNER})
+SHEET = "specifications.md"
+_SHEET_SPELT = re.compile(r"(?:(?:model|robot)[_ -])?spec(?:s|ifications?)?\.(?:md|markdown)", re.I)
 _DESCRIPTION = "description.launch"
 ROBOT_LAUNCH_FILES = frozenset({_DESCRIPTION, "vehicle_topics.launch"})
 URDF_FOLDER = "urdf"
@@ -35,7 +37,7 @@ class Part(StrEnum):
     SPAWNER = "spawner"
     TOPICS = "launch/vehicle_topics.launch"
     DESCRIPTION = "launch/description.launch"
-    SPECIFICATION = "specifications.md"
+    SPECIFICATION = SHEET
 
 
 class Found(Record):
@@ -165,6 +167,18 @@ def find_part(package: Package, part: str, holding: Holding) -> Found | Missing:
         holder = sibling
         seen.append(sibling.name)
     return Found(holder, path if holder is package else f"../{holder.name}/{path}")
+
+
+def own_sheet(package: Package) -> str | None:
+    """Return the specification sheet at the top of a package, also under a name of other spelling.
+
+    `specification.md` or `Specs.md` is what `specifications.md` ought to be; only the right name
+    counts when both are there.
+    """
+    if package.exists(SHEET):
+        return SHEET
+    names = (file.path for file in package.index.files)
+    return min((name for name in names if _SHEET_SPELT.fullmatch(name)), default=None)
 
 
 def inherited_parts(package: Package) -> Iterator[Inherited]:

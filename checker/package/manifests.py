@@ -54,6 +54,7 @@ class PackageManifest(Record, eq=False):
         licenses: Licenses.
         dependencies: All dependencies, in order.
         build_type: `export/build_type`; empty, thus catkin, when absent.
+        urls: Links to pages about the package.
         span: The root's start tag.
     """
 
@@ -66,6 +67,7 @@ class PackageManifest(Record, eq=False):
     licenses: tuple[Located[str], ...]
     dependencies: tuple[Dependency, ...]
     build_type: Located[str]
+    urls: tuple[Located[str], ...]
     span: Span
 
     def depends_on(self, package: str) -> bool:
@@ -92,6 +94,7 @@ class ModelConfig(Record, eq=False):
         sdf: The model files, in order.
         authors: Authors.
         description: Description.
+        depends: URIs of the models that it needs.
         span: The root's start tag.
     """
 
@@ -100,6 +103,7 @@ class ModelConfig(Record, eq=False):
     sdf: tuple[SdfEntry, ...]
     authors: tuple[Person, ...]
     description: Located[str]
+    depends: tuple[Located[str], ...]
     span: Span
 
 
@@ -120,6 +124,7 @@ def read_package_xml(document: XmlDocument) -> PackageManifest:
             if child.tag in DEPENDENCY_TAGS
         ),
         build_type=_text(root.child("export") or root, "build_type"),
+        urls=tuple(entry.text for entry in root.all("url")),
         span=root.span,
     )
 
@@ -136,6 +141,12 @@ def read_model_config(document: XmlDocument) -> ModelConfig:
             for author in root.all("author")
         ),
         description=_text(root, "description"),
+        depends=tuple(
+            uri.text
+            for depend in root.all("depend")
+            for model in depend.all("model")
+            for uri in model.all("uri")
+        ),
         span=root.span,
     )
 

@@ -20,6 +20,7 @@ from checker.package.index import (
     normal_path,
 )
 from checker.package.inheritance import (
+    SHEET,
     SPAWNER,
     Found,
     Inherited,
@@ -27,6 +28,7 @@ from checker.package.inheritance import (
     base_of,
     find_part,
     inherited_parts,
+    own_sheet,
 )
 from checker.package.installed import installed_items
 from checker.package.kind import PackageKind, kind_of
@@ -204,7 +206,12 @@ class Package(Record, eq=False, dict=True):
         return find_part(self, "model", own_model)
 
     def part(self, path: str) -> Found | Missing:
-        """Find a file or folder in the package, else in the siblings it inherits from."""
+        """Find a file or folder in the package, else in the siblings it inherits from.
+
+        The specification sheet is found under other spellings of its name, too.
+        """
+        if path == SHEET:
+            return find_part(self, path, own_sheet)
         return find_part(self, path, lambda holder: path if holder.exists(path) else None)
 
     @cached_property

@@ -57,7 +57,7 @@ def check(
         )
         return
     texts = list(_texts(section, configuration_number(package.name)))
-    listed = _types_in(texts)
+    listed = _types_in(texts, {sensor.type.value for sensor in robot.sensors})
     devices = known_devices()
     unlisted = defaultdict(list)
     for sensor in robot.sensors:
@@ -89,10 +89,16 @@ def _texts(section: Section, number: int | None) -> Iterator[str]:
             yield passage.words
 
 
-def _types_in(texts: list[str]) -> frozenset[str]:
-    """Return the types of `<sensor>` that words may mean."""
+def _types_in(texts: list[str], carried: set[str]) -> frozenset[str]:
+    """Return the types of `<sensor>` that words may mean.
+
+    Words for cameras mean cameras that also measure depth only on a robot without other cameras.
+    """
     kinds = {kind for text in texts for kind in kinds_in(text, text)}
-    types = (TYPES.get(kind, frozenset()) | SUBSTITUTES.get(kind, frozenset()) for kind in kinds)
+    types = (
+        own if carried & (own := TYPES.get(kind, frozenset())) else own | SUBSTITUTES.get(kind, own)
+        for kind in kinds
+    )
     return frozenset().union(*types)
 
 
@@ -135,5 +141,10 @@ BAD = [
     _example(_THERMAL, "* IMU\n* Sensor configurations 3 and 4 carry a thermal camera\n", _MARK),
     _example(
         '<sensor name="c" type="camera"/>' + _THERMAL, "* thermal camera, IMU\n* IMU\n", _MARK
+    ),
+    _example(
+        '<sensor name="c" type="camera"/><sensor name="d" type="rgbd_camera"/>',
+        "* 2 x cameras\n",
+        _MARK,
     ),
 ]

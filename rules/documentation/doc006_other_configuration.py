@@ -2,7 +2,9 @@
 
 A copied specification sheet that keeps the other number or command starts the other robot: whoever
 follows it drives something else. Mentions of other configurations are fine; only what the sheet
-says about itself counts. PKG012 reports other names in its text.
+says about itself counts. Another team is reported in the title, in the text up to the next heading
+and in the description of model.config, unless the sentence names the own team too, or says with
+words such as "based on" where the robot comes from. PKG012 reports names of other packages.
 
 Fix: write this package's name and number.
 Source: SubT reviews of sheets copied from another configuration.
@@ -12,19 +14,31 @@ import re
 from collections.abc import Iterator
 
 from checker.model.specification.sheet import Specification
+from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.package.submissions import NAME, configuration_number, is_same_robot
+from checker.package.submissions import (
+    NAME,
+    NUMBERED,
+    blank_xml_comments,
+    configuration_number,
+    is_same_robot,
+    stated_number,
+    title_of_another,
+)
+from checker.package.teams import TEAM_OF, other_teams
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
-from checker.source.text import Span
+from checker.source.markdown import PassageKind
+from checker.source.text import Located, Span
 
-_NUMBERED = r"(?:sensor[\s_]+)?config(?:uration)?[\s_#]+(\d{1,3})\b(?!\s*(?:to|and|-|,|&|or)\s*\d)"
-_TITLE = re.compile(_NUMBERED, re.IGNORECASE)
 _ITSELF = re.compile(
-    rf"\b(?:this|the)\s+(?:[\w-]+\s+){{1,4}}with\s+{_NUMBERED}(?=[\s,]+(?:includes|carries|has|is)\b)"
-    rf"|\bvalidation\s+for\b[^.]{{0,120}}?\bwith\s+{_NUMBERED}"
-    rf"|\bthis\s+{_NUMBERED}",
+    rf"\b(?:this|the)\s+(?:[\w-]+\s+){{1,4}}with\s+{NUMBERED}(?=[\s,]+(?:includes|carries|has|is)\b)"
+    rf"|\b(?:description|proof)\b[^.]{{0,160}}?\bwith\s+{NUMBERED}"
+    rf"|\bvalidation\s+for\b[^.]{{0,120}}?\bwith\s+{NUMBERED}"
+    rf"|\bthis\s+{NUMBERED}",
     re.IGNORECASE,
 )
+_INTRODUCTION = 4
+"""Passages that say what the sheet is about: the title, and what stands below it."""
 _COMMAND = re.compile(
     r"\b(?:roslaunch|ign\s+launch|rosrun|robotConfig\d*:=|modelName:=)[^\n]{0,500}", re.IGNORECASE
 )
@@ -32,8 +46,12 @@ _VARIABLE = re.compile(r"\bvariable\s+name\s+`{0,2}(\w{1,200})", re.IGNORECASE)
 
 
 @rule("DOC006", "other-configuration", Severity.WARNING, Concern.PAPERWORK)
-def check(package: Package, specification: Specification) -> Findings:
+def check(package: Package, paperwork: Paperwork, specification: Specification | None) -> Findings:
     """Compare the title, the commands and statements about the robot with the package's name."""
+    if paperwork.config is not None and configuration_number(package.name) is not None:
+        yield from _described(paperwork.config.description, package.name)
+    if specification is None:
+        return
     source = specification.source
     # An inherited sheet speaks of the package that it lies in.
     owner = source.file.split("/")[1] if source.file.startswith("../") else package.name
@@ -41,6 +59,7 @@ def check(package: Package, specification: Specification) -> Findings:
     if number is None:
         return
     yield from _title(specification, owner, number)
+    yield from _introduced(specification, owner)
     yield from _commands(specification, owner)
     yield from _of_itself(specification, owner, number)
 
@@ -48,10 +67,40 @@ def check(package: Package, specification: Specification) -> Findings:
 def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
     """Report another number in the title; a title of several numbers describes them all."""
     title = sheet.sections[0].span if sheet.sections else sheet.source.whole()
-    numbers = [int(text) for text in _TITLE.findall(title.text)]
-    if len(numbers) == 1 and numbers[0] != number:
-        message = f"the title says configuration {numbers[0]}, but the package is {owner}"
+    stated = stated_number(title.text)
+    if stated is not None and stated != number:
+        message = f"the title says configuration {stated}, but the package is {owner}"
         yield finding(title, message)
+
+
+def _introduced(sheet: Specification, owner: str) -> Iterator[Finding]:
+    """Report another team in the title or in the first passages, up to the next heading."""
+    is_reported = title_of_another(sheet.source.text, owner) is not None
+    headings = 0
+    for passage in sheet.markdown.passages[:_INTRODUCTION]:
+        is_heading = passage.kind is PassageKind.HEADING
+        headings += is_heading
+        if headings > 1:
+            return
+        if not (is_heading and is_reported):
+            for match in other_teams(passage.text, owner):
+                yield _of_team(passage.part(*match.span()), match.group(), owner)
+
+
+def _described(description: Located[str], package: str) -> Iterator[Finding]:
+    """Report another team in the text of model.config."""
+    span = description.span
+    text = blank_xml_comments(span.text) if description.stated else ""
+    outright = [match.span(1) for match in TEAM_OF.finditer(text)]
+    for match in other_teams(text, package):
+        if match.span() not in outright:  # PKG012 reports these
+            where = Span(span.source, span.start + match.start(), span.start + match.end())
+            yield _of_team(where, match.group(), package)
+
+
+def _of_team(where: Span, team: str, package: str) -> Finding:
+    message = f"it is about a robot of {team}, but the package is {package}"
+    return finding(where, message, key=f"team {team.casefold()}")
 
 
 def _commands(sheet: Specification, owner: str) -> Iterator[Finding]:
@@ -107,6 +156,12 @@ def _sheet(*lines: str) -> dict[str, str]:
     return {"specifications.md": "\n".join(lines) + "\n"}
 
 
+def _config(description: str, mark: str = "") -> dict[str, str]:
+    return {"model.config": f"<model><description>{description}</description></model>{mark}\n"}
+
+
+_XML_MARK = "  <!-- ^ DOC006 -->"
+
 GOOD = [
     _sheet(
         "# Acme Rover Sensor Config 1",
@@ -119,10 +174,29 @@ GOOD = [
         "Sensor configuration 2 adds 12 breadcrumbs. Based on x1_sensor_config_4.",
     ),
     _sheet("# Acme Rover Sensor Config 1 to 4", "Acme Rover with sensor configuration 3 flies."),
+    _sheet(
+        "# Acme Rover Sensor Config 1",
+        "This sheet describes the Acme Rover. It is based on the MARBLE Husky.",
+        "## Usage",
+        "It is used in the same manner as the MARBLE Husky.",
+    ),
+    {
+        "@name": "barcs_qav500_sensor_config_1",
+        "launch/spawner.rb": None,
+        **_sheet("# BARCS QAV500", "Validation for the BARCS MARBLE QAV500."),
+    },
+    _config("An explorer of caves by Acme Robotics. Derived from CTU-CRAS-Norlab's Absolem."),
 ]
 BAD = [
     _sheet(f"# Acme Rover Sensor Config 2{_MARK}"),
     _sheet("# R", f"ign launch c.ign robotConfig1:=X1_SENSOR_CONFIG_4{_MARK}"),
     _sheet("# R", f"Use the variable name `acme_rover_sensor_config_3`.{_MARK}"),
     _sheet("# R", f"This rover with sensor configuration 2 includes an IMU.{_MARK}"),
+    _sheet(
+        "# Rover", f"Proof of the Coordinated Robotics Rover with Sensor Configuration 1.{_MARK}"
+    ),
+    _sheet(f"# Rover of CTU-CRAS-Norlab{_MARK}"),
+    _sheet(f"# Explorer - Rover{_MARK}"),
+    _config("CTU-CRAS-NORLAB Rover for SubT.", _XML_MARK),
+    _config("Team Explorer's rover for SubT.", _XML_MARK),
 ]

@@ -14,7 +14,7 @@ import math
 from collections.abc import Iterator
 from decimal import Decimal
 
-from checker.model.components import Link, Pose, Sensor, Visual
+from checker.model.components import Pose
 from checker.model.robot import Robot
 from checker.rule import Concern, Context, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
@@ -51,7 +51,7 @@ def check(
     severity = Severity.WARNING if context.profile == "subt" else Severity.INFO
     decimals = min(digits, _MOST_DIGITS)
     wheels = {link.scoped_name for link in robot.wheels}
-    for pose, link in _poses(robot):
+    for pose, link in robot.poses():
         for angle, quarters, off in _near(pose, tolerance, typos):
             of_wheel = link in wheels and off > harmless
             meant = {1: "π/2", 2: "π"}.get(abs(quarters), f"{abs(quarters)}·π/2")
@@ -64,17 +64,6 @@ def check(
                 key="wheel" if of_wheel else "elsewhere",
                 fix=replace_text(angle, f"{quarters * EXACT_HALF_PI:.{decimals}f}"),
             )
-
-
-def _poses(robot: Robot) -> Iterator[tuple[Pose, str]]:
-    """Yield every pose, those of collisions with the name of their link."""
-    for link in robot.links:
-        yield from ((shape.pose, link.scoped_name) for shape in link.collisions)
-        parts: tuple[Link | Visual | Sensor, ...] = (link, *link.visuals, *link.sensors)
-        yield from ((part.pose, "") for part in parts)
-        if link.inertial is not None:
-            yield link.inertial.pose, ""
-    yield from ((joint.pose, "") for joint in robot.joints)
 
 
 def _near(

@@ -20,13 +20,15 @@ from checker.rule import Concern, Findings, Severity, finding, rule
 def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
     """Report driven wheels whose largest collision is round about another axis than the joint's.
 
-    GEO001 reports angles that only have too few digits.
+    If no plugin drives the robot, links that are called wheels and turn without end are checked;
+    then it is a warning. GEO001 reports angles that only have too few digits.
 
     Options:
         degrees: Degrees between the axis of a wheel's largest collision and that of its joint; more
             is an error.
     """
-    for wheel in robot.locomotion.wheels:
+    moved = robot.locomotion
+    for wheel in (*moved.wheels, *moved.undriven):
         angle = askew(robot, wheel)
         rolls = tread(robot, wheel)
         if rolls is None or angle is None or math.degrees(angle) <= degrees:
@@ -36,6 +38,7 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
             f"{rolls.shape.geometry.shape} {rolls.shape.name.value!r} of wheel "
             f"{wheel.link.name.value!r} is {math.degrees(angle):.3g}° off the axis of joint "
             f"{wheel.joint.name.value!r}, expected 0°",
+            severity=Severity.WARNING if wheel in moved.undriven else Severity.ERROR,
             related=[(wheel.joint, "the joint")],
         )
 
@@ -65,6 +68,31 @@ def _cylinder(pose: str, radius: float = 0.1) -> str:
 """
 
 
+def _urdf(origin: str, plugin: str = "", kind: str = "continuous") -> dict[str, str]:
+    wheel = f"""
+<link name="left_wheel">
+  <collision>
+    {origin}
+    <geometry><cylinder radius="0.1" length="0.05"/></geometry>
+  </collision>
+</link>
+<joint name="left_axle" type="{kind}">
+  <origin xyz="0 0.3 0"/>
+  <parent link="base_link"/>
+  <child link="left_wheel"/>
+  <axis xyz="0 1 0"/>
+</joint>
+<gazebo>{plugin}</gazebo>
+"""
+    return {"@urdf": wheel}
+
+
+_CLASSIC = """
+<plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+  <leftJoint>left_axle</leftJoint>
+</plugin>
+"""
+_LYING = '<origin rpy="1.5707963267948966 0 0"/>'
 _TURNED = "<pose>0 0 0 1.5707963267948966 0 0</pose>"
 GOOD = [
     _wheel(_cylinder(_TURNED)),
@@ -72,9 +100,15 @@ GOOD = [
     _wheel(_cylinder(""), "0 0 1"),
     _wheel(_cylinder(_TURNED) + _cylinder("", 0.02)),
     _wheel("<collision name='c'><geometry><sphere/></geometry></collision>"),
+    _urdf(_LYING),
+    _urdf(_LYING, _CLASSIC),
+    # No wheel that rolls.
+    _urdf("<origin/>", kind="fixed"),
 ]
 BAD = [
     _wheel(_cylinder("\n<pose>0 0 0 0 1.5707963267948966 0</pose>  <!-- ^ GEO003 -->")),
     _wheel(_cylinder("  <!-- ^ GEO003 -->")),
     _wheel(_cylinder("\n<pose>0 0 0 1.5 0 0</pose>  <!-- ^ GEO003 -->")),
+    _urdf("<origin/>  <!-- ^ GEO003 -->"),
+    _urdf('<origin rpy="1.5 0 0"/>  <!-- ^ GEO003 -->', _CLASSIC),
 ]

@@ -48,11 +48,13 @@ def _worst(
     if not share > warning_above:
         return
     count = sum(other[0] > warning_above for other in off)
-    says = "has wheel_radius" if stated.stated else "states no wheel_radius; its default is"
+    length, times = ("diameter", 2) if drive.diameter_tag else ("radius", 1)
+    tag = drive.diameter_tag or "wheel_radius"
+    says = f"has {tag}" if stated.stated else f"states no {tag}; its default is"
     yield finding(
         stated,
-        f"{drive.plugin.class_name} {says} {stated.value:g} m, but wheel {wheel.link.name.value!r} "
-        f"has a radius of {wheel.radius:.4g} m"
+        f"{drive.plugin.called} {says} {stated.value * times:g} m, but wheel "
+        f"{wheel.link.name.value!r} has a {length} of {(wheel.radius or 0.0) * times:.4g} m"
         + (f", and {count - 1} more wheels differ" if count > 1 else ""),
         severity=Severity.ERROR if share > error_above else Severity.WARNING,
         related=[(wheel.link, "the wheel")],

@@ -5,12 +5,15 @@ to the left, to +y. With one axis reversed, the wheels work against each other. 
 reversed, the robot drives backwards when commanded forwards. With swapped sides it turns the wrong
 way. None of the accepted packages that we checked shows this.
 
+In ROS 1, `libgazebo_ros_diff_drive.so` takes `<leftJoint>` for the right wheel, unless it has
+`<legacyMode>false</legacyMode>`.
+
 Fix: reverse the joint's `<xyz>`, or swap `<left_joint>` and `<right_joint>`.
 Source: REP 103: x forward, y left; Gazebo's DiffDrive drives forward with positive rates on both
-sides.
+sides; gazebo_ros_diff_drive.cpp: `legacyMode` is true by default.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from checker.model.components import Joint
 from checker.model.geometry.transform import Vector
@@ -26,6 +29,9 @@ _UP: Vector = (0.0, 0.0, 1.0)
 def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25) -> Findings:
     """Report axes that point the wrong way, and wheels that are not on the side of their entry.
 
+    If no plugin drives the robot, links that are called wheels and turn without end are checked
+    against the others of their side: a warning where one turns against them.
+
     Options:
         least_cosine: Cosine of the angle to the wrong direction from which a wheel's axis is an
             error, and of the angle to straight up below which a steering axis is an error.
@@ -39,6 +45,7 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         yield from _reversed(drive, left, least_cosine)
         yield from _swapped(drive, left, least_share)
         yield from _steering(robot, drive, least_cosine)
+    yield from _against_its_side(robot.locomotion.undriven, least_cosine)
 
 
 def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[Finding]:
@@ -62,7 +69,7 @@ def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[
         if across.get(joint, middle) != middle and is_on is not side:
             yield finding(
                 drive.plugin,
-                f"{drive.plugin.class_name} lists steering joint {name!r} as {side}, but it is on "
+                f"{drive.plugin.called} lists steering joint {name!r} as {side}, but it is on "
                 f"the {is_on}",
                 key=f"{drive.plugin.element.path} steering",
                 related=[(joint, "the joint")],
@@ -98,6 +105,31 @@ def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[
         )
 
 
+def _against_its_side(wheels: Sequence[Wheel], least_cosine: float) -> Iterator[Finding]:
+    """Report wheels that no plugin drives and that turn against most others of their side.
+
+    Which way the axis of a caster or of a swerve drive points says nothing.
+    """
+    for side in Side:
+        along = [
+            (_dot(wheel.axis, _LEFT), wheel)
+            for wheel in wheels
+            if wheel.side is side and wheel.axis is not None and wheel.steering is None
+        ]
+        leftward = [wheel for cosine, wheel in along if cosine >= least_cosine]
+        rightward = [wheel for cosine, wheel in along if cosine <= -least_cosine]
+        fewer, more = sorted((rightward, leftward), key=len)
+        for wheel in fewer:
+            yield finding(
+                wheel.joint.axes[0].xyz[0],
+                f"axis {_written(wheel.joint)} of wheel joint {wheel.joint.name.value!r} points "
+                f"against that of {more[0].joint.name.value!r} on the same side: expected one "
+                "direction for all",
+                severity=Severity.WARNING,
+                related=[(more[0].joint, "the other joint")],
+            )
+
+
 def _swapped(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Finding]:
     placed = [(_dot(w.centre, left), w) for w in drive.wheels if w.centre is not None]
     if len({wheel.side for _, wheel in placed}) < 2:
@@ -107,10 +139,13 @@ def _swapped(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Fi
     for at, wheel in placed:
         side = Side.LEFT if at > middle else Side.RIGHT
         if side is not wheel.side and abs(at - middle) > least_share * half > 0:
+            how = f"lists {wheel.name.value!r} as {wheel.side}"
+            if drive.swaps:
+                how = f"takes {wheel.name.value!r} for {wheel.side}, unless <legacyMode> is false"
             yield finding(
                 wheel.name,
-                f"{drive.plugin.class_name} lists {wheel.name.value!r} as {wheel.side}, but its "
-                f"wheel is {abs(at - middle):.3g} m {side} of the middle",
+                f"{drive.plugin.called} {how}, but its wheel is {abs(at - middle):.3g} m {side} of "
+                "the middle",
                 key=f"{drive.plugin.element.path} {wheel.side}",
                 related=[(wheel.joint, "the joint")],
             )
@@ -164,6 +199,50 @@ def _kingpin(axis: str) -> str:
 """
 
 
+def _urdf(front: str, rear: str, drive: str = "", right: str = '0 1 0"/>') -> dict[str, str]:
+    """Return a robot with two wheels on the left and two on the right."""
+    ends = (("front", 0.3, front), ("rear", -0.3, rear))
+    wheels = [_urdf_wheel(f"{end}_left", f"{x} 0.2 0", axis) for end, x, axis in ends]
+    wheels += [_urdf_wheel(f"{end}_right", f"{x} -0.2 0", right) for end, x, _ in ends]
+    return {"@urdf": f"{''.join(wheels)}<gazebo>{drive}</gazebo>"}
+
+
+def _urdf_wheel(name: str, at: str, axis: str) -> str:
+    return f"""
+<link name="{name}_wheel"/>
+<joint name="{name}" type="continuous">
+  <origin xyz="{at}"/>
+  <parent link="base_link"/>
+  <child link="{name}_wheel"/>
+  <axis xyz="{axis}
+</joint>
+"""
+
+
+def _classic(library: str, names: str, more: str = "") -> str:
+    """Return a plugin of Gazebo Classic with tags, each followed by the joint that it names."""
+    pairs = (pair.partition("=") for pair in names.split())
+    joints = "".join(f"<{tag}>{joint}</{tag}>\n" for tag, _, joint in pairs)
+    return f'<plugin name="drive" filename="{library}">\n{joints}{more}</plugin>'
+
+
+_DIFF, _SKID = "libgazebo_ros_diff_drive.so", "libgazebo_ros_skid_steer_drive.so"
+_STRAIGHT = "leftJoint=front_left rightJoint=front_right"
+_CROSSED = "leftJoint=front_right rightJoint=front_left"
+_ROS_2 = "left_joint=front_left right_joint=front_right"
+_FOUR = (
+    "leftFrontJoint=front_left rightFrontJoint=front_right leftRearJoint=rear_left "
+    "rightRearJoint=rear_right"
+)
+_MODERN = "<legacyMode>false</legacyMode>"
+_Y, _BACK = '0 1 0"/>', '0 -1 0"/>'
+
+
+def _marked(drive: str) -> str:
+    """Mark the lines of a plugin that name joints."""
+    return drive.replace("oint>\n", f"oint>{_MARK}\n")
+
+
 _END = "</xyz>"
 _MARK = "  <!-- ^ GEO013 -->"
 _LEFTWARD, _RIGHTWARD = f"0 1 0{_END}", f"0 -1 0{_END}"
@@ -171,6 +250,13 @@ GOOD = [
     _rover(_LEFTWARD, _LEFTWARD, steering=_kingpin(f"0 0 1{_END}")),
     _rover(f"1 0 0{_END}", f"1 0 0{_END}"),
     _rover(_RIGHTWARD, "0 1 0</xyz>", "<topic>/cmd_vel</topic>"),
+    _urdf(_Y, _Y, _classic(_DIFF, _STRAIGHT, _MODERN)),
+    _urdf(_Y, _Y, _classic(_DIFF, _CROSSED)),
+    _urdf(_Y, _Y, _classic(_DIFF, _ROS_2)),
+    _urdf(_Y, _Y, _classic(_SKID, _FOUR)),
+    # Without a plugin, the two sides may turn against each other.
+    _urdf(_Y, _Y),
+    _urdf(_Y, _Y, right=_BACK),
 ]
 BAD = [
     _rover(_LEFTWARD, f"{_RIGHTWARD}{_MARK}"),
@@ -183,4 +269,9 @@ BAD = [
         f"""<left_joint>right_axle</left_joint>{_MARK}
   <right_joint>left_axle</right_joint>{_MARK}""",
     ),
+    _urdf(_Y, _Y, _marked(_classic(_DIFF, _CROSSED, _MODERN))),
+    _urdf(_Y, _Y, _marked(_classic(_DIFF, _STRAIGHT))),
+    _urdf(_BACK + _MARK, _Y, _classic(_DIFF, _ROS_2)),
+    _urdf(_Y, _BACK + _MARK, _classic(_SKID, _FOUR)),
+    _urdf(_Y, _BACK + _MARK),
 ]

@@ -23,6 +23,9 @@ from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
 
+_OF_A_BODY = 1e-4
+"""kg·m²: a link without mass that has a larger moment is no frame."""
+
 
 @rule("INE002", "impossible-inertia", Severity.ERROR, Concern.ROBOT)
 def check(
@@ -48,6 +51,10 @@ def check(
             continue
         # Without mass it is a frame; without moments, INE003 reports it.
         if robot.format == "urdf" and (inertia.mass == 0.0 or not inertia.has_moments):
+            # What Gazebo makes of a body without mass, URD007 reports.
+            heavy = inertia.link.collisions and max(inertia.principal) > _OF_A_BODY
+            if heavy and not robot.is_for_gazebo:
+                yield from _mass(inertia, inertial, Severity.WARNING)
             continue
         if inertia.mass < 0.0 or not robot.is_static:
             yield from _mass(inertia, inertial, readable)
@@ -129,4 +136,16 @@ BAD = [
     _link("2", "1", "1", "1", "2", mark=_MARK),
     _link(f"0</mass>{_MARK}<mass>5", "1", "1", "1"),
     _link(f"-2</mass>{_MARK}<mass>5", "1", "1", "1"),
+    {
+        "@urdf": """
+<link name="tip">
+<inertial>
+<mass value="0"/>  <!-- ^ INE002 -->
+<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>
+</inertial>
+<collision><geometry><box size="1 1 1"/></geometry></collision>
+</link>
+<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tip"/></joint>
+"""
+    },
 ]

@@ -40,10 +40,9 @@ def check(
     """
     if masses.robot.is_static:
         return
-    if masses.robot.unknown_masses:
-        yield unchecked(masses.robot.unweighed)
-        return
-    for name, inertia in masses.links.items():
+    for reason in masses.robot.unknown_masses.values():
+        yield unchecked(reason)
+    for name, inertia in masses.weighed.items():
         if inertia.link.inertial is None or inertia.centre is None or not _possible(inertia):
             continue
         reach = known_reach(masses.robot, inertia.link, inertia.centre)

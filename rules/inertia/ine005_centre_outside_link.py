@@ -36,10 +36,9 @@ def check(
     """
     if masses.robot.is_static:
         return
-    if masses.robot.unknown_masses:
-        yield unchecked(masses.robot.unweighed)
-        return
-    for name, inertia in masses.links.items():
+    for reason in masses.robot.unknown_masses.values():
+        yield unchecked(reason)
+    for name, inertia in masses.weighed.items():
         inertial, centre = inertia.link.inertial, inertia.centre
         if inertial is None or centre is None or not masses.share(name) > share:
             continue

@@ -45,11 +45,10 @@ def check(
     """
     if masses.robot.is_static:
         return
-    if masses.robot.unknown_masses:
-        yield unchecked(masses.robot.unweighed)
-        return
+    for reason in masses.robot.unknown_masses.values():
+        yield unchecked(reason)
     large, carried = _large(masses, volume_share), _carried(masses)
-    for name, inertia in masses.links.items():
+    for name, inertia in masses.weighed.items():
         link = inertia.link
         counts = masses.share(name) > share or name in large
         if link.inertial is None or not link.collisions or not counts:

@@ -33,7 +33,7 @@ def check(
     if masses.robot.is_static:
         return
     by_tensor: dict[tuple[float, ...], list[LinkInertia]] = {}
-    for name, inertia in masses.links.items():
+    for name, inertia in masses.weighed.items():
         tensor = _stated(inertia)
         if tensor == _UNIT:
             yield from _unit(inertia)

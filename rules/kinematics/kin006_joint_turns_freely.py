@@ -1,5 +1,7 @@
 """A joint without limits that nothing drives.
 
+The same holds for a wheel if a plugin drives the one opposite: the robot pulls to a side.
+
 Gravity swings or slides the part without end. This is right for wheels, rotors and similar parts. A
 mast, a pole or a sensor mount must not move; usually it should be fixed. None of the accepted
 packages that we checked shows this.
@@ -9,12 +11,16 @@ Source: SDFormat specification, axis/limit: without it the range is infinite.
 """
 
 import math
+from collections.abc import Iterator
 
 from checker.model.components import Joint
+from checker.model.locomotion.locomotion import Wheel
 from checker.model.robot import Robot
 from checker.model.tree import Tie
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
+_NEAR = 0.01
+"""Metres by which the place and the size of a mirror image may differ."""
 _TURNING = (
     *("wheel", "caster", "castor", "roller", "track", "sprocket", "idler", "pulley"),
     *("rotor", "propeller", "prop_", "blade", "fan"),
@@ -36,9 +42,11 @@ def check(robot: Robot, *, turning: tuple[str, ...] = _TURNING) -> Findings:
     if robot.format == "urdf":
         return
     free = [tie for tie in robot.tree.ties if _is_free(tie, robot, turning)]
-    if free and robot.unread_plugins:
+    left_out = [*_left_out(robot)]
+    if (free or left_out) and robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
         return
+    yield from left_out
     for tie in free:
         carries = f"; it carries sensor {name!r}" if (name := _sensor(robot, tie)) else ""
         yield finding(
@@ -47,6 +55,35 @@ def check(robot: Robot, *, turning: tuple[str, ...] = _TURNING) -> Findings:
             f"drives it: {tie.child!r} moves freely{carries}",
             key="carries a sensor" if carries else "free",
         )
+
+
+def _left_out(robot: Robot) -> Iterator[Finding]:
+    """Report wheels that turn freely while a plugin drives the one opposite."""
+    for tie in robot.tree.ties:
+        joint = tie.joint
+        if not _is_unlimited(joint) or joint.scoped_name in robot.driven_joints:
+            continue
+        opposite = next((w for w in robot.locomotion.wheels if _is_opposite(robot, tie, w)), None)
+        if opposite is not None:
+            yield finding(
+                joint,
+                f"nothing drives wheel joint {joint.name.value!r}, but its opposite, "
+                f"{opposite.joint.name.value!r}, is driven",
+                related=[(opposite.joint, "is driven")],
+                key="opposite",
+            )
+
+
+def _is_opposite(robot: Robot, tie: Tie, wheel: Wheel) -> bool:
+    """Say whether a wheel is the mirror image of a link: as far out, and as large."""
+    pose = robot.pose_of_joint(tie.joint)
+    boxes = [robot.own_box_of(link) for link in (robot.tree.links[tie.child], wheel.link)]
+    sizes = [box.diagonal for box in boxes if box is not None]
+    if pose is None or wheel.centre is None or len(sizes) < len(boxes):
+        return False
+    x, y, z = pose.translation
+    mirrored = math.dist((x, -y, z), wheel.centre) < _NEAR < abs(y)
+    return mirrored and abs(sizes[0] - sizes[1]) < _NEAR
 
 
 def _is_free(tie: Tie, robot: Robot, turning: tuple[str, ...]) -> bool:
@@ -92,7 +129,30 @@ _SHOWS = """
         name="ignition::gazebo::systems::JointStatePublisher">
   <joint_name>pole_joint</joint_name></plugin>
 """
+
+
+def _wheels(mark: str, driven: str) -> str:
+    wheels = "".join(
+        f"""
+<link name="{side}_wheel">
+  <pose>0 {y} 0 0 0 0</pose>
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+</link>
+<joint name="{side}_wheel_joint" type="revolute">{mark if y < 0 else ""}
+  <parent>base_link</parent><child>{side}_wheel</child><axis><xyz>0 1 0</xyz></axis>
+</joint>"""
+        for side, y in (("left", 0.3), ("right", -0.3))
+    )
+    return f"""{wheels}
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">{driven}</plugin>
+"""
+
+
 GOOD = [
+    _wheels(
+        "",
+        "<left_joint>left_wheel_joint</left_joint><right_joint>right_wheel_joint</right_joint>",
+    ),
     _pole("<limit><lower>-1</lower><upper>1</upper></limit>"),
     _pole("", plugin=_DRIVE),
     _pole("<limit></limit>", "left_wheel"),
@@ -101,4 +161,5 @@ BAD = [
     _pole(""),
     _pole("") + _SHOWS,
     _pole("").replace("<axis>", "<axis><limit><lower>-1e16</lower><upper>1e16</upper></limit>"),
+    _wheels("  <!-- ^ KIN006 -->", "<left_joint>left_wheel_joint</left_joint>"),
 ]

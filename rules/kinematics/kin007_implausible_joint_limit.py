@@ -1,5 +1,7 @@
 """An effort or velocity limit that no motor has, or a driven joint without limits.
 
+A limit of zero holds a driven joint: the plugin may use no force, or reach no speed.
+
 With 1e9 N·m a wheel never stalls on any slope, and one collision throws the robot away. Without a
 limit nobody can check whether the motor is strong enough. The thrust of rotors has its own limits
 in their plugin.
@@ -11,10 +13,15 @@ Source: SDFormat specification, axis/limit: "-1" and no value mean unlimited.
 import math
 from collections.abc import Iterator
 
-from checker.model.components import Axis, Joint
+from checker.model.components import Axis, Joint, Plugin
 from checker.model.robot import Robot
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
+_MOTORS = (
+    *("DiffDrive", "AckermannSteering", "MecanumDrive"),
+    *("JointController", "JointPositionController", "JointTrajectoryController"),
+)
+"""Systems of Gazebo that keep to the limits of a joint."""
 _ROTORS = ("MulticopterMotorModel", "MulticopterVelocityControl", "Thruster")
 
 
@@ -22,7 +29,7 @@ _ROTORS = ("MulticopterMotorModel", "MulticopterVelocityControl", "Thruster")
 def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float = 1e3) -> Findings:
     """Report finite limits of effort and velocity that no motor has.
 
-    A missing limit of a driven joint is information.
+    A missing limit of a driven joint is information, one of zero is an error.
 
     Options:
         highest_effort: Effort in N·m (sliding joints: N); a finite limit above it is a warning.
@@ -38,6 +45,7 @@ def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float 
             yield from _too_high(joint, axis, highest)
             if driver is not None and driver.class_name not in _ROTORS:
                 yield from _missing(joint, axis)
+                yield from _zero(joint, axis, driver)
 
 
 def _too_high(joint: Joint, axis: Axis, highest: dict[str, float]) -> Iterator[Finding]:
@@ -47,6 +55,18 @@ def _too_high(joint: Joint, axis: Axis, highest: dict[str, float]) -> Iterator[F
                 limit,
                 f"joint {joint.name.value!r} has the {kind} limit {limit.value:g} "
                 f"{_unit(joint)[kind]}, expected at most {highest[kind]:g}",
+            )
+
+
+def _zero(joint: Joint, axis: Axis, driver: Plugin) -> Iterator[Finding]:
+    for kind, limit in (("effort", axis.effort), ("velocity", axis.velocity)):
+        if limit.stated and limit.value == 0.0 and driver.class_name in _MOTORS:
+            yield finding(
+                limit,
+                f"joint {joint.name.value!r} has the {kind} limit 0, so {driver.class_name} cannot "
+                "move it",
+                severity=Severity.ERROR,
+                key="zero",
             )
 
 
@@ -89,9 +109,11 @@ def _driven(limit: str, plugin: str = "JointController") -> str:
 GOOD = [
     _driven("<limit><effort>20</effort><velocity>3</velocity></limit>"),
     _driven("", "JointStatePublisher"),
+    _driven("<limit><effort>0</effort><velocity>0</velocity></limit>", "JointStatePublisher"),
 ]
 BAD = [
     _driven("<limit><effort>1e9</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>20</effort><velocity>50000</velocity></limit>  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>-1</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
+    _driven("<limit><effort>0</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
 ]

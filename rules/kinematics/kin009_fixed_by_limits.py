@@ -1,5 +1,7 @@
 """A joint that cannot move: its two limits are equal, or it is fixed while a plugin drives it.
 
+A driven wheel whose limits end after a few turns cannot move on either: the robot stops there.
+
 The physics engine holds the joint by force in every step, which costs time and yields under load; a
 fixed joint costs nothing. If a plugin drives the joint, this is an error: a wheel that does not
 turn is dragged along. In URDF, a joint written as fixed is a warning: Gazebo merges its links, and
@@ -10,14 +12,20 @@ joint that a plugin moves is `revolute`, with different limits or none.
 Source: SDFormat specification, joint/type.
 """
 
+from collections.abc import Iterator
+
 from checker.model.components import Joint
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 
 @rule("KIN009", "fixed-by-limits", Severity.INFO, Concern.ROBOT)
-def check(robot: Robot) -> Findings:
-    """Report joints that cannot move: an error if a plugin drives them."""
+def check(robot: Robot, *, range_of_a_wheel: float = 1000.0) -> Findings:
+    """Report joints that cannot move, and driven wheels that stop: errors if a plugin drives them.
+
+    Options:
+        range_of_a_wheel: Radians; a driven wheel between limits that are closer is reported.
+    """
     for joint in robot.joints:
         why = joint.immovable
         plugin = robot.driven_joints.get(joint.scoped_name)
@@ -33,6 +41,22 @@ def check(robot: Robot) -> Findings:
             severity=Severity.WARNING if _is_merged(robot, joint) else Severity.ERROR,
             related=[(plugin, "drives it")],
             key="driven",
+        )
+    yield from _stopped(robot, range_of_a_wheel)
+
+
+def _stopped(robot: Robot, least: float) -> Iterator[Finding]:
+    """Report wheels that a plugin drives, and that limits stop."""
+    for wheel in robot.locomotion.wheels:
+        axis = wheel.joint.axes[0] if wheel.joint.axes else None
+        if axis is None or wheel.joint.immovable or not axis.upper.value - axis.lower.value < least:
+            continue
+        yield finding(
+            axis.lower if axis.lower.stated else axis.upper,
+            f"wheel joint {wheel.joint.name.value!r} turns only from {axis.lower.value:g} to "
+            f"{axis.upper.value:g} rad: its drive stops there",
+            severity=Severity.ERROR,
+            key="stopped",
         )
 
 
@@ -57,11 +81,17 @@ _DRIVE = """
   <joint_name>mast_joint</joint_name>
 </plugin>
 """
+_WHEELS = """
+<plugin filename="libd.so" name="ignition::gazebo::systems::DiffDrive">
+  <left_joint>mast_joint</left_joint>
+</plugin>
+"""
 _MARK = "  <!-- ^ KIN009 -->"
 GOOD = [
     _hinge("<lower>-0.1</lower><upper>0.1</upper>"),
     _hinge("<lower>0</lower><upper>0</upper>", kind="fixed"),
     _hinge("<lower>-1</lower><upper>1</upper>") + _DRIVE,
+    _hinge("<lower>-1e16</lower><upper>1e16</upper>") + _WHEELS,
     _hinge(""),
 ]
 BAD = [
@@ -69,4 +99,5 @@ BAD = [
     _hinge("<lower>0.2</lower><upper>0.2</upper>", _MARK, "prismatic"),
     _hinge("<lower>0</lower><upper>0</upper>", _MARK) + _DRIVE,
     _hinge("", _MARK, "fixed") + _DRIVE,
+    _hinge(f"<lower>-1</lower>{_MARK}<upper>1</upper>") + _WHEELS,
 ]

@@ -21,12 +21,14 @@ def check(
     beyond: float = UNIT_LIMITS.beyond,
     huge: float = UNIT_LIMITS.huge,
     tiny: float = UNIT_LIMITS.tiny,
+    speck: float = UNIT_LIMITS.speck,
 ) -> Findings:
     """Compare the diagonal of each mesh, including its `<scale>`, with other known lengths.
 
     Too large: much longer than the robot without its meshes; or longer than it, and larger than the
     simple shapes of its link by the factor of a unit. Too small: smaller by such a factor than the
-    link's shapes of the other kind (collisions for a visual, visuals for a collision).
+    link's shapes of the other kind (collisions for a visual, visuals for a collision), or too
+    small to see.
 
     Options:
         near: Factor above 1 by which a ratio of lengths may differ from 39.4 (inches), 100 or 1000
@@ -37,10 +39,11 @@ def check(
             factor of a unit.
         tiny: Metres; a mesh is too small only if all collisions, or all visuals, of its link
             together measure less.
+        speck: Metres; a shorter mesh is too small whatever the other shapes of its link measure.
     """
     for reason in robot.unseen_meshes:
         yield unchecked(reason)
-    for mesh in misscaled_meshes(robot, UnitLimits(near, beyond, huge, tiny)):
+    for mesh in misscaled_meshes(robot, UnitLimits(near, beyond, huge, tiny, speck)):
         uri = mesh.use.uri
         why = (
             f"is the mesh in {mesh.unit} without a scale?"

@@ -2,8 +2,9 @@
 
 catkin finds a package by the name in package.xml, CMake installs it under the name of `project()`,
 and the SubT launcher uses the folder's name. If they differ, `roslaunch` does not find the package.
-The names in model.config and `<model name>` are only displayed. The folder of a URDF package may
-have any name: no launcher builds one from it.
+The names in model.config and `<model name>` are only displayed; a name in plain words need only
+state the right number: `Acme Rover Config 2`. The folder of a URDF package may have any name: no
+launcher builds one from it.
 
 Fix: use the same name in package.xml, `project()` and for the folder.
 Source: REP 140 and catkin: the project name must equal the package name.
@@ -15,6 +16,7 @@ from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
+from checker.package.submissions import configuration_number, stated_number
 from checker.rule import Concern, Finding, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
@@ -60,7 +62,16 @@ def _project(project: Located[str], name: Located[str]) -> Iterator[Finding]:
 
 
 def _shown_name(name: Located[str], folder: str) -> Iterator[Finding]:
-    """Report another package's name in model.config; a name in plain words is fine."""
+    """Report another package's name in model.config, and another number in plain words."""
+    number = configuration_number(folder)
+    stated = stated_number(name.value) if " " in name.value and number is not None else number
+    if stated not in (None, number):
+        yield finding(
+            name,
+            f"model.config names the model {name.value!r}, but the package is configuration "
+            f"{number}",
+            severity=Severity.INFO,
+        )
     if name.stated and " " not in name.value and name.value != folder and "_" in name.value:
         yield finding(
             name,
@@ -92,7 +103,10 @@ def _manifest(name: str) -> str:
 """
 
 
-GOOD = [{"model.config": "<model><name>Acme Rover</name><sdf>model.sdf</sdf></model>"}]
+GOOD = [
+    {"model.config": "<model><name>Acme Rover</name><sdf>model.sdf</sdf></model>"},
+    {"model.config": "<model><name>Acme X2 Sensor Config 1</name><sdf>model.sdf</sdf></model>"},
+]
 BAD = [
     {"package.xml": _manifest("acme_rover_sensor_config_2")},
     {"CMakeLists.txt": "project(rover)  # ^ PKG002\n"},
@@ -104,4 +118,11 @@ BAD = [
 """
     },
     {"model.sdf": '<sdf version="1.6"><model name="rover"/></sdf>  <!-- ^ PKG002 -->\n'},
+    {
+        "model.config": """<model>
+  <name>Acme Rover Sensor Config 2</name>  <!-- ^ PKG002 -->
+  <sdf>model.sdf</sdf>
+</model>
+"""
+    },
 ]

@@ -3,7 +3,8 @@
 Without model, spawner or package.xml the robot cannot start. Without specifications.md no review
 begins. The other files are what a reviewer opens first. Parts that the package inherits from a
 sibling count as present. If a sibling of the same robot has a specifications.md that names this
-configuration, its absence here is a warning. Missing thumbnails are information.
+configuration, its absence here is a warning; and so is a name such as `specification.md`, under
+which the sheet is read all the same. Missing thumbnails are information.
 
 Fix: add the file; the guide's example package shows the content of each.
 Source: Model Migration Guide, final directory structure; Robot Model Checklist.
@@ -15,7 +16,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from checker.package.configuration import configuration_number
-from checker.package.inheritance import Found, Missing
+from checker.package.inheritance import SHEET, Found, Missing, own_sheet
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.package.references import Reference, ReferenceKind
@@ -28,7 +29,6 @@ MANIFESTS = {
     "CMakeLists.txt": "which builds and installs the package",
 }
 REQUIRED = {"launch/spawner.rb": "which spawns the robot in a world"}
-SHEET = "specifications.md"
 EXPECTED = {
     "launch/example.ign": "which shows how to start the robot",
     "worlds/example.sdf": "which shows the robot in a world",
@@ -80,6 +80,16 @@ def _started_elsewhere(package: Package) -> Iterator[str]:
 
 def _sheet(package: Package) -> Iterator[Finding | Unchecked]:
     """Report a missing sheet; one that a sibling holds for this configuration is there to read."""
+    spelt = own_sheet(package)
+    if spelt not in (None, SHEET):
+        yield finding(
+            package.folder_place(),
+            f"{SHEET} is missing: {spelt} is read in its place; rename it",
+            severity=Severity.WARNING,
+            key=SHEET,
+            related=[(package.place(spelt), "the specification sheet by another name")],
+        )
+        return
     holder = next(filter(partial(_describes, package), package.workspace.packages.values()), None)
     where = f" here: that of {holder.name} describes this configuration" if holder else ""
     severity = Severity.WARNING if holder else Severity.ERROR
@@ -92,7 +102,7 @@ def _describes(package: Package, sibling: Package) -> bool:
     number = configuration_number(package)
     if sibling is package or number is None or not is_same_robot(sibling.name, package.name):
         return False
-    sheet = sibling.read(SHEET)
+    sheet = sibling.read(own_sheet(sibling) or SHEET)
     named = _CONFIGURATION.findall(sheet.text) if isinstance(sheet, SourceText) else []
     return number in map(int, named)
 
@@ -146,6 +156,7 @@ BAD = [
         "../acme_rover_sensor_config_2/specifications.md": "# Rover\nConfiguration 1 is small.\n",
         "@reported": [".:1"],
     },
+    {"specifications.md": None, "Specification.md": "# Rover\n", "@reported": [".:1"]},
     {"launch/spawner.rb": None, "@reported": [".:1"]},
     {"thumbnails/1.png": None, "@reported": [".:1"]},
 ]

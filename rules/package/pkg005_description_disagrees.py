@@ -1,8 +1,10 @@
-"""The description in model.config names other sensors than the model has.
+"""The description in model.config or package.xml names other sensors than the model has.
 
 Fuel and the catalogue show this text. If it says two depth cameras and the model has four, one of
 them is wrong. Numbers are compared only if the text states all of them; a kind of sensor that the
-model does not have is also reported.
+model does not have is also reported. A device that is known by its name counts as what it is: a
+D435 is an RGBD camera. Devices that take several sensors to model, such as fisheye cameras, are not
+counted.
 
 Fix: correct the description, or the model.
 Source: model reviews: the list of sensors in model.config against model.sdf.
@@ -13,17 +15,20 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 
 from checker.base.record import Record
+from checker.model.devices.devices import Device
+from checker.model.devices.known import KnownDevices
 from checker.model.robot import Robot
 from checker.model.specification.sensor_kinds import SUBSTITUTES, TYPES, SensorKind, kinds_in
 from checker.model.specification.sensors import stated_count
 from checker.package.manifests import Paperwork
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located, Span
 
 _CLAUSE = re.compile(
     r"(?:(?!\s(?:and|with|has|having|plus)\s|[,;:.()]\s|\s-\s)[^()]){1,400}", re.DOTALL | re.I
 )
 _POINT = re.compile(r"\b(?:ceiling|cliff|distance|floor|point|range) sensors?\b", re.IGNORECASE)
+_FISHEYE = re.compile(r"\bfish-?eye\b|\bpanoram", re.IGNORECASE)
 _LIST_MARK = re.compile(r"[\s,;:.-]*(?:(?:and|with|has|having|plus)\s+)?", re.IGNORECASE)
 
 
@@ -35,18 +40,41 @@ class _Told(Record):
     span: Span
 
 
+_OF_DEVICES = {
+    "lidar3d": SensorKind.LIDAR,
+    "lidar2d": SensorKind.PLANAR_LIDAR,
+    "lidar1d": SensorKind.POINT_LIDAR,
+    "camera": SensorKind.CAMERA,
+    "rgbd": SensorKind.RGBD_CAMERA,
+    "depth": SensorKind.DEPTH_CAMERA,
+    "thermal": SensorKind.THERMAL_CAMERA,
+    "imu": SensorKind.IMU,
+    "air pressure": SensorKind.AIR_PRESSURE,
+    "gas": SensorKind.GAS,
+}
+"""What the kinds of `devices.json` are in words."""
+
+
 @rule("PKG005", "description-disagrees", Severity.WARNING, Concern.PAPERWORK)
-def check(robot: Robot, paperwork: Paperwork) -> Findings:
+def check(robot: Robot, paperwork: Paperwork, devices: KnownDevices) -> Findings:
     """Compare kinds and numbers of sensors."""
-    config = paperwork.config
-    if config is None or not config.description.stated:
-        return
-    if robot.missing_parts:
+    told = [
+        list(_told(paper.description, devices))
+        for paper in (paperwork.config, paperwork.manifest)
+        if paper is not None and paper.description.stated
+    ]
+    if any(told) and robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
     present = Counter(sensor.type.value for sensor in robot.sensors)
+    for mentions in told:
+        yield from _compare(mentions, present)
+
+
+def _compare(mentions: Sequence[_Told], present: Counter[str]) -> Iterator[Finding]:
+    """Compare what one text names with what there is."""
     families: dict[frozenset[str], list[_Told]] = defaultdict(list)
-    for mention in _told(config.description):
+    for mention in mentions:
         families[TYPES[mention.kind]].append(mention)
     for types, items in families.items():
         others = SUBSTITUTES.get(items[0].kind, frozenset())
@@ -68,23 +96,37 @@ def check(robot: Robot, paperwork: Paperwork) -> Findings:
             )
 
 
-def _told(description: Located[str]) -> Iterator[_Told]:
+def _told(description: Located[str], devices: KnownDevices) -> Iterator[_Told]:
     """Yield the sensors that the clauses of a description name, the first of each clause."""
     text = description.span.text
     for clause in _CLAUSE.finditer(text):
         mark = _LIST_MARK.match(clause.group())
         start = clause.start() + (mark.end() if mark else 0)
         words = " ".join(text[start : clause.end()].split())
-        kinds = [kind for kind in kinds_in(words, words) if kind in TYPES]
-        if _POINT.search(words):
-            kinds = [SensorKind.POINT_LIDAR]
-        if kinds:
+        device = devices.named_in(words)
+        kind = _kind(words, device)
+        if kind in TYPES:
             span = Span(
                 description.span.source,
                 description.span.start + start,
                 description.span.start + clause.end(),
             )
-            yield _Told(kinds[0], stated_count(words), span)
+            yield _Told(kind, None if _is_several(words, device) else stated_count(words), span)
+
+
+def _is_several(words: str, device: Device | None) -> bool:
+    """Whether it takes several sensors to model what words name: what sees nearly all around."""
+    values = device.values if device is not None else {}
+    return bool(_FISHEYE.search(words) or {"cameras", "cameras_per_device"} & values.keys())
+
+
+def _kind(words: str, device: Device | None) -> SensorKind | None:
+    """Return what words name: a device that is known, else the first kind of sensor in TYPES."""
+    if _POINT.search(words):
+        return SensorKind.POINT_LIDAR
+    if device is not None and device.kind in _OF_DEVICES:
+        return _OF_DEVICES[device.kind]
+    return next((kind for kind in kinds_in(words, words) if kind in TYPES), None)
 
 
 def _amounts(
@@ -108,6 +150,18 @@ def _config(description: str) -> str:
 """
 
 
+def _manifest(*items: str) -> str:
+    lines = "\n".join(f"    - {item}" for item in items)
+    return f"""<package format="2">
+  <name>acme_rover_sensor_config_1</name>
+  <description>The rover with:
+{lines}
+  </description>
+</package>
+"""
+
+
+_MARK = "  <!-- ^ PKG005 -->"
 _SENSORS = """
 <sensor name="front" type="camera"/><sensor name="rear" type="rgbd_camera"/>
 <sensor name="imu" type="imu"/>
@@ -124,8 +178,16 @@ GOOD = [
         "@fragment": _SENSORS,
         "model.config": "<model><description>A camera, an RGBD camera, IMU.</description></model>",
     },
+    {
+        "@fragment": _SENSORS,
+        "package.xml": _manifest("Realsense D435", "Two fisheye cameras", "IMU Xsens MTi-30"),
+    },
 ]
 BAD = [
     {"@fragment": _SENSORS, "model.config": _config("A rover with six cameras and an IMU")},
+    {
+        "@fragment": _SENSORS,
+        "package.xml": _manifest(f"Velodyne VLP-16{_MARK}", f"3x Realsense D435{_MARK}", "IMU"),
+    },
     {"@fragment": _SENSORS, "model.config": _config("Sensors: 3D lidar, two cameras")},
 ]

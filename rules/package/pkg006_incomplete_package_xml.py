@@ -2,7 +2,9 @@
 
 catkin refuses to build a workspace with such a package, and so no robot in it can be built. Others
 need the license to use the model, and the maintainer's address to ask about it. At most a
-maintainer without a name occurs in accepted packages.
+maintainer without a name occurs in accepted packages. An entry that is left from the template of
+another package, such as "The acme_rover_sensor_config_2 package" or a link to that package's page
+on ros.org, is incomplete as well.
 
 Fix: add name, version (`1.0.0`), description, maintainer with email, license, and
 `<buildtool_depend>catkin</buildtool_depend>`.
@@ -16,11 +18,29 @@ from collections.abc import Iterator
 
 from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
-from checker.package.submissions import TEMPLATE, is_same_robot
+from checker.package.submissions import described_package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located
 
 _VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
+_PAGE = re.compile(
+    r"https?://(?:www\.)?(?:wiki\.)?ros\.org/(?:wiki/)?"
+    r"(\w{1,100}_(?:bringup|control|description|gazebo|robot|sensor_config_\d{1,4}|sim|simulation))/?\Z",
+    re.IGNORECASE,
+)
+"""The page of a robot's package, as templates of package.xml name it."""
+_TO_DO = re.compile(r"\s*(?:TODO|TBD|FIXME)\b")
+_COMMON = {
+    "bringup",
+    "config",
+    "control",
+    "description",
+    "gazebo",
+    "model",
+    "robot",
+    "sensor",
+    "sim",
+}
 _EMAIL = re.compile(r"[^@\s]+@[^@\s]+")
 
 
@@ -34,19 +54,35 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
         return
     yield from _required(manifest)
     yield from _people(manifest)
-    named = TEMPLATE.search(manifest.description.value)
-    if named and not is_same_robot(named.group(1), package.name):
-        yield finding(
-            manifest.description,
-            f"the description is about {named.group(1)}, but the package is {package.name}",
-            severity=Severity.WARNING,
-        )
+    yield from _left_from_copying(package, manifest)
     if not manifest.build_type.value and not manifest.depends_on("catkin"):
         yield finding(
             manifest,
             "package.xml does not declare <buildtool_depend>catkin</buildtool_depend>",
             severity=Severity.WARNING,
         )
+
+
+def _left_from_copying(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
+    """Report another package in the description, and the page of another robot's package."""
+    description = manifest.description
+    named = described_package(description.value, package.name, manifest.name.value)
+    if named:
+        yield finding(
+            description,
+            f"the description is about {named}, but the package is {package.name}",
+            severity=Severity.WARNING,
+        )
+    own = f"{package.name} {manifest.name.value} {description.value}".casefold()
+    for url in manifest.urls:
+        page = _PAGE.match(url.value.strip())
+        words = set(page[1].casefold().split("_")) - _COMMON if page is not None else set()
+        if page is not None and words and not any(word in own for word in words):
+            yield finding(
+                url,
+                f"the link leads to the page of {page[1]}, but the package is {package.name}",
+                severity=Severity.WARNING,
+            )
 
 
 def _required(manifest: PackageManifest) -> Iterator[Finding]:
@@ -68,6 +104,14 @@ def _required(manifest: PackageManifest) -> Iterator[Finding]:
     if not manifest.licenses:
         yield _missing("license", Located("", manifest.span, stated=False))
     yield from (_missing("license", text) for text in manifest.licenses if not text.value)
+    for text in (manifest.description, *manifest.licenses):
+        if _TO_DO.match(text.value):
+            yield finding(
+                text,
+                f"{text.value[:60]!r} is left from a template",
+                severity=Severity.WARNING,
+                key="template",
+            )
 
 
 def _people(manifest: PackageManifest) -> Iterator[Finding]:
@@ -102,17 +146,39 @@ def _manifest(description: str, maintainer: str, license: str) -> str:
 
 _DESCRIPTION = "The acme_rover_sensor_config_1 package</description>"
 _MAINTAINER = ' email="a@example.org">A</maintainer>'
+_WIKI = "<url>http://wiki.ros.org"
 _LICENSE = "Apache-2.0</license>"
 _MARK = "  <!-- ^ PKG006 -->"
 
-GOOD = [{"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, _LICENSE)}]
+GOOD = [
+    {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, _LICENSE)},
+    {
+        "package.xml": _manifest(
+            f"The acme_rover_sensor_config_1 tracked vehicle package</description>\n"
+            f"  {_WIKI}/rover_description</url> {_WIKI}/xacro</url>",
+            _MAINTAINER,
+            _LICENSE,
+        )
+    },
+]
 BAD = [
     {"package.xml": _manifest(_DESCRIPTION, f">A</maintainer>{_MARK}", _LICENSE)},
     {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"</license>{_MARK}")},
+    {"package.xml": _manifest(_DESCRIPTION, _MAINTAINER, f"TODO</license>{_MARK}")},
     {
         "package.xml": _manifest(
             f"The x1_sensor_config_6 package</description>{_MARK}", _MAINTAINER, _LICENSE
         )
     },
     {"package.xml": f"<package><name>rover</name></package>{_MARK}"},
+    {
+        "package.xml": _manifest(
+            f"The acme_rover_sensor_config_2 package</description>{_MARK}", _MAINTAINER, _LICENSE
+        )
+    },
+    {
+        "package.xml": _manifest(
+            f"{_DESCRIPTION}\n  {_WIKI}/quadrotor_description</url>{_MARK}", _MAINTAINER, _LICENSE
+        )
+    },
 ]

@@ -1,7 +1,9 @@
 """A package that is used, but not declared as a dependency.
 
 A package that package.xml does not name is not installed with the robot: launch files of another
-submission, or the bridge to ROS, are then missing where the robot runs. Comments do not count.
+submission, or the bridge to ROS, are then missing where the robot runs. Comments do not count. The
+same happens if package.xml misspells the package of a team or plugin: it is reported if a package
+of a similar name is available, and that one is not.
 
 Fix: add `<exec_depend>` (in format 1 `<run_depend>`) for each package that is used.
 Source: REP 149, exec_depend; in model reviews, authors added the dependency on configuration 1.
@@ -11,13 +13,15 @@ from collections.abc import Iterator
 
 from checker.base.resources import table
 from checker.finding import Fix
-from checker.package.dependencies import Use, uses_of
+from checker.package.dependencies import Use, taken_in_vain, uses_of
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.kind import PackageKind
 from checker.package.manifests import DEPENDENCY_TAGS, PackageManifest, Paperwork
 from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.package.references import PROVIDED
+from checker.package.submissions import is_slip_for, robot_of
+from checker.package.teams import teams
 from checker.rule import (
     Concern,
     Context,
@@ -42,9 +46,10 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     if manifest is None:
         return
     others: dict[str, Use] = {}
+    copied = {use.place for use in taken_in_vain(package)}  # PKG012: to be replaced, not declared
     for use in uses_of(package):
         name = use.package_name
-        if name in (package.name, manifest.name.value):
+        if name in (package.name, manifest.name.value) or use.place in copied:
             continue
         beside = name not in PROVIDED and package.workspace.package(name) is not None
         if SUBMISSION_NAME.search(name) or beside:
@@ -59,6 +64,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     fix = _declared(package, manifest, *lacking) if lacking else None
     yield from _distribution(package, others, fix)
     yield from _lender(package, manifest)
+    yield from _misspelt(package, manifest)
 
 
 def _needed_at_run_time(manifest: PackageManifest, name: str) -> bool:
@@ -91,6 +97,32 @@ def _lender(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
         yield finding(manifest, "the package has no model and depends on no package that has one")
 
 
+def _misspelt(package: Package, manifest: PackageManifest) -> Iterator[Finding]:
+    """Report a team's or plugin's package that is not there, while one of a near name is."""
+    prefixes = (f"{package.name.split('_')[0]}_", *(f"{team.prefix}_" for team in teams()))
+    for dependency in manifest.dependencies:
+        name = dependency.package.value
+        is_plugin = "plugin" in name
+        is_of_teams = is_plugin or SUBMISSION_NAME.search(name) or name.startswith(prefixes)
+        if not is_of_teams or package.workspace.package(name):
+            continue
+        for other in package.workspace.packages:
+            slip = is_slip_for(name, other) or (is_plugin and _is_own(package, name, other))
+            if slip and other != package.name:
+                message = f"there is no package {name}; did you mean {other!r}?"
+                yield finding(dependency.package, message, key=name)
+                break
+
+
+def _is_own(package: Package, name: str, other: str) -> bool:
+    """Whether another package is named after this robot, and otherwise as the one that is named."""
+    robot = robot_of(package.name)
+    words, others = name.split("_"), other.split("_")
+    differing = [pair for pair in zip(words, others, strict=False) if len(set(pair)) > 1]
+    is_near = len(words) == len(others) and len(differing) == 1
+    return is_near and other.startswith(f"{robot}_") and not name.startswith(f"{robot}_")
+
+
 def _declared(package: Package, manifest: PackageManifest, *names: str) -> Fix | None:
     """Return the fix that adds dependencies after those that package.xml has."""
     document = package.xml("package.xml")
@@ -115,12 +147,27 @@ def _launch(name: str, end: str = "") -> str:
     return f'<launch><include file="$(find {name})/launch/a.launch"/></launch>{end}\n'
 
 
+def _depends_on_plugin(mark: str = "") -> dict[str, str]:
+    return {
+        "package.xml": _manifest(f"<exec_depend>acme_rover_gazebo_plugin_1</exec_depend>{mark}"),
+    }
+
+
+_PLUGIN = "<package><name>p</name></package>"
+
 GOOD = [
     {
         "launch/vehicle_topics.launch": _launch("x1_sensor_config_6"),
         "package.xml": _manifest("<exec_depend>x1_sensor_config_6</exec_depend>"),
     },
     {"launch/vehicle_topics.launch": "<launch><!-- $(find x1_sensor_config_6) --></launch>"},
+    _depends_on_plugin(),
+    {
+        **_depends_on_plugin(),
+        "../acme_rover_gazebo_plugin_1/package.xml": _PLUGIN,
+        "../acme_rover_gazebo_plugins_1/package.xml": _PLUGIN,
+    },
+    {**_depends_on_plugin(), "../acme_crawler_gazebo_plugin_1/package.xml": _PLUGIN},
 ]
 BAD = [
     {
@@ -132,5 +179,9 @@ BAD = [
         "model.sdf": None,
         "launch/spawner.rb": None,
         "package.xml": '<package format="2"><name>a</name></package>  <!-- ^ PKG007 -->',
+    },
+    {
+        **_depends_on_plugin("  <!-- ^ PKG007 -->"),
+        "../acme_rover_ignition_gazebo_plugin_1/package.xml": _PLUGIN,
     },
 ]

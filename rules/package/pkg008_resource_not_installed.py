@@ -67,6 +67,9 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
     if model_files and not whole and not any(_covers(installed, path) for path in model_files):
         message = f"neither of {' and '.join(model_files)} is installed"
         yield _finding(build, message, None, _added(build, "FILES", model_files))
+    elif MODEL_FILES[0] in model_files and not whole and not _covers(installed, MODEL_FILES[0]):
+        message = f"{MODEL_FILES[0]} is not installed"
+        yield _finding(build, message, None, _added(build, "FILES", [MODEL_FILES[0]]))
 
 
 def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix | None) -> Finding:
@@ -144,6 +147,12 @@ install(FILES model.sdf model.config DESTINATION share)
     {
         "CMakeLists.txt": """project(acme_rover_sensor_config_1)
 install(DIRECTORY launch urdf worlds thumbnails DESTINATION share/${PROJECT_NAME})  # ^ PKG008
+""",
+    },
+    {
+        "CMakeLists.txt": """project(acme_rover_sensor_config_1)
+install(DIRECTORY launch urdf worlds thumbnails DESTINATION share/${PROJECT_NAME})  # ^ PKG008
+install(FILES model.config DESTINATION share/${PROJECT_NAME})
 """,
     },
 ]

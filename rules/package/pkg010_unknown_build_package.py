@@ -15,6 +15,7 @@ import re
 from collections.abc import Iterator
 
 from checker.base.resources import table
+from checker.base.words import Suggestions
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
@@ -40,6 +41,16 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         other = next((name for name in available if _VERSION.sub("", name) == stem != name), None)
         hint = f"; it has {other}" if other else ""
         yield finding(needed, f"{known['title']} has no package {needed.value}{hint}")
+    suggestions = Suggestions(sorted(available))
+    for component in _components(paperwork.build):
+        if component.value.casefold() in lower or _brought(package, paperwork, component.value):
+            continue
+        # Few of the packages of ROS are in the list: what resembles none of them may exist.
+        if meant := suggestions.near(component.value):
+            yield finding(
+                component,
+                f"catkin has no component {component.value}; did you mean {meant}?",
+            )
 
 
 def _needed(build: CMakeFile) -> Iterator[Located[str]]:
@@ -47,6 +58,16 @@ def _needed(build: CMakeFile) -> Iterator[Located[str]]:
         values = [word.value for word in call.arguments]
         if not call.conditional and "$" not in values[0] and _REQUIRED.intersection(values):
             yield call.arguments[0]
+
+
+def _components(build: CMakeFile) -> Iterator[Located[str]]:
+    """Yield the components of catkin: each is a package."""
+    for call in build.find_packages:
+        if call.conditional or call.arguments[0].value != "catkin":
+            continue
+        names = [word.value for word in call.arguments]
+        behind = names.index("COMPONENTS") + 1 if "COMPONENTS" in names else len(names)
+        yield from (word for word in call.arguments[behind:] if word.value.islower())
 
 
 def _brought(package: Package, paperwork: Paperwork, name: str) -> bool:
@@ -64,10 +85,15 @@ _PROJECT = "project(acme_rover_sensor_config_1)\n"
 
 GOOD = [
     {"CMakeLists.txt": f"{_PROJECT}find_package(catkin REQUIRED COMPONENTS roscpp)\n"},
+    {"CMakeLists.txt": f"{_PROJECT}find_package(catkin REQUIRED COMPONENTS grid_map_core)\n"},
     {"CMakeLists.txt": f"{_PROJECT}find_package(ignition-gazebo4 REQUIRED)\n"},
     {"CMakeLists.txt": f"{_PROJECT}find_package(rover_magic QUIET)\n"},
 ]
 BAD = [
     {"CMakeLists.txt": f"{_PROJECT}find_package(rover_magic REQUIRED)  # ^ PKG010\n"},
     {"CMakeLists.txt": f"{_PROJECT}find_package(ignition-gazebo3 REQUIRED)  # ^ PKG010\n"},
+    {
+        "CMakeLists.txt": _PROJECT
+        + "find_package(catkin REQUIRED COMPONENTS roslanch)  # ^ PKG010\n"
+    },
 ]

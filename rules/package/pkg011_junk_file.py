@@ -1,13 +1,16 @@
 """A file that does not belong in a package.
 
 Backups, caches, editor settings and CAD sources are uploaded and installed with the robot. With a
-second model file, a reader does not know which of the two is the robot.
+second model file, a reader does not know which of the two is the robot. A CMakeLists.txt or
+package.xml in a subfolder builds nothing unless a CMakeLists.txt adds the folder: catkin looks for
+no package within a package.
 
 Fix: delete it; `.gitignore` keeps it out.
 Source: common practice; the Model Migration Guide, step 7, shows the files of a package.
 """
 
 import posixpath
+import re
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
@@ -15,12 +18,15 @@ from checker.package.inheritance import Found
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.source.cmake import read_cmake
+from checker.source.text import SourceText
 
 FILES = {
     **dict.fromkeys(("*~", "*.bak", "*.orig", "*.rej", "*(copy)*"), "a backup file"),
     **dict.fromkeys(("*.swp", "*.swo", "*.tmp"), "a temporary file of an editor"),
     **dict.fromkeys((".ds_store", "thumbs.db", "desktop.ini"), "a file of a file manager"),
     "*.pyc": "compiled Python",
+    "cmakecache.txt": "what CMake writes in a build folder",
     **dict.fromkeys(("*.step", "*.stp", "*.iges", "*.igs"), "the source of a mesh, for CAD"),
     **dict.fromkeys(("*.sldprt", "*.sldasm", "*.f3d", "*.fcstd"), "the source of a mesh, for CAD"),
 }
@@ -31,6 +37,11 @@ FOLDERS = {
     **dict.fromkeys(("__pycache__", ".pytest_cache"), "a cache of Python"),
     "__macosx": "what macOS adds to archives",
 }
+
+BUILD_FILES = ("CMakeLists.txt", "package.xml")
+_ADDING = ("add_subdirectory", "subdirs", "externalproject_add", "fetchcontent_declare")
+_RUNNING = ("add_custom_command", "add_custom_target", "execute_process")
+_HERE = re.compile(r"\$\{(?:CMAKE_(?:CURRENT_)?|PROJECT_)(?:SOURCE|LIST)_DIR\}/?")
 
 
 @rule("PKG011", "junk-file", Severity.WARNING, Concern.PAPERWORK)
@@ -47,6 +58,7 @@ def check(package: Package) -> Findings:
             yield finding(package.place(path), f"{path} is {known}: delete it", key=known)
     if package.kind is not PackageKind.SINGLE_FILE:
         yield from _second_models(package)
+        yield from _build_files(package)
 
 
 def _file(name: str) -> str | None:
@@ -69,7 +81,47 @@ def _second_models(package: Package) -> Iterator[Finding]:
             )
 
 
-GOOD = [{"urdf/rover.orig.urdf": "<robot name='rover'/>", "meshes/wheel.dae": "<COLLADA/>"}]
+def _build_files(package: Package) -> Iterator[Finding]:
+    """Report build files in subfolders that no CMakeLists.txt of the package adds."""
+    if not all(package.exists(name) for name in BUILD_FILES):
+        return
+    below = [file.path for file in package.index.files if "/" in file.path]
+    dead = [path for path in below if posixpath.basename(path) in BUILD_FILES]
+    if not dead:
+        return
+    added = set(_added_folders(package))
+    for path in dead:
+        folder = posixpath.dirname(path)
+        if None not in added and folder not in added:
+            message = f"{path} builds nothing, since no CMakeLists.txt adds {folder}: delete it"
+            yield finding(package.place(path), message, key=f"build files of {folder}")
+
+
+def _added_folders(package: Package) -> Iterator[str | None]:
+    """Yield the folders that CMake files add or build; None for one that they work out."""
+    for file in package.index.with_suffix("cmakelists.txt", ".cmake"):
+        source = package.read(file.path)
+        if not isinstance(source, SourceText):
+            yield None
+            continue
+        for call in read_cmake(source).calls_of(*_ADDING, *_RUNNING):
+            for word in call.arguments:
+                written = _HERE.sub("", word.value)
+                if "$" not in written:
+                    above = posixpath.dirname(file.path)
+                    yield from (posixpath.normpath(f"{at}/{written}") for at in (above or ".", "."))
+                elif call.name in _ADDING:
+                    yield None
+
+
+_ROOT = "project(acme_rover_sensor_config_1)\n"
+_PLUGIN = {"plugin/CMakeLists.txt": "project(plugin)\nadd_library(plugin p.cc)\n"}
+
+GOOD = [
+    {"urdf/rover.orig.urdf": "<robot name='rover'/>", "meshes/wheel.dae": "<COLLADA/>"},
+    {"CMakeLists.txt": f"{_ROOT}add_subdirectory(plugin)\n", **_PLUGIN},
+    {"CMakeLists.txt": f"{_ROOT}add_subdirectory(${{PROJECT_SOURCE_DIR}}/plugin)\n", **_PLUGIN},
+]
 BAD = [
     {
         "launch/spawner.rb~": "",
@@ -78,4 +130,6 @@ BAD = [
     },
     {".vscode/settings.json": "{}", "@reported": [".vscode:1"]},
     {"model_old.sdf": "<sdf version='1.6'/>", "@reported": ["model_old.sdf:1"]},
+    {"CMakeLists.txt": _ROOT, **_PLUGIN, "@reported": ["plugin/CMakeLists.txt:1"]},
+    {"launch/package.xml": "<package/>", "@reported": ["launch/package.xml:1"]},
 ]

@@ -2,18 +2,19 @@
 
 A copied package keeps the name of the other robot in titles, descriptions and commands; people then
 read about another robot, or start it. Names in `find`, `require`, Fuel URIs and dependencies are
-intended, and so are names that words such as "derived from" explain. None of the accepted packages
-that we checked shows this.
+intended, and so are names that words such as "derived from" explain. A `$(find …)` or `package://`
+URI of another robot's package is reported if this package has the file under the same path: it was
+copied, and the URI still leads to the original.
 
 Fix: write this package's name.
 Source: model reviews: the name of another team in model.config. A launch command that starts
 another robot is an error, since that one then runs.
 """
 
-import re
 from collections.abc import Iterator
 
-from checker.package.inheritance import SUBMISSION_NAME
+from checker.package.dependencies import taken_in_vain
+from checker.package.inheritance import SHEET, SUBMISSION_NAME, own_sheet
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
@@ -22,23 +23,17 @@ from checker.package.submissions import (
     blank_xml_comments,
     is_same_robot,
     left_from_copying,
-    robot_of,
+    title_of_another,
 )
+from checker.package.teams import TEAM_OF, teams
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located, SourceText, Span
 
-SHEET = "specifications.md"
-TEAMS = ("barcs", "cerberus", "coordinated", "costar", "csiro", "ctu", "dynamo", "emesent")
-MORE_TEAMS = ("explorer", "flyabot", "marble", "nctu", "robotika", "sophisticated", "ssci")
-
-_TITLE = re.compile(r"^#{1,3}[ \t]*(\S[^\n]*?sensor[ _]config(?:uration)?[ _]\d+)", re.M | re.I)
-_TEAM = re.compile(r"\b(?:of|by)\s+(?:the\s+)?(?:team\s+)?([A-Z]\w+)(?:'s)?\s+team\b", re.I)
+TEAMS = tuple(team.prefix.partition("_")[0] for team in teams())
 
 
 @rule("PKG012", "left-from-copying", Severity.WARNING, Concern.PAPERWORK)
-def check(
-    package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS + MORE_TEAMS
-) -> Findings:
+def check(package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS) -> Findings:
     """Look for other names in package.xml, model.config, the specification sheet and the spawner.
 
     Options:
@@ -54,7 +49,13 @@ def check(
             yield from _named(package, text)
         yield from _other_team(package, paperwork.config.description, teams)
     yield from _commands(package, paperwork)
-    sheet = package.read(SHEET)
+    for use in taken_in_vain(package):
+        yield finding(
+            use.place,
+            f"{use.how} is of another robot, but {package.name} has this file",
+            key=f"file of {use.package_name}",
+        )
+    sheet = package.read(own_sheet(package) or SHEET)
     if isinstance(sheet, SourceText):
         yield from _title(package, sheet)
         yield from _named(package, Located("", Span(sheet, 0, len(sheet.text))))
@@ -74,7 +75,7 @@ def _named(package: Package, text: Located[str]) -> Iterator[Finding]:
 
 
 def _other_team(package: Package, text: Located[str], teams: tuple[str, ...]) -> Iterator[Finding]:
-    for match in _TEAM.finditer(text.value):
+    for match in TEAM_OF.finditer(text.value):
         team = match.group(1)
         words = package.name.casefold().split("_")
         if team.casefold() in teams and team.casefold() not in words:
@@ -102,11 +103,8 @@ def _commands(package: Package, paperwork: Paperwork) -> Iterator[Finding]:
 
 def _title(package: Package, sheet: SourceText) -> Iterator[Finding]:
     """Report a title that shares no word with the robot's name."""
-    title = _TITLE.search(sheet.text)
-    if title is None:
-        return
-    words = set(re.split(r"[\W_]+", title.group(1).casefold()))
-    if words.isdisjoint(robot_of(package.name).casefold().split("_")):
+    title = title_of_another(sheet.text, package.name)
+    if title is not None:
         where = Span(sheet, *title.span(1))
         message = f"the title is {title.group(1)!r}, but the package is {package.name}"
         yield finding(where, message)
@@ -122,6 +120,13 @@ def _described(text: str) -> dict[str, str]:
     }
 
 
+def _launch(name: str, file: str, mark: str = "") -> str:
+    return f'<launch>\n<param name="r" textfile="$(find {name})/{file}"/>{mark}\n</launch>\n'
+
+
+_TOPICS = "launch/vehicle_topics.launch"
+_XML_MARK = "  <!-- ^ PKG012 -->"
+
 GOOD = [
     _described(
         "The acme_rover_sensor_config_1 package, derived from x1_sensor_config_4</description>"
@@ -133,6 +138,12 @@ GOOD = [
         "specifications.md": "# MARBLE HD2 Sensor Config 1\n",
         "launch/spawner.rb": None,
     },
+    {
+        _TOPICS: _launch("marble_husky_sensor_config_1", "urdf/husky.urdf"),
+        "urdf/rover.urdf": "<robot name='r'/>",
+    },
+    {_TOPICS: _launch("marble_husky_sensor_config_1", _TOPICS)},
+    {_TOPICS: _launch("marble_husky_sensor_config_1", "launch")},
 ]
 BAD = [
     _described("The x1_sensor_config_4 package</description>  <!-- ^ PKG012 -->"),
@@ -143,5 +154,14 @@ BAD = [
   <description>A rover of the Marble team</description>  <!-- ^ PKG012 -->
 </model>
 """
+    },
+    {
+        _TOPICS: _launch("marble_husky_sensor_config_1", "urdf/rover.urdf", _XML_MARK),
+        "urdf/rover.urdf": "<robot name='r'/>",
+    },
+    {
+        "urdf/arm.xacro": '<robot><mesh filename="package://marble_spot_sensor_config_1/'
+        f'meshes/arm.dae"/></robot>{_XML_MARK}',
+        "meshes/arm.dae": "<COLLADA/>",
     },
 ]

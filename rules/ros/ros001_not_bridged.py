@@ -7,7 +7,9 @@ submission. The rule assumes which topics those of `models_common` bridge, from 
 packages use them (`models_common.json`).
 
 Contact sensors, logical cameras, altimeters and plugins that are not Gazebo's own need no bridge
-here. A lidar needs a bridge for its scan or for its points.
+here. A lidar needs a bridge for its scan or for its points. The topics
+are those of the release: a thermal camera of Dome publishes its picture at `sensor/<name>`, and
+camera_info at `sensor/camera_info`, without its name (`gazebo_topics.json`).
 
 Fix: add a bridge to `vehicle_topics.launch`: a `parameter_bridge` of ros_ign_bridge, or for images
 an `image_bridge` of ros_ign_image, with a remap to the name in ROS.
@@ -54,7 +56,7 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
         bridged |= set(by_topic(launch.dormant_bridges))
         if not bridged or launch.dormant_includes:
             return
-    missing = list(_missing(robot, bridged))
+    missing = list(_missing(robot, bridged, context.release))
     standard = _missing_standard(robot, context, bridged)
     if (missing or standard) and launch.unseen_bridges:
         yield unchecked(launch.unseen_bridges[0])
@@ -72,12 +74,12 @@ def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
         yield finding(place, message + assuming)
 
 
-def _missing(robot: Robot, bridged: Collection[str]) -> Iterator[Channel]:
+def _missing(robot: Robot, bridged: Collection[str], release: str) -> Iterator[Channel]:
     """Yield the first channel of each group in which none is bridged."""
     groups: dict[tuple[Sensor | Plugin, str], list[Channel]] = defaultdict(list)
-    for channel in channels(robot):
+    for channel in channels(robot, release):
         groups[channel.owner, channel.group].append(channel)
-    commanded = _commanded_inside(robot)
+    commanded = _commanded_inside(robot, {owner for owner, _ in groups})
     for group in groups.values():
         topics = [topic for channel in group for topic in channel.topics]
         if group[0].need is not Need.OPTIONAL and not any(
@@ -86,9 +88,8 @@ def _missing(robot: Robot, bridged: Collection[str]) -> Iterator[Channel]:
             yield group[0]
 
 
-def _commanded_inside(robot: Robot) -> frozenset[str]:
+def _commanded_inside(robot: Robot, known: Collection[Sensor | Plugin]) -> frozenset[str]:
     """Return the topics that unknown plugins name: they may be the other end."""
-    known = {channel.owner for channel in channels(robot)}
     others = (plugin for plugin in robot.plugins if plugin not in known)
     parameters = chain.from_iterable(
         other.element.descendants() for other in others if other.class_name not in _LISTENS
@@ -193,6 +194,9 @@ _INFO = (
     "$(arg prefix)/base_link/sensor/front/camera_info"
     "@sensor_msgs/CameraInfo[ignition.msgs.CameraInfo"
 )
+_THERMAL = '<sensor name="thermal" type="thermal"/>'
+_HEAT = "$(arg prefix)/base_link/sensor/thermal@sensor_msgs/Image[ignition.msgs.Image"
+_HEAT_INFO = _INFO.replace("front/camera_info", "camera_info")
 _POINTS = (
     "$(arg prefix)/base_link/sensor/lidar/scan/points"
     "@sensor_msgs/PointCloud2[ignition.msgs.PointCloudPacked"
@@ -212,6 +216,7 @@ _MIXER = '<plugin filename="m.so" name="acme::Mixer"><out>/model/#{_name}/mixed<
 
 GOOD = [
     {"@fragment": _CAMERA, _TOPICS: _launch(_IMAGE, _INFO)},
+    {"@fragment": _THERMAL, _TOPICS: _launch(_HEAT, _HEAT_INFO)},
     {"@fragment": '<sensor name="lidar" type="gpu_ray"/>', _TOPICS: _launch(_POINTS)},
     {"@fragment": '<sensor name="bumper" type="contact"/>', _TOPICS: _launch()},
     {
@@ -236,6 +241,14 @@ GOOD = [
 BAD = [
     {"@fragment": _CAMERA, _TOPICS: _marked(_launch())},
     {"@fragment": _CAMERA, _TOPICS: _marked(_launch(_IMAGE))},
+    {
+        "@fragment": _THERMAL,
+        _TOPICS: _marked(_launch(_HEAT, _INFO.replace("/front/", "/thermal/"))),
+    },
+    {
+        "@fragment": _THERMAL,
+        _TOPICS: _marked(_launch(_HEAT.replace("/thermal@", "/thermal/image@"), _HEAT_INFO)),
+    },
     {
         "@fragment": f'{_CAMERA}<sensor name="imu" type="imu"/>',
         _TOPICS: _marked(_launch(_IMU, extra=_TEMPLATE.replace("FILE", "lidar_3d.launch"))),

@@ -6,6 +6,10 @@ left over from another robot's launch file, and is information. A plugin of the 
 publish such a topic itself: where the sensor, its link or the model has one, the bridge is not
 checked.
 
+Topics differ between releases. A thermal camera of Dome publishes its picture under its own name
+without `/image` (`sensor/thermal`), and camera_info beside it (`sensor/camera_info`); since
+Fortress it publishes both as every camera does (`gazebo_topics.json`).
+
 Fix: write the exact names of the link and its sensor, and a topic that this type of sensor
 publishes.
 Source: topics that gz-sensors publishes by default; SubT review findings about IMUs that were
@@ -18,12 +22,11 @@ from collections.abc import Callable
 from checker.base.words import Suggestions
 from checker.expand.launch.bridge import Bridge, SensorTopic
 from checker.expand.launch.graph import LaunchGraph
-from checker.model.components import Link, Plugin
+from checker.model.components import Link, Plugin, Sensor
 from checker.model.plugin_library import gazebo_libraries, library_stem, plugin_libraries
 from checker.model.robot import Robot
-from checker.model.ros.topics import comparable, suffixes
+from checker.model.ros.topics import comparable, sensor_channels
 from checker.model.sdf.links import read_plugin
-from checker.model.sensing.kind import SensorType
 from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
@@ -42,7 +45,7 @@ def check(robot: Robot, launch: LaunchGraph, package: Package, context: Context)
     own = _own_libraries(package, context.release)
     names = Suggestions([*robot.links_by_name, *(sensor.name.value for sensor in robot.sensors)])
     for bridge in launch.bridges:
-        fault = _fault(robot, bridge, names)
+        fault = _fault(robot, bridge, names, context.release)
         if any(_names(plugin, bridge.ign_topic) for plugin in robot.plugins):
             continue
         if fault and (plugin := _publisher(robot, bridge, own, context.release)):
@@ -53,7 +56,7 @@ def check(robot: Robot, launch: LaunchGraph, package: Package, context: Context)
         # A template that is switched off serves other configurations.
         if bridge.node.assumed_from:
             continue
-        if fault := _fault(robot, bridge, names):
+        if fault := _fault(robot, bridge, names, context.release):
             message = _message(bridge, "is switched off, and if switched on listens", fault)
             yield finding(bridge, message, severity=Severity.INFO, key="switched off")
 
@@ -65,12 +68,39 @@ def _message(bridge: Bridge, listens: str, fault: str) -> str:
     return f"bridge {node.name!r} {listens} to {fault}"
 
 
-def _fault(robot: Robot, bridge: Bridge, names: Suggestions) -> str | None:
+def _fault(robot: Robot, bridge: Bridge, names: Suggestions, release: str) -> str | None:
     """Return what a bridge listens to that nothing publishes."""
     topic = bridge.sensor
     if topic is None or bridge.node.usual or "$(" in bridge.ign_topic:
         return None
-    return _nothing_at(robot, topic, names)
+    link = robot.links_by_name.get(topic.link)
+    if link is None:
+        return f"link {topic.link!r}, which the model does not have{names.hint(topic.link)}"
+    if any(comparable(bridge.ign_topic) in _published(s, release) for s in link.sensors):
+        return None
+    sensor = next((s for s in link.sensors if s.name.value == topic.sensor), None)
+    if sensor is None:
+        return (
+            f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic, names)}"
+        )
+    published = _published(sensor, release)
+    if not published or sensor.topic.stated:
+        return None
+    expected = ", ".join(sorted(_below(sensor, each) for each in published))
+    return (
+        f"{topic.suffix or 'no topic'!r} of {sensor.type.value} {topic.sensor!r}, "
+        f"which publishes {expected}"
+    )
+
+
+def _published(sensor: Sensor, release: str) -> list[str]:
+    return [topic for channel in sensor_channels(sensor, release) for topic in channel.topics]
+
+
+def _below(sensor: Sensor, topic: str) -> str:
+    """Return a topic as seen from a sensor's own: `image`; `sensor/front` for one not below it."""
+    _, below, suffix = topic.partition(f"/sensor/{sensor.name.value}/")
+    return suffix if below else "sensor/" + topic.rpartition("/")[2]
 
 
 def _own_libraries(package: Package, release: str) -> _Own:
@@ -114,32 +144,6 @@ def _names(plugin: Plugin, topic: str) -> bool:
     return any("/" in text and comparable(text) == comparable(topic) for text in texts)
 
 
-def _nothing_at(robot: Robot, topic: SensorTopic, names: Suggestions) -> str | None:
-    link = robot.links_by_name.get(topic.link)
-    if link is None:
-        hint = names.hint(topic.link)
-        return f"link {topic.link!r}, which the model does not have{hint}"
-    sensor = next((s for s in link.sensors if s.name.value == topic.sensor), None)
-    if sensor is None and topic.sensor == "camera_info" and _has_thermal_camera(link):
-        return None
-    if sensor is None:
-        return (
-            f"sensor {topic.sensor!r} of link {topic.link!r}, {_whereabouts(robot, topic, names)}"
-        )
-    published = suffixes(sensor.kind)
-    if published is None or sensor.topic.stated or topic.suffix in published:
-        return None
-    return (
-        f"{topic.suffix or 'no topic'!r} of {sensor.type.value} {topic.sensor!r}, "
-        f"which publishes {', '.join(sorted(filter(None, published)))}"
-    )
-
-
-def _has_thermal_camera(link: Link) -> bool:
-    """Gazebo Dome drops the sensor's name from the camera_info topic of thermal cameras."""
-    return any(sensor.kind is SensorType.THERMAL_CAMERA for sensor in link.sensors)
-
-
 def _whereabouts(robot: Robot, topic: SensorTopic, names: Suggestions) -> str:
     elsewhere = [s.link for s in robot.sensors if s.name.value == topic.sensor]
     if elsewhere:
@@ -158,6 +162,7 @@ def _launch(topic: str, mark: str = "") -> str:
 """
 
 
+_THERMAL = '<link name="top"><sensor name="thermal" type="thermal"/></link>'
 _FRAGMENT = '<link name="imu_link"><sensor name="imu_sensor" type="imu"/></link>'
 _TOPICS = "launch/vehicle_topics.launch"
 _MARK = "  <!-- ^ ROS002 -->"
@@ -173,11 +178,16 @@ GOOD = [
 """,
         _TOPICS: _launch("base_link/sensor/odom/odometry"),
     },
+    {"@fragment": _THERMAL, _TOPICS: _launch("top/sensor/thermal")},
+    {"@fragment": _THERMAL, _TOPICS: _launch("top/sensor/camera_info")},
 ]
 BAD = [
     {"@fragment": _FRAGMENT, _TOPICS: _launch("base_link/sensor/imu_sensor/imu", _MARK)},
     {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_lnk/sensor/imu_sensor/imu", _MARK)},
     {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_link/sensor/imu_sensor/scan", _MARK)},
+    {"@fragment": _THERMAL, _TOPICS: _launch("top/sensor/thermal/image", _MARK)},
+    {"@fragment": _THERMAL, _TOPICS: _launch("top/sensor/thermal/camera_info", _MARK)},
+    {"@fragment": _FRAGMENT, _TOPICS: _launch("imu_link/sensor/camera_info", _MARK)},
     {
         _TOPICS: """<launch>
   <arg name="lidar" default="0"/>

@@ -18,7 +18,7 @@ from checker.expand.launch.graph import LaunchGraph
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, by_topic, channels
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _WAYS = {Direction.TO_ROS: "Gazebo to ROS", Direction.TO_IGN: "ROS to Gazebo"}
 _RANGE = "sensor_msgs/Range"
@@ -26,27 +26,27 @@ _VECTOR, _SINGLE = "ignition.msgs.Pose_V", "ignition.msgs.Pose"
 
 
 @rule("ROS003", "wrong-message-type", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, launch: LaunchGraph) -> Findings:
+def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     """Report bridges whose types or direction do not fit their topic."""
     for reason in dict.fromkeys((robot.missing_parts, robot.unread_plugins, *launch.unread)):
         if reason:
             yield unchecked(reason)
-    ends = _ends(robot)
+    ends = _ends(robot, context.release)
     bridged = by_topic(launch.bridges)
     for topic, bridges in bridged.items():
         here = ends.get(topic, ())
         for bridge in bridges:
-            for fault in _faults(bridge, here):
+            for fault in (*_faults(bridge, here), *_of_later_release(bridge, context.release)):
                 yield finding(bridge, f"{_named(bridge)} {fault}")
         fault = _one_row_of_many(here)
         if fault and f"{topic}/points" not in bridged:
             yield finding(bridges[0], f"{_named(bridges[0])} {fault}", key="one row of many")
 
 
-def _ends(robot: Robot) -> dict[str, list[Channel]]:
+def _ends(robot: Robot, release: str) -> dict[str, list[Channel]]:
     """Return the robot's channels of each topic; several plugins may share one."""
     ends: dict[str, list[Channel]] = defaultdict(list)
-    for channel in channels(robot):
+    for channel in channels(robot, release):
         for topic in channel.topics:
             ends[topic].append(channel)
     return ends
@@ -74,6 +74,13 @@ def _faults(bridge: Bridge, ends: Sequence[Channel]) -> Iterator[str]:
     if bridge.direction not in (*ways, Direction.BOTH):
         stated, expected = _WAYS[bridge.direction], _WAYS[ends[0].direction]
         yield f"bridges {whose} from {stated}, expected {expected}"
+
+
+def _of_later_release(bridge: Bridge, release: str) -> Iterator[str]:
+    """Yield what is wrong with a message that ros_ign_bridge of ROS 1 does not know."""
+    later = bridge.ign_type.startswith("gz.") and "/msg/" not in bridge.ros_type
+    if later and release == "dome" and bridge.node.package == "ros_ign_bridge":
+        yield f"names {bridge.ign_type}, which Dome calls {_ign(bridge.ign_type)}"
 
 
 def _stated_types(channel: Channel) -> tuple[str, ...]:
@@ -159,4 +166,5 @@ BAD = [
         _plugin("PosePublisher", _POSES),
         _POSE.format("geometry_msgs/TransformStamped", _SINGLE) + _MARK,
     ),
+    _robot(_LIDAR.format(1), f"{_HERE}@sensor_msgs/LaserScan[gz.msgs.LaserScan{_MARK}"),
 ]

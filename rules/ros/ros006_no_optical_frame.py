@@ -18,13 +18,13 @@ from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.ros.topics import Channel, channels, comparable
 from checker.model.ros.transforms import optical_frames
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
 _COLOUR, _DEPTH = "image", "depth image"
 
 
 @rule("ROS006", "no-optical-frame", Severity.WARNING, Concern.INTERFACE)
-def check(robot: Robot, launch: LaunchGraph) -> Findings:
+def check(robot: Robot, launch: LaunchGraph, context: Context) -> Findings:
     """Report bridged colour and depth images that no optical_frame_publisher reads."""
     for reason in dict.fromkeys((robot.missing_parts, *launch.unread)):
         if reason:
@@ -32,7 +32,8 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
     # The command that cannot be read may switch on what is off without it.
     nodes = (*launch.nodes, *(launch.dormant_nodes if launch.unread else ()))
     taken = {frame.input_image for frame in optical_frames(nodes)}
-    lacking = [pair for pair in _pictures(robot, launch) if pair[0].ros_topic not in taken]
+    pictures = _pictures(robot, launch, context.release)
+    lacking = [pair for pair in pictures if pair[0].ros_topic not in taken]
     if lacking and launch.unseen_bridges:
         yield unchecked(launch.unseen_bridges[0])
         return
@@ -48,11 +49,11 @@ def check(robot: Robot, launch: LaunchGraph) -> Findings:
         )
 
 
-def _pictures(robot: Robot, launch: LaunchGraph) -> Iterator[tuple[Bridge, Channel]]:
+def _pictures(robot: Robot, launch: LaunchGraph, release: str) -> Iterator[tuple[Bridge, Channel]]:
     """Yield the bridges of colour and depth images."""
     pictures = {
         topic: channel
-        for channel in channels(robot)
+        for channel in channels(robot, release)
         if _is_picture(channel)
         for topic in channel.topics
     }

@@ -3,6 +3,8 @@
 The place of a sensor on the robot is published once, separately from the poses that change. Without
 it sensor data cannot be placed on the robot. Fixed joints of the package's own description are not
 in the SDF model: the conversion merges their links, and only `robot_state_publisher` knows them.
+They are taken from what xacro makes of the description, with all that it includes and the arguments
+of the launch file; where it cannot be expanded, from the file as it stands.
 
 Fix: bridge `/model/<name>/pose_static`, and start `robot_state_publisher` if the description has
 fixed frames that the model lacks.
@@ -17,6 +19,7 @@ from checker.finding import Place
 from checker.model.robot import Robot
 from checker.model.ros.robot_description import fixed_frames, robot_descriptions
 from checker.model.ros.transforms import state_publishers, static_transforms
+from checker.model.urdf.files import UrdfFiles
 from checker.package.inheritance import Found
 from checker.package.package import Package
 from checker.rule import Concern, Findings, HasSpan, Severity, finding, rule, unchecked
@@ -31,6 +34,7 @@ def check(
     package: Package,
     robot: Robot,
     launch: LaunchGraph,
+    urdf: UrdfFiles | None,
     *,
     published_elsewhere: str = "optical",
     shown: int = 8,
@@ -60,7 +64,7 @@ def check(
     known = {*robot.links_by_name, *(part.name.value for part in parts)}
     frames = {
         name: joint
-        for name, joint in _described(package, launch)
+        for name, joint in _described(package, launch, urdf)
         if name not in known and not (published_elsewhere and published_elsewhere in name)
     }
     if frames:
@@ -94,12 +98,17 @@ def _static_poses(robot: Robot, where: Place) -> Findings:
         yield unchecked(robot.unread_plugins)
 
 
-def _described(package: Package, launch: LaunchGraph) -> Iterator[tuple[str, HasSpan]]:
+def _described(
+    package: Package, launch: LaunchGraph, urdf: UrdfFiles | None
+) -> Iterator[tuple[str, HasSpan]]:
     """Yield the fixed frames of the robot's description."""
+    descriptions = urdf.descriptions if urdf is not None else ()
+    expanded = {description.file: description.document for description in descriptions}
     for description in robot_descriptions(launch):
         for file in description.files:
             prefix = f"../{file.package}/" if file.package not in ("", package.name) else ""
-            document = package.xml(f"{prefix}{file.path}")
+            path = f"{prefix}{file.path}"
+            document = expanded.get(path) or package.xml(path)
             if isinstance(document, XmlDocument):
                 yield from fixed_frames(document).items()
 
@@ -120,7 +129,9 @@ _STATIC = """<node pkg="ros_ign_bridge" type="parameter_bridge" name="pose_stati
 _RSP = '<node pkg="robot_state_publisher" type="robot_state_publisher" name="$(anon rsp)"/>'
 
 
-def _files(line: str, frame: str = "base_link", static: str = "true") -> dict[str, str]:
+def _files(
+    line: str, frame: str = "base_link", static: str = "true", mast: str = ""
+) -> dict[str, str]:
     return {
         "@fragment": _PUBLISHER.format(static),
         _TOPICS: f'<launch>\n<arg name="name"/>\n<arg name="world_name"/>\n{line}\n</launch>\n',
@@ -134,11 +145,22 @@ def _files(line: str, frame: str = "base_link", static: str = "true") -> dict[st
 <joint name="j" type="fixed">
 <parent link="$(arg name)/base_link"/><child link="$(arg name)/{frame}"/>
 </joint>
-</robot>
+{mast}</robot>
 """,
     }
 
 
+_MAST = """<xacro:arg name="name" default="rover"/>
+<xacro:arg name="mast" default="{}"/>
+<xacro:macro name="mount" params="of">
+<link name="$(arg name)/${{of}}_mount"/>
+<joint name="${{of}}" type="fixed">
+<parent link="$(arg name)/base_link"/><child link="$(arg name)/${{of}}_mount"/>
+</joint>
+</xacro:macro>
+<link name="$(arg name)/base_link"/>
+<xacro:if value="$(arg mast)"><xacro:mount of="mast"/></xacro:if>
+"""
 _BAD = {"@reported": [f"{_TOPICS}:1"]}
 
 GOOD = [
@@ -147,8 +169,10 @@ GOOD = [
     _files(_STATIC, frame="${side}_mount"),
     _files(_STATIC, frame="camera_optical_frame"),
     _files(_RSP, frame="mast"),
+    _files(_STATIC, mast=_MAST.format(0)),
 ]
 BAD = [
     {**_files(""), **_BAD},
     {**_files(_STATIC, frame="mast"), **_BAD},
+    {**_files(_STATIC, mast=_MAST.format(1)), **_BAD},
 ]

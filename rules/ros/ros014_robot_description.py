@@ -1,7 +1,9 @@
 """The robot's description cannot be loaded, or has the wrong parameter name.
 
 Tools look for `/<robot's name>/robot_description`. If xacro does not find its file, roslaunch stops
-and starts no node of the file. Without `name:=` all robots of a team get the same frames.
+and starts no node of the file. Without `name:=` all robots of a team get the same frames. A script
+of the shell or of Python that the command names is read, not run: it must hand its arguments to
+xacro (`"$@"`, `sys.argv`), or `name:=` with what it is given.
 
 Fix: `<param name="$(arg name)/robot_description" command="$(find xacro)/xacro '$(find
 <package>)/urdf/robot_from_sdf.xacro' name:=$(arg name)"/>`.
@@ -12,6 +14,7 @@ from collections.abc import Iterator
 
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.launch.substitution import is_known
+from checker.model.ros.description_script import DescriptionScript, read_description_script
 from checker.model.ros.robot_description import (
     NAME,
     DescriptionFile,
@@ -25,6 +28,7 @@ from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
 _LAUNCH = "launch/description.launch"
+_NEEDED = "$(arg name)"
 _PROGRAMS = ("scripts/", "bin/", "src/", "nodes/")
 """Folders of programs that a package builds or installs, which are not in its sources."""
 
@@ -66,7 +70,7 @@ def _file(
     package: Package, description: RobotDescription, file: DescriptionFile
 ) -> Iterator[Finding | Unchecked]:
     name, path = file.package, file.path
-    holder = package if name in ("", package.name) else package.workspace.package(name)
+    holder = _holder(package, file)
     if holder is None:
         if SUBMISSION_NAME.search(name):
             yield unchecked(f"package {name}, which contains {path}, is not available")
@@ -80,18 +84,55 @@ def _file(
 
 def _argument(package: Package, description: RobotDescription, robot: str) -> Iterator[Finding]:
     """Report a xacro file that needs the robot's name, but does not get it."""
-    name = description.arguments.get("name")
-    if name == robot or (name is not None and not is_known(name)):
+    held = [(file.path, _holder(package, file)) for file in description.files]
+    scripts = [
+        (script, holder)
+        for path, holder in held
+        if holder is not None and (script := read_description_script(holder, path)) is not None
+    ]
+    script = scripts[0][0] if scripts else None
+    if _is_given(description, robot, script):
         return
-    for file in description.files:
-        prefix = f"../{file.package}/" if file.package not in ("", package.name) else ""
-        source = package.read(f"{prefix}{file.path}")
-        if isinstance(source, SourceText) and "$(arg name)" in source.text:
-            what = "no name:=" if name is None else f"name:={name}"
+    held += [(path, holder) for script, holder in scripts for path in script.files]
+    for path, holder in dict.fromkeys(held):
+        source = holder.read(path) if holder is not None else None
+        if isinstance(source, SourceText) and _NEEDED in source.text:
             yield finding(
-                description,
-                f"{file.path} needs the robot's name, but gets {what}: expected name:=$(arg name)",
+                description, f"{path} needs the robot's name, but {_given(description, script)}"
             )
+
+
+def _holder(package: Package, file: DescriptionFile) -> Package | None:
+    if file.package in ("", package.name):
+        return package
+    return package.workspace.package(file.package)
+
+
+def _is_given(description: RobotDescription, robot: str, script: DescriptionScript | None) -> bool:
+    """Say whether xacro gets the robot's name, as far as can be told."""
+    if script is not None:
+        if "name" in script.arguments:
+            return script.arguments["name"] is None
+        # What a script makes of a word alone is its own affair.
+        if script.learns_more or robot in description.param.value.split():
+            return True
+        if not script.takes_arguments:
+            return False
+    name = description.arguments.get("name")
+    return name == robot or (name is not None and not is_known(name))
+
+
+def _given(description: RobotDescription, script: DescriptionScript | None) -> str:
+    """Return what xacro gets instead of the robot's name, and what is expected."""
+    if script is not None and "name" in script.arguments:
+        given = f"name:={script.arguments['name']}"
+        return f"{script.path} gives it {given}: expected what the launch file hands over"
+    if script is not None and not script.takes_arguments:
+        return f"{script.path} hands none of its arguments to xacro"
+    name = description.arguments.get("name")
+    gets = f"gets {'no name:=' if name is None else f'name:={name}'}"
+    gets = f"{script.path} {gets}" if script is not None else gets
+    return f"{gets}: expected name:=$(arg name)"
 
 
 _XACRO = (
@@ -117,7 +158,25 @@ def _description(
     }
 
 
+def _script(text: str, args: str = " name:=$(arg name)", mark: str = "") -> dict[str, str]:
+    command = f"$(find {_HERE})/scripts/describe{args}"
+    return {**_description(command, mark), "scripts/describe": text}
+
+
+_SHELL = f"""#!/bin/sh
+# Prints the robot.
+exec rosrun xacro xacro "$(rospack find {_HERE})/urdf/robot_from_sdf.xacro" mast:=1"""
+_PYTHON = """#!/usr/bin/env python
+import subprocess
+import sys
+subprocess.call(["xacro", FOLDER + "/urdf/robot_from_sdf.xacro"] + sys.argv[1:])
+"""
+
 GOOD = [
+    _script(f'{_SHELL} "$@"\n'),
+    _script(f"{_SHELL} name:=$1\n", args=" $(arg name)"),
+    _script(_PYTHON),
+    _script(_PYTHON.replace("sys.argv[1:]", 'rospy.get_param("~args")'), args=""),
     _description(f"$(find xacro)/xacro {_FILE} name:=$(arg name)"),
     _description("xacro $(dirname)/../urdf/robot_from_sdf.xacro name:=$(arg name)"),
     _description(f"$(find xacro)/xacro '$(find {_HERE})/urdf/plain.xacro'"),
@@ -125,6 +184,11 @@ GOOD = [
     _description(f"$(find {_HERE})/urdf/plain.xacro", kind="textfile"),
 ]
 BAD = [
+    _script(f'{_SHELL} "$@"\n', args="", mark=_MARK),
+    _script(f'{_SHELL} "$@"\n', args=" name:=rover", mark=_MARK),
+    _script(f"{_SHELL}\n", mark=_MARK),
+    _script(f"{_SHELL} name:=rover\n", mark=_MARK),
+    _script(_PYTHON, args="", mark=_MARK),
     _description(f"$(find xacro)/xacro {_FILE}", _MARK),
     _description(f"$(find xacro)/xacro {_FILE} name:=rover", _MARK),
     _description(f"$(find xacro)/xacro {_FILE} name:=$(arg name)", _MARK, NAME),

@@ -2,9 +2,11 @@
 
 Readers of "VLP-16" in the specification sheet expect 16 rows over 30 degrees and 100 m. With a rate
 that the device does not have, such as 15 Hz for an Ouster, the model publishes points that the real
-device cannot. A figure of a lidar that "Diversions from Physical Hardware" mentions is not
-reported. If nothing names the device, a range that no lidar of this shape has is information. A
-figure that was never compared with a datasheet is also information.
+device cannot. Where the list of sensors says just "3D lidar", a device that a link or another line
+of the sheet names counts, if it is the only one of its class. A figure of a lidar that "Diversions
+from Physical Hardware" mentions is not reported. If nothing names the device, a range that no lidar
+of this shape has is information. A figure that was never compared with a datasheet is also
+information.
 
 Fix: write the figures of the datasheet, or describe the difference under "Diversions from Physical
 Hardware" in specifications.md.
@@ -32,6 +34,10 @@ _SPOKEN_OF = {
 """Words with which "Diversions" mentions a figure."""
 
 
+_ROUNDED = 1e-9
+"""Metres that a difference of two decimals is off."""
+
+
 class _Difference(Record, eq=False):
     """A wrong figure: its place, its kind, the stated and the expected value."""
 
@@ -50,6 +56,7 @@ def check(
     tolerance: float = 0.05,
     angle: float = 1.0,
     near: float = 0.02,
+    near_share: float = 0.1,
 ) -> Findings:
     """Report figures that differ from those of the datasheet.
 
@@ -58,6 +65,8 @@ def check(
         angle: Degrees by which the lowest and the highest row may differ from the datasheet's; also
             used to find lidars of the same shape.
         near: Metres by which the minimum range may differ from the datasheet's.
+        near_share: Share of the datasheet's minimum range by which it may differ, where that is
+            less: below 0.2 m with the default of both.
     """
     for sensor in robot.sensors:
         lidar = sensor.lidar
@@ -70,7 +79,8 @@ def check(
         differences = [
             *_rows(lidar, named.device),
             *_vertical(lidar, named.device, angle),
-            *_ranges(lidar, named, tolerance, near),
+            *_farthest(lidar, named, tolerance),
+            *_nearest(lidar, named, near, near_share),
             *_rate(sensor, named.device, tolerance),
         ]
         for difference in differences:
@@ -105,18 +115,25 @@ def _vertical(lidar: Lidar, device: Device, tolerance: float) -> Iterator[_Diffe
         )
 
 
-def _ranges(
-    lidar: Lidar, named: SensorDevice, tolerance: float, near: float
-) -> Iterator[_Difference]:
+def _farthest(lidar: Lidar, named: SensorDevice, tolerance: float) -> Iterator[_Difference]:
     farthest = _known_values(named, "range_max")
     value = lidar.range_max
     if value.stated and not _near(value.value, farthest, tolerance):
         yield _Difference(
             value, "range_max", f"has a maximum range of {value.value:g} m", f"{either(farthest)} m"
         )
+
+
+def _nearest(
+    lidar: Lidar, named: SensorDevice, tolerance: float, share: float
+) -> Iterator[_Difference]:
     nearest = _known_values(named, "range_min")
     value = lidar.range_min
-    if value.stated and nearest and min(abs(value.value - figure) for figure in nearest) > near:
+    if (
+        value.stated
+        and nearest
+        and all(abs(value.value - m) > min(tolerance, share * m) + _ROUNDED for m in nearest)
+    ):
         stated = f"has a minimum range of {value.value:g} m"
         yield _Difference(value, "range_min", stated, f"{either(nearest)} m")
 
@@ -212,6 +229,9 @@ def _marked(text: str, part: str) -> str:
 
 _SHEET = "# Rover\n### Sensors\n* Velodyne VLP-16 lidar, modeled by `gpu_lidar` plugin\n"
 _DIVERSIONS = "### Diversions from Physical Hardware\nThe lidar's range is shortened to 50 m.\n"
+_PLAIN = "# Rover\n### Sensors\n* 3D lidar, modeled by `gpu_lidar` plugin\n"
+_LINKS = "### Links\n* [lidar](https://velodynelidar.com/vlp-16.html)\n"
+_S1 = _lidar(name="rplidar_s1", rows="1", nearest="0.1", reach="40")
 _OS0 = _lidar(name="os0", rows="64", lower="-0.785", nearest="0.3", reach="50").replace(
     "0.2618<", "0.785<"
 )
@@ -222,6 +242,13 @@ GOOD = [
     _lidar(name="scanner"),
     _lidar(name="scanner", rows="24", reach="75"),
     _OS0,
+    _S1,
+    _S1.replace("<min>0.1<", "<min>0.109<"),
+    {"@fragment": _lidar(name="scanner", rows="24", reach="75"), "specifications.md": _PLAIN},
+    {
+        "@fragment": _lidar(name="scanner", rows="24", reach="75"),
+        "specifications.md": _PLAIN + _LINKS + "* [other lidar](https://ouster.com/os0)\n",
+    },
     {
         "@fragment": _lidar(name="front_laser", reach="50"),
         "specifications.md": _SHEET + _DIVERSIONS,
@@ -233,9 +260,14 @@ BAD = [
     _marked(_lidar(reach="300"), "<max>300</max>"),
     _marked(_lidar(rate="12"), "<update_rate>12</update_rate>"),
     _marked(_OS0.replace("<min>0.3", "<min>0.1"), "<min>0.1</min>"),
+    _marked(_S1.replace("<min>0.1", "<min>0.115"), "<min>0.115</min>"),
     _marked(_lidar(name="scanner", reach="75"), "<max>75</max>"),
     {
         "@fragment": _marked(_lidar(name="front_laser", reach="50"), "<max>50</max>"),
         "specifications.md": _SHEET,
+    },
+    {
+        "@fragment": _marked(_lidar(name="scanner", reach="50"), "<max>50</max>"),
+        "specifications.md": _PLAIN + _LINKS,
     },
 ]

@@ -5,11 +5,16 @@ make the simulated robot better than the real one, and fewer pixels make it wors
 about both. In the SubT challenge, images with depth have at most 640 × 480 pixels, so that the
 simulation keeps up.
 
+A device that the sheet names anywhere, in a link or a line of the costs, counts if it is the only
+one of its class. A device of a family is compared if the sheet names its model. The type codes of
+machine vision cameras tell a size of their own, rounded: a BFLY-U3-23S6C has 2.3 megapixels, a
+Basler acA1300-60gm about 1300 columns. Such figures, others from memory, and differences that the
+sheet mentions under diversions are information.
+
 Fix: set size, rate and horizontal_fov to the figures of the device's datasheet, or name the
 modelled device in specifications.md.
-Source: `devices.json`, which names the source of each figure. Figures from memory, and differences
-that the sheet mentions under diversions, are information. A device of a family is compared if the
-sheet names its model. SubT review findings for 640 × 480 and 640 × 360.
+Source: `devices.json`, which names the source of each figure. SubT review findings for
+640 × 480 and 640 × 360.
 """
 
 import math
@@ -50,6 +55,7 @@ def check(
     rgbd_pixels: int = 640 * 480,
     rate_tolerance: float = 0.01,
     view_tolerance: float = 0.02,
+    code_tolerance: float = 0.1,
 ) -> Findings:
     """Compare cameras with their devices, and the size of RGBD cameras with SubT's.
 
@@ -60,6 +66,8 @@ def check(
             are never reported.
         view_tolerance: Share by which `<horizontal_fov>` may differ from the device's, in both
             directions.
+        code_tolerance: Share by which the number of pixels may differ from what a type code tells;
+            half of it for a width.
     """
     for sensor in robot.sensors:
         camera = sensor.camera
@@ -78,6 +86,7 @@ def check(
         if known is not None and known.names_the_model:
             gaps = [
                 *_size_gap(camera, known.device),
+                *_code_gap(camera, known.device, code_tolerance),
                 *_rate_gap(sensor, known.device, rate_tolerance),
                 *_view_gap(camera, known.device, view_tolerance),
             ]
@@ -109,6 +118,18 @@ def _size_gap(camera: Camera, device: Device) -> Iterator[_Gap]:
     if sizes and stated not in sizes and stated[::-1] not in sizes:
         expected = " or ".join(f"{width:g} × {height:g}" for width, height in sizes)
         yield _Gap(camera.width, "image_sizes", _SIZE, _size(camera), f"{expected} px")
+
+
+def _code_gap(camera: Camera, device: Device, tolerance: float) -> Iterator[_Gap]:
+    """Yield the size if it is far from what the device's type code tells of it."""
+    values = device.values
+    stated = (camera.width.value, camera.height.value)
+    megapixels, width = values.get("megapixels"), values.get("width")
+    if megapixels and not math.isclose(camera.pixels / 1e6, megapixels, rel_tol=tolerance):
+        yield _Gap(camera.width, "megapixels", _SIZE, _size(camera), f"{megapixels:g} megapixels")
+    half = tolerance / 2.0
+    if width and not any(math.isclose(side, width, rel_tol=half) for side in stated):
+        yield _Gap(camera.width, "width", _SIZE, _size(camera), f"about {width:g} columns")
 
 
 def _rate_gap(sensor: Sensor, device: Device, tolerance: float) -> Iterator[_Gap]:
@@ -177,7 +198,20 @@ def _rgbd(width: int, height: int, mark: str = "") -> str:
 _FAMILY = "FLIR Blackfly S"
 _MODEL_LINK = "\n## Links\n* [camera](https://www.flir.com/?model=BFS-U3-16S2C-CS)\n"
 
+_PLAIN = "# Rover\n## Sensors\n* Color camera, modeled by camera plugin\n"
+_BLACKFLY = "FLIR Blackfly BFLY-U3-23S6C-C"
+_OF_FAMILY = "\n## Links\n* [FLIR BFS-U3-88S6C](https://www.flir.com/products/blackfly-s-usb3)\n"
+_COSTS = "## Cost\n$900 - Basler acA1300-60gm\n"
+
 GOOD = [
+    _named(_model(1920, 1200), _BLACKFLY),
+    _named(_model(4096, 2160), _FAMILY, _OF_FAMILY),
+    _named(_model(1282, 1026), "Basler acA1300-60gm"),
+    _named(_model(1280, 1024), "IDS uEye UI-3240CP"),
+    _named(_model(1292, 964), "Allied Vision Mako G-125C"),
+    _named(_model(1280, 1024), "XIMEA MQ013CG-E2"),
+    {"@fragment": _model(1282, 1026), "specifications.md": _PLAIN + _COSTS},
+    {"@fragment": _model(640, 480), "specifications.md": _PLAIN},
     _named(_model(720, 1080)),
     _named(_model(1080, 720, 20)),
     _named(_model(4096, 2160), _FAMILY),
@@ -187,6 +221,13 @@ GOOD = [
     _rgbd(640, 360),
 ]
 BAD = [
+    _named(_model(1280, 960, mark=1), _BLACKFLY),
+    _named(_model(1280, 960, mark=1), _FAMILY, _OF_FAMILY),
+    _named(_model(1920, 1080, mark=1), "Basler acA1300-60gm"),
+    _named(_model(1920, 1080, mark=1), "IDS uEye UI-3240CP"),
+    _named(_model(640, 480, mark=1), "Allied Vision Mako G-125C"),
+    _named(_model(1920, 1080, mark=1), "XIMEA MQ013CG-E2"),
+    {"@fragment": _model(640, 480, mark=1), "specifications.md": _PLAIN + _COSTS},
     _named(_model(480, 640, mark=1)),
     _named(_model(720, 1080, 30, mark=2)),
     _named(_model(720, 1080, 25, 1.2, mark=3)),

@@ -1,13 +1,17 @@
 """A camera that sees too far, or nothing.
 
 A camera sees only what is between `<near>` and `<far>`: if near is not below far, nothing is
-rendered. In the SubT challenge RGBD cameras measure up to 10 m and thermal cameras see up to 100 m;
-with a copied 300 m the robot sees farther than any device.
+rendered, and a renderer refuses a near of 0. In the SubT challenge RGBD cameras measure up to 10 m
+and thermal cameras see up to 100 m; with a copied 300 m the robot sees farther than any device. An
+RGBD camera has two ranges: `<clip>` holds for the colour picture, and for depth too unless
+`<depth_camera><clip>` says otherwise. With `<clip><far>10` alone, the picture also ends at 10 m,
+and all that is farther away is missing in it.
 
-Fix: write near below far; `<depth_camera><clip><far>10` for depth, `<clip><far>100` for thermal
-cameras.
-Source: SDFormat specification, camera/clip; SubT review findings (`subt_standards.json`: rgbd,
-thermal).
+Fix: write near above 0 and below far; `<depth_camera><clip><far>10` for depth and
+`<clip><far>300` for the picture; `<clip><far>100` for thermal cameras.
+Source: SDFormat specification, camera/clip; OGRE, Frustum::setNearClipDistance; gz-sensors,
+RgbdCameraSensor: both pictures are drawn within `<clip>`, then depth is cut at that of
+`<depth_camera>`; SubT review findings (`subt_standards.json`: rgbd, thermal).
 """
 
 from collections.abc import Iterator
@@ -25,9 +29,11 @@ def check(
 ) -> Findings:
     """Report empty ranges, and in SubT ranges of RGBD and thermal cameras that are too large.
 
+    In SubT also RGBD cameras whose picture ends where depth may, for want of a range for depth.
+
     Options:
         depth_far: Greatest distance, metres, at which an RGBD camera may measure depth in the SubT
-            profile; more is reported.
+            profile; more is reported, and so is less in `<clip>` without a range for depth.
         thermal_far: Greatest distance, metres, at which a thermal camera may see in the SubT
             profile; more is reported.
     """
@@ -39,6 +45,7 @@ def check(
         yield from _empty(sensor, camera)
         if context.profile == "subt" and sensor.kind in farthest:
             yield from _too_far(sensor, camera, farthest[sensor.kind])
+            yield from _picture_ends(sensor, camera, farthest[sensor.kind])
 
 
 def _empty(sensor: Sensor, camera: Camera) -> Iterator[Finding]:
@@ -46,6 +53,14 @@ def _empty(sensor: Sensor, camera: Camera) -> Iterator[Finding]:
     clips = {"sees": camera.clip, "measures depth": measured}
     for what, clip in clips.items():
         near, far = clip.near, clip.far
+        if near.stated and near.value <= 0.0:
+            yield finding(
+                near,
+                f"camera {sensor.name.value!r} {what} from {near.value:g} m, which the renderer "
+                "refuses; expected more than 0",
+                severity=Severity.ERROR,
+            )
+            return
         if near.value < far.value:
             continue
         yield finding(
@@ -73,6 +88,20 @@ def _too_far(sensor: Sensor, camera: Camera, limit: float) -> Iterator[Finding]:
     )
 
 
+def _picture_ends(sensor: Sensor, camera: Camera, limit: float) -> Iterator[Finding]:
+    far = camera.clip.far
+    if not sensor.kind.measures_depth or camera.depth_far is not far or not far.stated:
+        return
+    if camera.clip.near.value < far.value <= limit:
+        yield finding(
+            far,
+            f"the picture of {sensor.kind.replace('_', ' ')} {sensor.name.value!r} ends at "
+            f"{far.value:g} m, because <clip> holds for picture and depth: expected the range of "
+            "depth in <depth_camera><clip>, and more in <clip><far>",
+            key=f"picture {far.value:g}",
+        )
+
+
 def _camera(kind: str, clip: str) -> str:
     return f"""
 <sensor name="front" type="{kind}">
@@ -98,10 +127,13 @@ GOOD = [
     _camera("depth_camera", _clip("0.1", "4")),
 ]
 BAD = [
+    _camera("camera", f"<clip><near>0</near>{_MARK}\n<far>2</far></clip>"),
     _camera("camera", f"<clip><near>5</near>{_MARK}\n<far>2</far></clip>"),
     _camera("camera", f"<clip>\n<near>200</near>{_MARK}\n</clip>"),
     _camera("thermal_camera", _clip("0.1", f"300{_MARK}")),
     _camera("rgbd_camera", _clip("0.01", f"300{_MARK}")),
+    _camera("rgbd_camera", _clip("0.01", f"10{_MARK}")),
+    _camera("rgbd_camera", f"{_clip('0.01', f'8{_MARK}')}<depth_camera/>"),
     _camera(
         "rgbd_camera",
         f"{_clip('0.01', '300')}<depth_camera>{_clip('0.1', f'25{_MARK}')}</depth_camera>",

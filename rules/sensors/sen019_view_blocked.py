@@ -159,6 +159,38 @@ def _with_mesh(pose: str, mark: str = "") -> dict[str, str]:
     return {"@fragment": _head(_camera(pose, mark), _MESH), "meshes/tetrahedron.stl": _STL}
 
 
+def _dae(**places: float) -> str:
+    """Return a COLLADA file of thin walls: name and metres in front of the file's origin."""
+    corners = [(x, y, z) for x in (-0.01, 0.01) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]
+    faces = "0 1 3 0 3 2 4 7 5 4 6 7 0 5 1 0 4 5 2 3 7 2 7 6 0 6 4 0 2 6 1 5 7 1 7 3"
+    numbers = " ".join(str(number) for corner in corners for number in corner)
+    nodes = "".join(
+        f'<node name="{name}"><translate>{x} 0 0</translate><instance_geometry url="#g"/></node>'
+        for name, x in places.items()
+    )
+    return f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="24">{numbers}</float_array><technique_common>
+<accessor source="#a" count="8" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/><p>{faces}</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">{nodes}</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>
+"""
+
+
+def _with_part(name: str, center: int, mark: str = "") -> dict[str, str]:
+    """Return a camera behind one of two walls: one at 0.05 m, one far behind the camera."""
+    part = f"<submesh><name>{name}</name><center>{center}</center></submesh>"
+    mesh = f"<geometry><mesh><uri>meshes/walls.dae</uri>{part}</mesh></geometry>"
+    body = _head(_camera("-0.05 0 0 0 0 0", mark), mesh)
+    return {"@fragment": body, "meshes/walls.dae": _dae(near=0.05, far=-3.0)}
+
+
 GOOD = [
     # Inside its own housing, and in front of it.
     _head(_camera("0 0 0 0 0 0"), _box("0.1 0.1 0.1")),
@@ -171,6 +203,7 @@ GOOD = [
     _head(_lidar("0 0 0 0 0 0"), _box("0.03 0.03 1", "0.3 0 0 0 0 0")),
     _with_mesh("0.1 0 0 0 0 0"),
     _with_mesh("0 0 0 0 0 3.14159"),
+    _with_part("far", 0),
 ]
 BAD = [
     _head(_camera("0 0 0 0 0 0", _MARK), _WALL),
@@ -179,4 +212,7 @@ BAD = [
     _head(_lidar("0 0 0 0 0 0", _MARK), _box("0.02 4 1", "0.3 0 0 0 0 0")),
     _head(_lidar("0 0 0 0 0 0", _MARK), _box("0.5 0.5 0.1", "0.4 0 0 0 0 0")),
     _with_mesh("0 0 0 0 0 0", _MARK),
+    _with_part("near", 0, _MARK),
+    # Moved to the origin.
+    _with_part("far", 1, _MARK),
 ]

@@ -1,6 +1,7 @@
 """A light inside a body, without a lamp or without a range, or too many lights.
 
-A light with shadows inside a visual lights up only that visual: the robot drives in the dark. A
+A light with shadows inside a visual lights up only that visual: the robot drives in the dark. In a
+concave mesh it does so if the mesh stands in the way of its beam and of nearly all directions. A
 light without shadows shines through the body, and a light without a lamp comes from nowhere. Both
 are confusing, and usually come from a pose with a wrong sign or frame. Without a stated range, a
 lamp ends at 10 m. Gazebo computes every light for every pixel of every camera, so a team of robots
@@ -22,6 +23,7 @@ from checker.model.geometry.interpenetration import is_convex
 from checker.model.geometry.placed_shapes import Placed, placed
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
+from checker.model.sensing.view import CoveredLight, SensorViews
 from checker.rule import Concern, Finding, Findings, Severity, Unchecked, finding, rule, unchecked
 
 _PLACED = 60
@@ -30,12 +32,13 @@ _PLACED = 60
 
 @rule("SEN020", "light-placement", Severity.WARNING, Concern.ROBOT)
 def check(
-    robot: Robot,
+    seen: SensorViews,
     *,
     most: int = 6,
     nearest: float = 0.1,
     deepest: float = 0.05,
     deepest_with_shadows: float = 0.01,
+    covered: float = 0.9,
 ) -> Findings:
     """Count the lights, and check their distance to visuals and depth inside them.
 
@@ -47,7 +50,10 @@ def check(
             reported.
         deepest_with_shadows: Metres that a light with shadows may be inside an opaque, convex
             visual; more is reported.
+        covered: Share of all directions, and of its beam, in which an opaque, concave mesh may
+            stand in the way of a light with shadows; more is reported.
     """
+    robot = seen.robot
     if robot.missing_parts:
         yield unchecked(robot.missing_parts)
         return
@@ -63,6 +69,7 @@ def check(
         )
     yield from _without_range(light for _, light in lights)
     visuals = [piece for link in robot.links for piece in placed(robot, link, link.visuals)]
+    enclosed = {at.light: at for at in seen.covered if min(at.around, at.ahead) > covered}
     for link, light in islice(lights, _PLACED):
         pose = robot.pose_of_part(link, light.pose)
         if pose is None or light.type == "directional":
@@ -72,6 +79,8 @@ def check(
         deep = [visual for visual in visuals if _is_inside(robot, visual, place, limit)]
         if deep:
             yield _inside(light, deep[0], limit)
+        elif light in enclosed:
+            yield _enclosed(enclosed[light])
         else:
             yield from _alone(robot, light, place, visuals, nearest)
 
@@ -119,6 +128,16 @@ def _inside(light: Light, visual: Placed, limit: float) -> Finding:
     )
 
 
+def _enclosed(at: CoveredLight) -> Finding:
+    return finding(
+        at.light,
+        f"light {at.light.name.value!r} is inside visual {at.visual.name.value!r}, which blocks "
+        f"{at.ahead:.0%} of its beam and {at.around:.0%} of all directions, because it casts "
+        "shadows; expected it in front of its lamp",
+        related=[(at.visual, "the visual around it")],
+    )
+
+
 def _alone(
     robot: Robot, light: Light, place: Vector, visuals: list[Placed], nearest: float
 ) -> Iterator[Finding | Unchecked]:
@@ -160,8 +179,34 @@ def _link(lights: str, visual: str = "") -> str:
 """
 
 
+def _elbow() -> str:
+    """Return an OBJ file: an L of three cubes with sides of 0.2 m, without the sides they share."""
+    outline = [(0, 0), (1, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (0, 1)]
+    points = [(x, y, z) for z in (0, 1) for x, y in outline]
+    number = {point: n for n, point in enumerate(points, 1)}
+    faces = []
+    for (x, y), (u, v) in zip(outline, [*outline[1:], outline[0]], strict=True):
+        faces.append([(x, y, 0), (u, v, 0), (u, v, 1), (x, y, 1)])
+    for x, y in ((0, 0), (1, 0), (0, 1)):
+        square = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)]
+        faces.append([(*corner, 1) for corner in square])
+        faces.append([(*corner, 0) for corner in reversed(square)])
+    lines = [f"v {x / 5} {y / 5} {z / 5}" for x, y, z in points]
+    lines += [f"f {' '.join(str(number[corner]) for corner in face)}" for face in faces]
+    return "\n".join(lines) + "\n"
+
+
+def _in_elbow(pose: str, more: str, mark: str = "", visual: str = "") -> dict[str, str]:
+    mesh = "<geometry><mesh><uri>meshes/elbow.obj</uri></mesh></geometry>"
+    beam = "<direction>1 0 0</direction><spot><outer_angle>1</outer_angle></spot>"
+    light = _light(pose, more + beam, mark)
+    body = f'<link name="mast"><visual name="elbow">{visual}{mesh}</visual>{light}</link>'
+    return {"@fragment": body, "meshes/elbow.obj": _elbow()}
+
+
 _MARK = "  <!-- ^ SEN020 -->"
-_SHADOWS = "<attenuation><range>20</range></attenuation><cast_shadows>1</cast_shadows>"
+_RANGE = "<attenuation><range>20</range></attenuation>"
+_SHADOWS = f"{_RANGE}<cast_shadows>1</cast_shadows>"
 _OTHERS = "\n".join(
     f'<light name="{number}" type="point"><pose>0.2 0 0 0 0 0</pose>'
     "<attenuation><range>9</range></attenuation></light>"
@@ -174,6 +219,10 @@ GOOD = [
     _link(_light("0 0 0 0 0 0"), "<transparency>0.8</transparency>"),
     _link(_OTHERS),
     _link('<light name="sun" type="directional"><pose>0 0 9 0 0 0</pose></light>'),
+    # Between the legs of an L, and in one of them with nothing to stop the light.
+    _in_elbow("0.3 0.3 0.1 0 0 0", _SHADOWS),
+    _in_elbow("0.3 0.1 0.1 0 0 0", _RANGE),
+    _in_elbow("0.3 0.1 0.1 0 0 0", _SHADOWS, visual="<transparency>0.8</transparency>"),
 ]
 BAD = [
     _link(_light("0.1 0 0 0 0 0", mark=_MARK)),
@@ -183,4 +232,5 @@ BAD = [
     _link(f'<light name="lamp" type="spot">{_MARK}<pose>0.2 0 0 0 0 0</pose></light>'),
     _link(_light("0.2 0 0 0 0 0", f"<attenuation>{_MARK}</attenuation>")),
     _link(_OTHERS + _light("0.2 0 0 0 0 0", mark=_MARK)),
+    _in_elbow("0.3 0.1 0.1 0 0 0", _SHADOWS, _MARK),
 ]

@@ -1,4 +1,4 @@
-"""A light whose attenuation is for Gazebo Classic, and so is too dim.
+"""A light whose attenuation is for Gazebo Classic, and so is too dim, or that is black.
 
 With the same settings, lights are darker in Ignition Gazebo than in Gazebo Classic: with an
 attenuation for Classic, the robot's cameras see almost nothing in a mine. The brightness is divided
@@ -13,7 +13,9 @@ those that Gazebo Classic makes by 0.51 (general knowledge).
 """
 
 from checker.model.robot import Robot
+from checker.model.values import ValueReader
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.source.xml import Element
 
 _NOT_DARKER = ("", "classic")
 """Releases to which this does not apply: no particular release, and Gazebo Classic."""
@@ -28,7 +30,7 @@ def check(
     largest_divisor: float = 0.5,
     least_range: float = 5.0,
 ) -> Findings:
-    """Report lights with an attenuation as in Gazebo Classic.
+    """Report lights with an attenuation as in Gazebo Classic, and lights of no colour.
 
     Options:
         distance: Metres from the light at which its divisor, constant + linear·d + quadratic·d², is
@@ -42,6 +44,10 @@ def check(
         return
     for link in robot.links:
         for light in link.lights:
+            diffuse = light.element.child("diffuse")
+            if diffuse is not None and not any(_colour(diffuse)):
+                yield finding(diffuse, f"light {light.name.value!r} is black: it lights nothing")
+                continue
             attenuation = light.attenuation
             if attenuation is None or light.type == "directional" or not attenuation.is_stated:
                 continue
@@ -57,6 +63,11 @@ def check(
                 f"expected {largest_divisor:g} or less",
                 key=f"divided by {divisor:.3g}",
             )
+
+
+def _colour(diffuse: Element) -> tuple[float, ...]:
+    """Return red, green and blue."""
+    return tuple(number.value for number in ValueReader().numbers_in(diffuse.text)[:3])
 
 
 def _light(attenuation: str, kind: str = "spot") -> str:
@@ -78,9 +89,11 @@ GOOD = [
     # A signal lamp.
     _light(f"<range>2</range>{_CLASSIC}"),
     '<light name="lamp" type="point"/>',
+    '<light name="lamp" type="point"><diffuse>0 0 1</diffuse></light>',
 ]
 BAD = [
     _light(f"{_MARK}<range>50</range>{_CLASSIC}"),
     _light(f"{_MARK}<constant>0.5</constant><linear>0.01</linear><quadratic>0.001</quadratic>"),
     _light(f"{_MARK}<constant>0.1</constant>"),
+    f'<light name="lamp" type="spot"><diffuse>0 0 0 1</diffuse>{_MARK}</light>',
 ]

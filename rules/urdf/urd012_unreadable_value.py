@@ -3,7 +3,7 @@
 urdfdom refuses the whole robot for a joint with such a fault. Of a link it drops the inertial or
 the shape, and all that follows in the link: the robot loads, and a part has no mass or touches
 nothing. Such faults are a decimal comma, a unit, a word, `inf`, `nan`, and a blank behind a single
-number.
+number. Of a colour with a number below 0 or above 1, only the colour is lost.
 
 Fix: write the number as the message says: with a decimal point, without unit, and with blanks only
 between several numbers.
@@ -43,6 +43,8 @@ def check(description: UrdfDescription) -> Findings:
             yield finding(element, message, severity=level, key=message)
         for name, spec in attributes.items():
             yield from _numbers(element, name, spec, level)
+    for colour in description.document.root.descendants("color"):
+        yield from _out_of_range(colour)
     for element, what in lacking_elements(description.document):
         message = f"<{element.tag}> has no {what}"
         level = Severity.WARNING if description.for_rviz else None
@@ -55,6 +57,19 @@ def _numbers(
     text = element.attribute(name)
     if text is not None and spec.numbers and (problem := _problem(text, spec.numbers)):
         yield finding(text, f"{name} of <{element.tag}> {problem}", severity=level)
+
+
+def _out_of_range(colour: Element) -> Iterator[Finding]:
+    text = colour.attribute("rgba")
+    values = [parse_number(word) for word in text.value.split()] if text is not None else []
+    if text is not None and any(value is not None and not 0 <= value <= 1 for value in values):
+        yield finding(
+            text,
+            f"rgba of <color> is {short(text.value)!r}, expected numbers from 0 to 1: URDF readers "
+            "drop the colour",
+            severity=Severity.WARNING,
+            key="colour",
+        )
 
 
 def _problem(text: Located[str], count: int) -> str:
@@ -98,4 +113,13 @@ BAD = [
     _marked(_link(moments=_MOMENTS.replace(' iyz="0"', "")), 'izz="1"/>'),
     _marked(_link(size="1 1"), '<box size="1 1"/>'),
     _marked(_link(size="1 inf 1"), '<box size="1 inf 1"/>'),
+    {
+        "@urdf": """
+<material name="sand">
+<color rgba="194 178 128 1"/>  <!-- ^ URD012 -->
+</material>
+<link name="tip"/>
+<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tip"/></joint>
+"""
+    },
 ]

@@ -15,7 +15,6 @@ from checker.model.ros.topics import (
     channels,
     comparable,
     standard_topics,
-    suffixes,
 )
 from checker.model.sensing.kind import SensorType
 from tests.model.robots import sdf
@@ -24,15 +23,15 @@ SENSOR = "/world/*/model/*/link/base/sensor/front"
 SYSTEMS = "ignition::gazebo::systems"
 
 
-def of_sensor(kind: str, content: str = "") -> dict[str, Channel]:
+def of_sensor(kind: str, content: str = "", release: str = "dome") -> dict[str, Channel]:
     sensor = f'<sensor name="front" type="{kind}">{content}</sensor>'
     read = sdf(f'<link name="base">{sensor}</link>')
-    return {channel.what: channel for channel in channels(read)}
+    return {channel.what: channel for channel in channels(read, release)}
 
 
 def of_plugin(name: str, content: str = "") -> dict[str, Channel]:
     read = sdf(f'<plugin filename="p.so" name="{SYSTEMS}::{name}">{content}</plugin>')
-    return {channel.what: channel for channel in channels(read)}
+    return {channel.what: channel for channel in channels(read, "dome")}
 
 
 @pytest.mark.parametrize(
@@ -53,11 +52,22 @@ def test_topics_of_sensors(kind: str, content: str, topics: dict[str, str]) -> N
     assert {what: channel.topics[0] for what, channel in found.items()} == topics
 
 
-def test_a_thermal_camera_loses_its_name_in_one_topic() -> None:
-    assert of_sensor("thermal")["camera_info"].topics[1] == (
-        "/world/*/model/*/link/base/sensor/camera_info"
-    )
-    assert ".." not in "".join(suffixes(SensorType.THERMAL_CAMERA) or ())
+@pytest.mark.parametrize(
+    ("release", "content", "image", "info"),
+    [
+        ("dome", "", SENSOR, "/world/*/model/*/link/base/sensor/camera_info"),
+        ("dome", "<topic>a/heat</topic>", "/a/heat", "/a/camera_info"),
+        ("fortress", "", f"{SENSOR}/image", f"{SENSOR}/camera_info"),
+        ("harmonic", "", f"{SENSOR}/image", f"{SENSOR}/camera_info"),
+        ("harmonic", "<topic>a/heat</topic>", "/a/heat", "/a/camera_info"),
+    ],
+)
+def test_a_thermal_camera_has_other_topics_in_dome(
+    release: str, content: str, image: str, info: str
+) -> None:
+    found = of_sensor("thermal", content, release)
+    assert found["image"].topics == (image,)
+    assert found["camera_info"].topics == (info,)
 
 
 def test_topics_of_a_drive() -> None:

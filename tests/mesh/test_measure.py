@@ -131,6 +131,12 @@ def test_nodes_place_the_geometry_and_name_the_parts() -> None:
     assert read.parts == ("body",)
 
 
+def test_a_node_without_a_name_has_that_of_the_node_around_it() -> None:
+    show = '<instance_geometry url="#part"/>'
+    node = f'<node id="x">{show}</node><node name="lid" id="y">{show}</node>'
+    assert mesh(dae(box(1, 1, 1), node=node), "a.dae").parts == ("body", "lid")
+
+
 @pytest.mark.parametrize("meter", ["0", "-1", "nan", "inf", "one"])
 def test_a_unit_that_is_none_counts_as_a_metre(meter: str) -> None:
     read = mesh(dae(box(1, 1, 1), asset=f'<unit meter="{meter}"/>'), "a.dae")

@@ -184,6 +184,9 @@ def test_the_rate_of_every_camera_is_set_below_its_own_name(kind: str) -> None:
     (bridged,) = sensor_bridges(robot)
     prefix = "/world/$(arg world_name)/model/$(arg name)/link/l/sensor/a"
     assert (bridged.ign_prefix, bool(bridged.rate_topic)) == (prefix, True)
+    infos = [each.ign_topic for each in bridged.bridges if each.ign_topic.endswith("/camera_info")]
+    beside = prefix.removesuffix("/a") if kind == "thermal" else prefix
+    assert infos == [f"{beside}/camera_info"]
 
 
 @pytest.mark.parametrize(

@@ -36,6 +36,44 @@ def test_running_text(text: str, id: str) -> None:
     assert named(text) == id
 
 
+@pytest.mark.parametrize(
+    ("text", "name", "figure", "value"),
+    [
+        ("FLIR Blackfly BFLY-U3-23S6C-C", "FLIR BFLY-U3-23S6C", "megapixels", 2.3),
+        ("Point Grey Flea3 FL3-U3-13E4C", "FLIR FL3-U3-13E4C", "megapixels", 1.3),
+        ("Blackfly S BFS-PGE-122S6M", "FLIR BFS-PGE-122S6M", "megapixels", 12.2),
+        ("Basler acA1300-60gm", "Basler acA1300-60gm", "width", 1300),
+        ("Basler a2A2590-60ucPRO", "Basler a2A2590-60ucPRO", "width", 2590),
+        ("Manta G-145B", "Allied Vision Manta G-145B", "megapixels", 1.45),
+        ("Alvium 1800 U-501c", "Allied Vision Alvium 1800 U-501c", "megapixels", 5.01),
+        ("Prosilica GT1290C", "Allied Vision Prosilica GT1290C", "width", 1290),
+        ("Ximea MC023CG-SY", "XIMEA MC023CG", "megapixels", 2.3),
+    ],
+)
+def test_type_codes(text: str, name: str, figure: str, value: float) -> None:
+    device = KNOWN.named_in(text)
+    assert device is not None
+    assert device.name == name
+    assert device.values[figure] == pytest.approx(value)
+    assert device.is_from_memory(figure)
+    assert device is KNOWN.named_in(f"two of {text}")
+
+
+def test_the_number_of_a_ueye_stands_for_its_sensor() -> None:
+    device = KNOWN.named_in("IDS uEye UI-3240CP-C")
+    assert device is not None
+    assert (device.name, device.values) == ("IDS uEye UI-3240CP", {"image_sizes": [[1280, 1024]]})
+    other = KNOWN.named_in("IDS uEye UI-3000SE")
+    assert other is not None
+    assert not other.values
+
+
+def test_a_device_with_a_datasheet_comes_before_its_type_code() -> None:
+    assert named("FLIR Blackfly S BFS-U3-16S2C-CS") == "flir_blackfly_s"
+    assert named("Basler acA2040-35gc") == "basler_aca2040"
+    assert named("a camera of 1300-60 parts") == ""
+
+
 def test_devices_of_other_types_do_not_count() -> None:
     text = "Seek Thermal Compact, next to the D435"
     assert named(text) == ""

@@ -132,6 +132,64 @@ def test_items_of_other_configurations_do_not_count() -> None:
     assert found(sensor("scan"), by=only_one, number=2) == {}
 
 
+def test_a_link_of_an_item_names_the_device() -> None:
+    by = sheet("1x [3D lidar](https://velodynelidar.com/vlp-16.html), modeled by gpu_lidar")
+    assert found(sensor("scan"), by=by) == {"scan": "velodyne_vlp16"}
+
+
+LINKS = "## Links\n\n* [lidar](https://velodynelidar.com/vlp-16.html)\n"
+
+
+def test_the_only_device_of_a_class_in_the_rest_of_the_sheet_counts() -> None:
+    plain = "3D lidar, modeled by gpu_lidar"
+    by = sheet(plain, "RPLidar S1, modeled by gpu_lidar", below=LINKS)
+    assert found(sensor("scan"), plane("low"), by=by) == {
+        "scan": "velodyne_vlp16",
+        "low": "rplidar_s1",
+    }
+    costs = "## Cost\n\n$8,000 - Velodyne VLP-16\n\n$75 - Lidar Lite v3\n"
+    assert found(sensor("scan"), by=sheet(plain, below=costs)) == {"scan": "velodyne_vlp16"}
+    two = f"{LINKS}\nOuster OS0 lidars are planned.\n"
+    assert found(sensor("scan"), by=sheet(plain, below=two)) == {}
+
+
+def test_remarks_below_an_item_count() -> None:
+    remark = "\n  * Velodyne VLP-16 with 16 rows"
+    assert found(sensor("scan"), by=sheet(f"3D lidar{remark}")) == {"scan": "velodyne_vlp16"}
+    assert found(sensor("scan"), by=sheet(f"3D lidar, not modeled{remark}")) == {}
+    other = sheet(f"Sensor config 2 adds a 3D lidar{remark}")
+    assert found(sensor("scan"), by=other) == {}
+    assert found(sensor("scan"), by=other, number=2) == {"scan": "velodyne_vlp16"}
+
+
+def test_the_rest_of_the_sheet_names_the_model_of_a_family() -> None:
+    listed = "FLIR Blackfly S, modeled by camera plugin"
+    link = "## Links\n\n[camera](https://www.flir.com/?model=BFS-U3-88S6C-C)\n"
+    assert found(sensor("eye", "camera"), by=sheet(listed)) == {"eye": "flir_blackfly_s"}
+    by = sheet(listed, below=link)
+    assert found(sensor("eye", "camera"), by=by) == {"eye": "flir_by_code bfs-u3-88s6c"}
+    other = sheet(listed, below=link + "\n[the other](https://www.flir.com/?model=BFS-U3-23S3C)\n")
+    assert found(sensor("eye", "camera"), by=other) == {"eye": "flir_blackfly_s"}
+
+
+def test_the_rest_of_the_sheet_does_not_overrule_the_list() -> None:
+    for item in ("Livox Mid-70 lidar, modeled by gpu_lidar", "Ouster OS0 lidar"):
+        assert "velodyne_vlp16" not in found(sensor("scan"), by=sheet(item, below=LINKS)).values()
+    assert found(sensor("os0"), by=sheet("3D lidar", below=LINKS)) == {}
+    three = sheet("3x Velodyne VLP-16, modeled by gpu_lidar", below=LINKS)
+    assert found(sensor("left"), sensor("right"), by=three) == {}
+
+
+def test_the_rest_of_the_sheet_is_not_about_other_sensors() -> None:
+    by = sheet("3D lidars, modeled by gpu_lidar", below=LINKS)
+    assert found(sensor("left"), sensor("right", rows=32), by=by) == {}
+    other = LINKS.replace("## Links", "## Sensor Configuration 2")
+    assert found(sensor("scan"), by=sheet("3D lidar", below=other)) == {}
+    assert found(sensor("scan"), by=sheet("3D lidar", below=other), number=2) != {}
+    unused = LINKS.replace("[lidar]", "not modeled: [lidar]")
+    assert found(sensor("scan"), by=sheet("3D lidar", below=unused)) == {}
+
+
 def test_without_a_sheet_names_and_comments_tell() -> None:
     assert found(sensor("os1_lidar")) == {"os1_lidar": "*ouster_os1_64"}
     assert found("<!-- Based on RPLidar S1 -->", sensor("scan")) == {"scan": "*rplidar_s1"}

@@ -224,6 +224,27 @@ def test_own_parts_come_first_and_paperwork_is_never_inherited(write: Write) -> 
     assert two.part("CMakeLists.txt") == Missing("CMakeLists.txt", f"{TWO} has no CMakeLists.txt")
 
 
+@pytest.mark.parametrize("name", ["specification.md", "Specifications.md", "robot_specs.md"])
+def test_a_sheet_is_found_under_another_spelling_of_its_name(write: Write, name: str) -> None:
+    one = package(write, {f"{ONE}/model.sdf": MODEL, f"{ONE}/{name}": ""}, ONE)
+    found = one.part("specifications.md")
+    assert isinstance(found, Found)
+    assert found.path == name
+
+
+@pytest.mark.parametrize("name", ["README.md", "inspection.md", "doc/specification.md"])
+def test_another_text_is_no_sheet(write: Write, name: str) -> None:
+    one = package(write, {f"{ONE}/model.sdf": MODEL, f"{ONE}/{name}": ""}, ONE)
+    assert isinstance(one.part("specifications.md"), Missing)
+
+
+def test_the_right_name_of_a_sheet_counts_first(write: Write) -> None:
+    files = {f"{ONE}/model.sdf": MODEL, f"{ONE}/spec.md": "", f"{ONE}/specifications.md": ""}
+    found = package(write, files, ONE).part("specifications.md")
+    assert isinstance(found, Found)
+    assert found.path == "specifications.md"
+
+
 def test_robot_with_its_own_model_inherits_no_specification(write: Write) -> None:
     two = package(
         write,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from checker.package.dependencies import uses_of
+from checker.package.dependencies import taken_in_vain, uses_of
 from checker.package.package import Package
 from checker.package.workspace import Workspace
 
@@ -46,3 +46,27 @@ def test_launch_files_spawner_and_model_name_packages(tmp_path: Path) -> None:
         ("x2_sensor_config_7", "launch/spawner.rb:4"),
         ("x3_sensor_config_1", "model.sdf:3"),
     }
+
+
+OTHER = "husky_sensor_config_1"
+COPIED = f"""<robot>
+  <a b="package://{OTHER}/meshes/a.dae"/>
+  <a b="package://{OTHER}/meshes/b.dae"/>
+  <a b="package://{OTHER}/meshes/${{c}}"/>
+  <a b="package://{OTHER}/meshes"/>
+  <a b="$(find {OTHER})/urdf/a.xacro"/>
+  <a b="package://rover_sensor_config_2/meshes/a.dae"/>
+  <!-- package://{OTHER}/meshes/a.dae -->
+  <a>$(find {OTHER})/meshes/a.dae</a>
+</robot>
+"""
+
+
+def test_files_of_another_robot_that_the_package_has_itself(tmp_path: Path) -> None:
+    folder = tmp_path / "rover_sensor_config_1"
+    for part in ("meshes", "urdf"):
+        (folder / part).mkdir(parents=True)
+    (folder / "meshes/a.dae").touch()
+    (folder / "urdf/a.xacro").write_text(COPIED, "utf-8")
+    taken = list(taken_in_vain(Package(folder, Workspace((tmp_path,)))))
+    assert [(use.place.line, use.package_name) for use in taken] == [(2, OTHER), (9, OTHER)]

@@ -29,6 +29,7 @@ def test_a_manifest_and_the_texts_it_is_marked_at():
   <maintainer email="a@b.org">Ann</maintainer>
   <author>Bob</author>
   <license>BSD</license>
+  <url type="website">http://wiki.ros.org/rover</url>
   <buildtool_depend>catkin</buildtool_depend>
   <exec_depend> xacro </exec_depend>
   <!-- <exec_depend>urdf</exec_depend> -->
@@ -56,6 +57,7 @@ def test_a_manifest_and_the_texts_it_is_marked_at():
     assert manifest.depends_on("xacro")
     assert not manifest.depends_on("urdf")
     assert manifest.build_type.value == "cmake"
+    assert [each.value for each in manifest.urls] == ["http://wiki.ros.org/rover"]
 
 
 def test_what_a_manifest_lacks_is_empty_not_stated_and_placed_at_the_root():
@@ -78,7 +80,8 @@ def test_a_model_config_and_the_texts_it_is_marked_at():
             """<model><name>Rover 1</name><version>1.0</version>
 <sdf version="1.6">model.sdf</sdf><sdf>model-1_4.sdf</sdf>
 <author><name>Ann</name><email>a@b.org</email></author><author/>
-<description>Two lidars</description></model>""",
+<description>Two lidars</description>
+<depend><model><uri>model://arm</uri></model><uri>model://leg</uri></depend></model>""",
             "model.config",
         )
     )
@@ -91,6 +94,7 @@ def test_a_model_config_and_the_texts_it_is_marked_at():
     assert config.authors[0].email.span.text == "a@b.org"
     assert (config.authors[1].name.stated, config.authors[1].name.span.text) == (False, "<author/>")
     assert config.description.value == "Two lidars"
+    assert [each.value for each in config.depends] == ["model://arm"]
 
 
 def test_an_empty_model_config_states_nothing():

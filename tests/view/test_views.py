@@ -13,7 +13,7 @@ from checker.model.sensing.view import SensorViews
 from checker.package.inputs import open_input
 from checker.physics.mesh import process
 from checker.rule_testing import write_example
-from tests.mesh.files import binary_stl, box
+from tests.mesh.files import binary_stl, box, dae
 
 PLATE = binary_stl(box(0.02, 1.0, 1.0))
 CAMERA = """
@@ -123,6 +123,17 @@ def test_what_cannot_be_looked_at_is_said(
     found = views(visual, tmp_path, {"meshes/a.stl": content})
     assert found.unseen[0].startswith(reason)
     assert [view.hidden for view in found.views] == [0.0]
+
+
+def test_a_part_that_is_centred_stands_at_the_origin(tmp_path: Path) -> None:
+    plate = dae(box(0.02, 1.0, 1.0), node="<translate>-5 0 0</translate>")
+    pick = "<submesh><name>body</name><center>{}</center></submesh>"
+    hidden = [
+        views(mesh("a.dae", more=pick.format(center)), tmp_path / center, {"a.dae": plate})
+        for center in ("false", "true")
+    ]
+    assert [found.views[0].hidden for found in hidden] == pytest.approx([0.0, 1.0], abs=0.01)
+    assert [found.unseen for found in hidden] == [(), ()]
 
 
 @pytest.mark.parametrize(

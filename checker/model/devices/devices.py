@@ -36,6 +36,7 @@ class Device(Record, eq=False):
         body: `mass_kg` and `size_mm`, where they are known.
         source: Where its figures come from.
         field_sources: The same for single figures.
+        code: The type code that tells its figures; empty for a device of the table itself.
     """
 
     id: str
@@ -47,6 +48,7 @@ class Device(Record, eq=False):
     body: Mapping[str, Any]
     source: str
     field_sources: Mapping[str, str]
+    code: str = ""
 
     @property
     def model(self) -> str:

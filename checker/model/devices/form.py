@@ -60,6 +60,10 @@ def _is_numbers_by_name(value: object) -> bool:
     return isinstance(value, dict) and all(map(_is_number, value.values()))
 
 
+def _is_sizes_by_name(value: object) -> bool:
+    return isinstance(value, dict) and all(map(_is_sizes, value.values()))
+
+
 _Form = tuple[Callable[[object], bool], str]
 _NUMBER: _Form = (_is_number, "a number")
 _NUMBERS: _Form = (_is_numbers, "a list of numbers")
@@ -73,6 +77,8 @@ _VALUES: Mapping[str, _Form] = {
     **dict.fromkeys(("rates", "hfov_rad_seen", "range_min_seen", "range_max_seen"), _NUMBERS),
     **dict.fromkeys(("image_sizes", "refused_sizes"), _SIZES),
     **dict.fromkeys(("hfov_deg_by_size", "range_max_by_model", "seed_defaults"), _BY_NAME),
+    **dict.fromkeys(("megapixels", "width", "megapixels_by_code", "width_by_code"), _NUMBER),
+    "image_sizes_by_code": (_is_sizes_by_name, "a table of widths and heights"),
     "rows": (_is_rows, "a number or a list of numbers"),
     "vfov_deg": (_is_range, "the lowest and the highest angle"),
     "samples_by_rate": (_is_by_rate, 'a table from rates to samples, such as {"10" = [1800]}'),

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
+
+from msgspec.structs import replace
 
 from checker.base.record import Record
 from checker.base.resources import table
@@ -35,6 +37,11 @@ class KnownDevices(Record, eq=False):
             text: Its first 500 characters count.
             types: Types of `<sensor>`; devices that none of them may stand for do not count.
         """
+        named = self.all_named_in(text, types)
+        return named[0] if len(named) == 1 else None
+
+    def all_named_in(self, text: str, types: Iterable[str] | None = None) -> list[Device]:
+        """Return all devices that running text names; see `named_in`."""
         wanted = None if types is None else frozenset(types)
         named: list[tuple[Device, int, int]] = []
         for device in self.devices:
@@ -46,12 +53,34 @@ class KnownDevices(Record, eq=False):
             start, end = match.span()
             # What overlaps is another reading of the same words, and the first one counts.
             if not any(start < other_end and first < end for _, first, other_end in named):
-                named.append((device, start, end))
-        return named[0][0] if len(named) == 1 else None
+                named.append((_of_code(device, **match.groupdict()), start, end))
+        return [device for device, _, _ in named]
 
     def named(self, name: str, types: Iterable[str] | None = None) -> Device | None:
         """Return the device in a name such as `front_vlp16_link`; see `named_in`."""
         return self.named_in(spaced(name[:TEXT_LIMIT]), types)
+
+
+@lru_cache(512)
+def _of_code(device: Device, model: str = "", code: str = "") -> Device:
+    """Return the device of a type code, with what the number in it tells; always the same one."""
+    if not model or not code:
+        return device
+    values = dict(device.values)
+    for figure in ("megapixels", "width"):
+        unit = values.pop(f"{figure}_by_code", None)
+        if unit is not None:
+            values[figure] = int(code) * unit
+    sizes = values.pop("image_sizes_by_code", {})
+    if code in sizes:
+        values["image_sizes"] = sizes[code]
+    return replace(
+        device,
+        id=f"{device.id} {model.casefold()}",
+        name=f"{device.name} {model}",
+        code=model,
+        values=values,
+    )
 
 
 def spaced(name: str) -> str:

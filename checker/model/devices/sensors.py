@@ -1,13 +1,12 @@
 """Finds out which sensor of a robot stands for which device.
 
-The specification sheet counts most; where it is silent or leaves a choice, names and comments of
-the model do. Two answers are as good as none: whoever compares figures must not compare them with
-those of another device.
+The specification sheet's list of sensors counts most; where it is silent or leaves a choice, names
+and comments of the model do, then the rest of the sheet. Two answers are as good as none: whoever
+compares figures must not compare them with those of another device.
 """
 
 from __future__ import annotations
 
-import enum
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence, Set
@@ -16,53 +15,18 @@ from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.devices.devices import Device, SensorDevice, SensorDevices
 from checker.model.devices.known import KnownDevices
+from checker.model.devices.lidar_class import (
+    LidarClass,
+    class_of_device,
+    class_of_kind,
+    class_of_sensor,
+)
+from checker.model.devices.other_lines import NamedDevice, devices_in_other_lines
 from checker.model.robot import Robot
-from checker.model.specification.sensor_kinds import TYPES, SensorKind
+from checker.model.specification.sensor_kinds import TYPES
 from checker.model.specification.sensors import ListedSensor
 from checker.model.specification.sheet import Specification
 from checker.source.text import Located
-
-# Lidars by the shape of their scan: a volume, a plane, a point.
-
-
-POINT_RAYS = 9
-"""Rays at most of a lidar that measures one distance; some spread 3 × 3 over their beam."""
-
-
-class LidarClass(enum.Enum):
-    """How a lidar scans; the value is the kind of such devices."""
-
-    VOLUME = "lidar3d"
-    PLANE = "lidar2d"
-    POINT = "lidar1d"
-
-
-_KINDS = {
-    SensorKind.LIDAR: LidarClass.VOLUME,
-    SensorKind.PLANAR_LIDAR: LidarClass.PLANE,
-    SensorKind.POINT_LIDAR: LidarClass.POINT,
-}
-
-
-def class_of_device(device: Device) -> LidarClass | None:
-    """Return how a device scans; None when it is no lidar."""
-    return next((kind for kind in LidarClass if kind.value == device.kind), None)
-
-
-def class_of_kind(kind: SensorKind) -> LidarClass | None:
-    """Return how the kind of lidar scans that words mean; None for other sensors."""
-    return _KINDS.get(kind)
-
-
-def class_of_sensor(sensor: Sensor) -> LidarClass | None:
-    """Return how a sensor is set to scan; None for others than lidars."""
-    lidar = sensor.lidar
-    if lidar is None or not sensor.kind.is_lidar:
-        return None
-    if lidar.rays <= POINT_RAYS:
-        return LidarClass.POINT
-    return LidarClass.PLANE if lidar.rows <= 1 else LidarClass.VOLUME
-
 
 SENSORS_LIMIT = 500
 """Sensors of a robot that are looked at; real ones have less than 50."""
@@ -113,11 +77,12 @@ def find_sensor_devices(
     if sheet is None:
         return SensorDevices(tuple(_decided(sensors, [])))
     items = list(_items(sheet, known, configurations))
+    others = devices_in_other_lines(sheet, known, configurations)
+    decided = [_of_family(device, others) for device in _decided(sensors, items)]
+    decided += _by_other_lines(sensors, items, decided, others)
     section = sheet.section("diversions")
     paragraphs = section.passages[:PASSAGES_LIMIT] if section is not None else ()
-    return SensorDevices(
-        tuple(_decided(sensors, items)), tuple(paragraph.words for paragraph in paragraphs)
-    )
+    return SensorDevices(tuple(decided), tuple(paragraph.words for paragraph in paragraphs))
 
 
 def _items(sheet: Specification, known: KnownDevices, configurations: Set[int]) -> Iterator[_Item]:
@@ -125,7 +90,8 @@ def _items(sheet: Specification, known: KnownDevices, configurations: Set[int]) 
         types = TYPES.get(listed.kind)
         if types is None or (listed.configurations and not listed.configurations & configurations):
             continue
-        device = known.named_in(listed.text, types)
+        # A link says it too.
+        device = known.named_in(listed.text, types) or known.named_in(listed.span.text, types)
         if device is not None:
             types &= device.sdf_types
             lidar_class = class_of_device(device) or class_of_kind(listed.kind)
@@ -233,3 +199,65 @@ def _settings(sensor: Sensor) -> tuple[float, ...]:
     if sensor.camera is not None:
         return (sensor.camera.width.value, sensor.camera.height.value)
     return ()
+
+
+# What is left: cameras and lidars whose device only the rest of the sheet names.
+
+
+_CODE = re.compile(r"\b(?!SDF|RGB|HD|USB|ROS)[A-Z][A-Za-z]*-?\d")
+"""A designation such as `OS1`, `VLP-16` or `Mid-70`."""
+
+
+def _by_other_lines(
+    sensors: Sequence[_Named],
+    items: Sequence[_Item],
+    decided: Iterable[SensorDevice],
+    others: Sequence[NamedDevice],
+) -> Iterator[SensorDevice]:
+    """Yield the sensors for which one device alone is named outside the list of sensors."""
+    taken = {each.sensor for each in decided}
+    left = [
+        named
+        for named in sensors
+        if named.sensor not in taken and named.device is None and _is_seen_with(named.sensor)
+    ]
+    listed = {item.device.id for item in items if item.device is not None}
+    for named in left:
+        fitting = [each for each in others if _may_stand_for(each.device, named)]
+        if len(fitting) != 1 or fitting[0].device.id in listed:
+            continue
+        alike = [other for other in left if _may_stand_for(fitting[0].device, other)]
+        if len({_settings(other.sensor) for other in alike}) == 1 and not _has_other(items, named):
+            yield SensorDevice(named.sensor, fitting[0].device, fitting[0].words, from_sheet=True)
+
+
+def _of_family(known: SensorDevice, others: Sequence[NamedDevice]) -> SensorDevice:
+    """Return the one device of a family whose type code the rest of the sheet names, if any."""
+    if not known.from_sheet or known.names_the_model:
+        return known
+    maker = known.device.name.split()[0]
+    coded = [o for o in others if o.device.code and o.device.name.split()[0] == maker]
+    if len(coded) != 1 or not coded[0].device.sdf_types & known.device.sdf_types:
+        return known
+    return SensorDevice(known.sensor, coded[0].device, coded[0].words, from_sheet=True)
+
+
+def _is_seen_with(sensor: Sensor) -> bool:
+    return sensor.kind.takes_pictures or sensor.kind.is_lidar
+
+
+def _may_stand_for(device: Device, named: _Named) -> bool:
+    """Whether a device is one of a sensor's class."""
+    return (
+        named.sensor.type.value in device.sdf_types and class_of_device(device) is named.lidar_class
+    )
+
+
+def _has_other(items: Sequence[_Item], named: _Named) -> bool:
+    """Whether the list names another device for a sensor, one that nobody knows among them."""
+    return any(
+        _may_be(item, named)
+        and item.lidar_class in (None, named.lidar_class)
+        and (item.device is not None or _CODE.search(item.listed.text))
+        for item in items
+    )

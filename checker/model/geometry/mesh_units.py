@@ -33,12 +33,14 @@ class UnitLimits(Record):
             is too large if the link's simple shapes show the factor of a unit.
         huge: Metres; a shorter mesh is too large only if its link's simple shapes show a factor.
         tiny: Metres; a mesh is too small only if all shapes of its kind of its link measure less.
+        speck: Metres; a shorter mesh is too small wherever it is.
     """
 
     near: float = 1.5
     beyond: float = 10.0
     huge: float = 10.0
     tiny: float = 0.01
+    speck: float = 0.001
 
 
 UNIT_LIMITS = UnitLimits()
@@ -72,7 +74,8 @@ def misscaled_meshes(robot: Robot, limits: UnitLimits = UNIT_LIMITS) -> Iterator
 
     Too large: much longer than the robot without its meshes; or longer than it, and larger than the
     simple shapes of its link by the factor of a unit. Too small: smaller by such a factor than the
-    link's shapes of the other kind (collisions for a visual, visuals for a collision).
+    link's shapes of the other kind (collisions for a visual, visuals for a collision), or too
+    small to see.
     """
     near, beyond = limits.near, limits.beyond
     around = _size_without_meshes(robot) if robot.mesh_uses else 0.0
@@ -86,6 +89,8 @@ def misscaled_meshes(robot: Robot, limits: UnitLimits = UNIT_LIMITS) -> Iterator
             unit := _unit(extent.unlike(use), size, near)
         ):
             yield MisscaledMesh(use, size, extent.unlike(use), "rest of its link", unit)
+        elif 0.0 < size < limits.speck < around:
+            yield MisscaledMesh(use, size, around, "robot without its meshes", "millimetres")
 
 
 class ScaledMeshes(Record, eq=False, dict=True):

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from checker.base.resources import table
 from checker.model.components import Joint, Link, Plugin
+from checker.model.locomotion.classic import classic_joints
 
 DRIVE_CLASSES = {
     "DiffDrive": "differential or skid-steer drive",
@@ -82,7 +83,8 @@ def find_wheels(
     links: Iterable[Link], joints: Iterable[Joint], plugins: Iterable[Plugin]
 ) -> Iterator[Link]:
     """Yield links that a drive plugin turns, and links that are called wheels."""
-    turned = {
+    turned = set(classic_joints(plugins))
+    turned |= {
         joint.value
         for plugin in plugins
         if plugin.class_name in DRIVE_CLASSES

@@ -88,7 +88,7 @@ class Wheel(Record, eq=False):
 
 
 class WheelDrive(Record, eq=False):
-    """One DiffDrive, AckermannSteering or MecanumDrive plugin.
+    """One DiffDrive, AckermannSteering or MecanumDrive plugin, or one of Gazebo Classic.
 
     Attributes:
         wheels: Those that the plugin drives, in its order; joints that do not exist are left out,
@@ -99,6 +99,9 @@ class WheelDrive(Record, eq=False):
         kingpin_width: Metres, of Ackermann steering.
         steering_limit: Radians, of Ackermann steering.
         steering: Left and right steering joints of Ackermann steering, as the plugin names them.
+        separation_tag: Parameter that holds the separation.
+        diameter_tag: Parameter that holds twice the radius; empty for one that holds the radius.
+        swaps: Whether the plugin takes the wheels that it names as left for those on the right.
     """
 
     plugin: Plugin
@@ -111,6 +114,14 @@ class WheelDrive(Record, eq=False):
     kingpin_width: Located[float] | None = None
     steering_limit: Located[float] | None = None
     steering: tuple[tuple[Joint, Side], ...] = ()
+    separation_tag: str = "wheel_separation"
+    diameter_tag: str = ""
+    swaps: bool = False
+
+    @property
+    def is_limited(self) -> bool:
+        """Whether its plugin has parameters for limits: those of Gazebo Classic have none."""
+        return not self.diameter_tag
 
     def on(self, side: Side) -> tuple[Wheel, ...]:
         """Return the wheels that the plugin says are on one side."""
@@ -220,7 +231,13 @@ class CopterControl(Record, eq=False):
 
 
 class Locomotion(Record, eq=False):
-    """All that moves a robot."""
+    """All that moves a robot.
+
+    Attributes:
+        undriven: Of a robot that no plugin drives, the links that are called wheels and turn
+            freely about an axis that lies. The side is the one that they stand on; casters are
+            steered.
+    """
 
     kind: DriveKind
     wheel_drives: tuple[WheelDrive, ...] = ()
@@ -229,6 +246,7 @@ class Locomotion(Record, eq=False):
     rotors: tuple[Rotor, ...] = ()
     copters: tuple[CopterControl, ...] = ()
     leg_joints: tuple[Joint, ...] = ()
+    undriven: tuple[Wheel, ...] = ()
 
     @property
     def wheels(self) -> tuple[Wheel, ...]:

@@ -109,8 +109,9 @@ class BoundedMotion(Record, eq=False):
 
 def bounded_motions(locomotion: Locomotion) -> Iterator[BoundedMotion]:
     """Yield what the drive plugins bound: x and the turn about z, of a multicopter all axes."""
-    drives: tuple[WheelDrive | TrackedDrive, ...] = locomotion.wheel_drives
-    for drive in (*drives, *locomotion.tracked_drives):
+    limited = tuple(drive for drive in locomotion.wheel_drives if drive.is_limited)
+    drives: tuple[WheelDrive | TrackedDrive, ...] = (*limited, *locomotion.tracked_drives)
+    for drive in drives:
         both = _same(drive.linear.max_velocity, drive.angular.max_velocity)
         yield BoundedMotion(drive.plugin, "linear", "x", drive.linear)
         yield BoundedMotion(drive.plugin, "angular", "z", drive.angular, both)

@@ -6,7 +6,10 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from checker.model.components import Joint, Plugin
+from checker.model.locomotion.classic import classic_drive, classic_drives
 from checker.model.locomotion.drive import is_legged
 from checker.model.locomotion.locomotion import (
     DriveKind,
@@ -19,6 +22,7 @@ from checker.model.locomotion.locomotion import (
 )
 from checker.model.locomotion.motion_limits import limits_below, read_limits
 from checker.model.locomotion.rotors import read_copter, read_rotor
+from checker.model.locomotion.undriven import undriven_wheels
 from checker.model.locomotion.wheels import WheelReader
 from checker.source.text import Located
 from checker.source.xml import Element
@@ -131,7 +135,8 @@ def read_locomotion(robot: Robot) -> Locomotion:
         kind = _wheeled_kind(drives)
     elif legs:
         kind = DriveKind.LEGGED
-    return Locomotion(kind, drives, tracked, tracks, rotors, copters, legs)
+    free = () if drives or kind is not DriveKind.NONE else tuple(undriven_wheels(robot))
+    return Locomotion(kind, drives, tracked, tracks, rotors, copters, legs, free)
 
 
 def _wheeled_kind(drives: tuple[WheelDrive, ...]) -> DriveKind:
@@ -154,9 +159,13 @@ def _leg_joints(robot: Robot) -> Iterator[Joint]:
 
 def _wheel_drives(robot: Robot) -> Iterator[WheelDrive]:
     reader = WheelReader(robot)
+    if robot.format == "urdf":
+        yield from classic_drives(robot, reader)
     for plugin in _of_class(robot, *_WHEEL_CLASSES):
+        if classic_drive(plugin) is not None:
+            continue
         steering = dict(_steering(robot, plugin))
-        yield WheelDrive(
+        drive = WheelDrive(
             plugin,
             tuple(_wheels(reader, plugin, steering)),
             _number_or(plugin, "wheel_separation", _WHEEL_SEPARATION),
@@ -164,8 +173,8 @@ def _wheel_drives(robot: Robot) -> Iterator[WheelDrive]:
             read_limits(plugin.element, "linear_"),
             read_limits(plugin.element, "angular_"),
             steering=tuple(steering.items()),
-            **_ackermann(plugin),
         )
+        yield replace(drive, **_ackermann(plugin))
 
 
 def _wheels(reader: WheelReader, plugin: Plugin, steering: dict[Joint, Side]) -> Iterator[Wheel]:

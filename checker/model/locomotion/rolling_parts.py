@@ -23,7 +23,7 @@ class RollingPart(Record, eq=False):
 
     Attributes:
         links: All of it; the first is the wheel's or the track's own.
-        wheel: None for a track, and for a wheel that nothing drives.
+        wheel: None for a track, and for a wheel beside those that a plugin drives.
         is_track: Whether it is a track.
         box: Around its collisions, in the robot's frame.
         suspended: Whether it hangs on a joint that gives way, beside its own and its steering.
@@ -73,10 +73,11 @@ def _parts(robot: Robot) -> Iterator[tuple[tuple[Link, ...], Wheel | None]]:
         yield wheel.body, wheel
     others = [track.link for track in robot.locomotion.tracks]
     others += [link for link in robot.wheels if _turns(robot, link)]
+    undriven = {wheel.link.scoped_name: wheel for wheel in robot.locomotion.undriven}
     for link in others:
         if link.scoped_name not in seen:
             seen.add(link.scoped_name)
-            yield (link,), None
+            yield (link,), undriven.get(link.scoped_name)
 
 
 def _turns(robot: Robot, link: Link) -> bool:

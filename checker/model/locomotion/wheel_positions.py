@@ -121,7 +121,7 @@ def _level_of_others(feet: Sequence[Foot]) -> list[float]:
 
 def _axle(robot: Robot) -> Vector:
     """Return the direction of the wheels' axes; y where that is not known."""
-    for wheel in robot.locomotion.wheels:
+    for wheel in (*robot.locomotion.wheels, *robot.locomotion.undriven):
         if wheel.axis is not None and wheel.steering is None and abs(wheel.axis[2]) < 0.5:
             return (wheel.axis[0], wheel.axis[1], 0.0)
     return (0.0, 1.0, 0.0)
@@ -176,7 +176,7 @@ def _of_wheels(drive: WheelDrive) -> Iterator[CountedDistance]:
     if true is not None:
         separation = drive.wheel_separation
         yield CountedDistance(
-            drive.plugin, "wheel_separation", separation, true, "left and right wheels"
+            drive.plugin, drive.separation_tag, separation, true, "left and right wheels"
         )
 
 

@@ -17,7 +17,6 @@ from checker.base.resources import table
 from checker.expand.launch.bridge import Bridge, Direction
 from checker.model.components import Plugin, Sensor
 from checker.model.robot import Robot
-from checker.model.sensing.kind import SensorType
 
 _PARAMETER = re.compile(r"\{(\w+)\}")
 
@@ -87,24 +86,22 @@ def by_topic(bridges: Iterable[Bridge]) -> Mapping[str, Sequence[Bridge]]:
     return bridges_by_topic
 
 
-def channels(robot: Robot) -> tuple[Channel, ...]:
-    """Return the channels of all sensors and plugins of which the table knows any."""
-    of_sensors = (channel for sensor in robot.sensors for channel in sensor_channels(sensor))
+def channels(robot: Robot, release: str) -> tuple[Channel, ...]:
+    """Return the channels of all sensors and plugins of which the table knows any.
+
+    Args:
+        robot: Whose they are.
+        release: Of Gazebo, that simulates it.
+    """
+    of_sensors = (
+        channel for sensor in robot.sensors for channel in sensor_channels(sensor, release)
+    )
     of_plugins = (channel for plugin in robot.plugins for channel in plugin_channels(plugin))
     return (*of_sensors, *of_plugins)
 
 
-def suffixes(kind: SensorType) -> frozenset[str] | None:
-    """Return what stands behind a sensor's name in its default topics; None if not known."""
-    entries = table("gazebo_topics")["sensors"].get(kind.value)
-    if entries is None:
-        return None
-    topics = (topic for entry in entries for topic in entry["topics"])
-    return frozenset(topic for topic in topics if not topic.startswith(".."))
-
-
-def sensor_channels(sensor: Sensor) -> Iterator[Channel]:
-    """Yield what a sensor publishes."""
+def sensor_channels(sensor: Sensor, release: str) -> Iterator[Channel]:
+    """Yield what a sensor publishes in a release of Gazebo."""
     for entry in table("gazebo_topics")["sensors"].get(sensor.kind.value, ()):
         if sensor.topic.stated and sensor.topic.value.strip("/ "):
             topic = "/" + sensor.topic.value.strip("/ ")
@@ -113,7 +110,8 @@ def sensor_channels(sensor: Sensor) -> Iterator[Channel]:
             topics = [stated]
         else:
             prefix = _prefix(sensor)
-            topics = [posixpath.normpath(f"{prefix}/{suffix}") for suffix in entry["topics"]]
+            below = entry.get("releases", {}).get(release, entry["topics"])
+            topics = [posixpath.normpath(f"{prefix}/{suffix}") for suffix in below]
         yield _channel(entry, sensor, topics)
 
 

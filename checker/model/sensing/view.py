@@ -1,9 +1,9 @@
-"""How much of a sensor's view the robot itself hides."""
+"""How much of a sensor's view the robot itself hides, and of a light's surroundings."""
 
 from __future__ import annotations
 
 from checker.base.record import Record
-from checker.model.components import Link, Visual
+from checker.model.components import Light, Link, Visual
 from checker.model.robot import Robot
 from checker.model.sensing.mounts import Mounted
 
@@ -35,14 +35,31 @@ class View(Record, eq=False):
         return sum(share for share, metres in self.filled if metres < distance)
 
 
+class CoveredLight(Record, eq=False):
+    """A light that casts shadows, and a concave visual around it.
+
+    Attributes:
+        visual: A mesh, both sides of which count.
+        around: Share of all directions in which it stands in the way, 0 to 1.
+        ahead: Share of the light's beam in which it does; of one that shines all around, `around`.
+    """
+
+    light: Light
+    visual: Visual
+    around: float
+    ahead: float
+
+
 class SensorViews(Record, eq=False):
     """A robot and the views of its cameras and lidars.
 
     Attributes:
         views: Those that could be worked out, in the order of the sensors.
         unseen: Why something that may stand in a view is not known, as ends of sentences.
+        covered: Its lights in the boxes around concave meshes.
     """
 
     robot: Robot
     views: tuple[View, ...]
     unseen: tuple[str, ...] = ()
+    covered: tuple[CoveredLight, ...] = ()

@@ -20,7 +20,7 @@ _LEADING = re.compile(rf"{_NUMBER}\s?(?:[x×](?=\s|\w)|\s(?=[a-z]))", re.IGNOREC
 _ONE = re.compile(r"an?\s", re.IGNORECASE)
 _TIMES = re.compile(r"\([x×]\s?(\d{1,2})\)|\((\d{1,2})\s?[x×]\)", re.IGNORECASE)
 _MODELED = re.compile(r"\bmodell?ed\s+(?:by|using|as|with|through|via)\b", re.IGNORECASE)
-_NOT_MODELED = re.compile(
+NOT_MODELED = re.compile(
     r"\bnot\s+(?:yet\s+)?(?:modell?ed|simulated|included)\b|\bthere\s+is\s+not?\b", re.IGNORECASE
 )
 _ACTUATOR = re.compile(r"\bjoint|\bcontroller", re.IGNORECASE)
@@ -58,7 +58,7 @@ def listed_sensors(passages: Sequence[Passage]) -> Iterator[ListedSensor]:
         if passage.kind is not PassageKind.ITEM:
             lead = configurations_in(passage.words)
             yield from _breadcrumbs(passage)
-        elif _NOT_MODELED.search(passage.text) is None:
+        elif NOT_MODELED.search(passage.text) is None:
             yield from _read_item(passage, _below(passages, index), lead)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 
 from checker.base.record import Record
@@ -127,3 +128,14 @@ def _read_gazebo(element: Element) -> GazeboTag:
 
 def _attribute(element: Element, name: str) -> Located[str]:
     return element.attribute(name) or Located("", element.span, stated=False)
+
+
+def joints_with_motor(robot: Robot) -> Iterator[str]:
+    """Yield the names of joints that transmissions and ros2_control let a controller move."""
+    root = robot.element
+    for transmission in root.all("transmission"):
+        yield from (joint.get("name") or "" for joint in transmission.all("joint"))
+    for control in root.all("ros2_control"):
+        for joint in control.all("joint"):
+            if joint.child("command_interface") is not None:
+                yield joint.get("name") or ""

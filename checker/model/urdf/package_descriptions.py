@@ -172,7 +172,7 @@ class PackageDescriptions:
         for candidate in self._candidates:
             outcome = expanded.get(candidate.path) or _plain(self._package, candidate.path)
             if isinstance(outcome, XmlDocument):
-                if _holds_robot(outcome, candidate):
+                if _holds_robot(outcome, candidate) or self._is_alone(outcome, candidate):
                     read = read_description(outcome, candidate.path, for_rviz=self._for_rviz)
                     descriptions.append(read)
             elif isinstance(outcome, Unread):
@@ -189,6 +189,11 @@ class PackageDescriptions:
             tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
             old,
         )
+
+    def _is_alone(self, document: XmlDocument, candidate: Candidate) -> bool:
+        """Say whether a file that holds nothing is the one to check, and no xacro of macros."""
+        plain = candidate.path.lower().endswith(".urdf")
+        return plain and bool(self._package.only) and document.root.tag == "robot"
 
     @property
     def _expanded(self) -> dict[str, Outcome]:

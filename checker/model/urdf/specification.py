@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from functools import cache
 
@@ -9,6 +10,7 @@ import msgspec
 
 from checker.base.record import Record
 from checker.base.resources import table
+from checker.base.words import Suggestions
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
@@ -38,6 +40,24 @@ class NewerPart(Record):
     name: str
     since: str
     span: Span
+
+
+class MisspeltPart(Record):
+    """An element or attribute that no reader looks at, and that resembles one that they read.
+
+    Attributes:
+        name: As written.
+        parent: The tag around it.
+        meant: What it resembles, which is not there.
+        span: Where it stands.
+        path: Of the tag around it.
+    """
+
+    name: str
+    parent: str
+    meant: str
+    span: Span
+    path: str
 
 
 @cache
@@ -93,6 +113,42 @@ def newer_parts(document: XmlDocument) -> Iterator[NewerPart]:
             stated = element.attribute(name)
             if stated is not None and not has_version(document, spec.since):
                 yield NewerPart(name, spec.since, stated.span)
+
+
+def misspelt_parts(document: XmlDocument) -> Iterator[MisspeltPart]:
+    """Yield elements and attributes whose names are near those of something that is missing."""
+    for element, path in _below(document):
+        there = {child.tag for child in element.children}
+        for child in element.children:
+            known = _children().get(path, frozenset())
+            if child.tag not in known and (meant := Suggestions(known - there).near(child.tag)):
+                yield MisspeltPart(f"<{child.tag}>", element.tag, f"<{meant}>", child.span, path)
+        spec = _elements().get(path, {})
+        # What is required and missing is reported as such.
+        lost = [key for key, it in spec.items() if not it.required and element.get(key) is None]
+        for name in element.attributes if lost else ():
+            text = element.attribute(name)
+            meant = _meant(name, lost) if name not in spec else None
+            if text is not None and meant is not None:
+                yield MisspeltPart(name, element.tag, meant, text.span, path)
+
+
+def _meant(name: str, known: list[str]) -> str | None:
+    """Return the word with the same letters, or the nearest one."""
+    same = (word for word in known if sorted(word) == sorted(name))
+    return next(same, None) or Suggestions(known).near(name)
+
+
+@cache
+def _children() -> Mapping[str, frozenset[str]]:
+    """Return the tags that readers look for, by the path of what is around them."""
+    children: dict[str, set[str]] = defaultdict(set)
+    for path in _elements():
+        parts = path.split("/")
+        for depth in range(1, len(parts)):
+            children["/".join(parts[:depth])].add(parts[depth])
+    children["joint"].update(("parent", "child"))
+    return {path: frozenset(tags) for path, tags in children.items()}
 
 
 def _below(document: XmlDocument) -> Iterator[tuple[Element, str]]:

@@ -88,6 +88,12 @@ class MassProperties(Record, eq=False):
         robot = self.robot
         return robot.unweighed or robot.unplaced_part or robot.bare_wheel or self.support_unknown
 
+    @property
+    def weighed(self) -> Mapping[str, LinkInertia]:
+        """The links whose mass is known."""
+        unknown = self.robot.unknown_masses
+        return {name: inertia for name, inertia in self.links.items() if name not in unknown}
+
     def share(self, name: str) -> float:
         """Return a link's share of the robot's mass, 0…1."""
         return self.links[name].mass / self.mass if self.mass > 0 else 0.0

@@ -30,7 +30,7 @@ def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
 
     root, defects = parse_collada(data)
     metres, unit_defects = metres_per_unit(root)
-    textures, parts, materials = _textures(root), _parts(root), DaeMaterials(root)
+    textures, materials = _textures(root), DaeMaterials(root)
     is_skinned = next(root.iter("{*}instance_controller"), None) is not None
     sets, faults = triangles_of_scene(only_geometry(root))
     pieces = tuple(
@@ -47,6 +47,7 @@ def read_dae(data: bytes, _materials: Iterable[bytes] = ()) -> MeshContent:
             raise NoSurface("is a mesh with a skeleton", MeshTrouble.NOT_LOOKED_AT)
         raise NoSurface(f"contains no triangles{': ' + faults[0] if faults else ''}")
     defects = [*defects, *unit_defects, *faults[:5]]
+    parts = tuple(dict.fromkeys(piece.part for piece in pieces))
     return MeshContent(pieces, metres, textures, defects=tuple(defects), parts=parts)
 
 
@@ -80,7 +81,10 @@ def triangles_of_scene(bare: bytes) -> tuple[list[tuple[str, Any, str]], list[st
 
 
 def _placed(nodes: Iterable[Any]) -> Iterator[tuple[str, Any]]:
-    """Yield the geometry of nodes in the scene, each with the name of the node that shows it."""
+    """Yield the geometry of nodes in the scene, each with the name of the node that shows it.
+
+    That is Gazebo's name of a submesh. A node without one has that of the node around it.
+    """
     from collada.scene import GeometryNode, Node, NodeNode
 
     waiting: list[tuple[Any, Any, str]] = [(node, None, "") for node in reversed(list(nodes))]
@@ -92,7 +96,7 @@ def _placed(nodes: Iterable[Any]) -> Iterator[tuple[str, Any]]:
             waiting.append((node.node, matrix, name))
         elif isinstance(node, Node):
             placed = node.matrix if matrix is None else matrix @ node.matrix
-            own = node.xmlnode.get("name") or node.xmlnode.get("id") or ""
+            own = node.xmlnode.get("name") or name or node.xmlnode.get("id") or ""
             waiting += [(child, placed, own) for child in reversed(node.children)]
 
 
@@ -137,13 +141,6 @@ def _textures(root: etree._Element) -> tuple[str, ...]:
         if source is not None and image.get("id", "") in named:
             files.append(_text(source) or _text(source.find("{*}ref")))
     return tuple(dict.fromkeys(file for file in files if file))
-
-
-def _parts(root: etree._Element) -> tuple[str, ...]:
-    """Return the names of the nodes that show geometry: Gazebo's names of submeshes."""
-    holders = (element.getparent() for element in root.iter("{*}instance_geometry"))
-    nodes = [node for node in holders if node is not None and local_name(node) == "node"]
-    return tuple(dict.fromkeys(node.get("name") or node.get("id") or "" for node in nodes))
 
 
 def _text(element: etree._Element | None) -> str:

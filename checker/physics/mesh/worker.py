@@ -87,7 +87,8 @@ def _view(item: Mapping[str, Any], files: Files, run_in_forks: ForkRunner) -> di
     sensors = sensors_of(item)
 
     def seen(mesh: Mapping[str, Any]) -> bytes:
-        return json.dumps(seen_of_mesh(sensors, mesh, files.read(mesh["file"]))).encode()
+        data = files.read(mesh["file"])
+        return json.dumps(seen_of_mesh(sensors, mesh, data, item.get("lights", ()))).encode()
 
     results = run_in_forks([partial(seen, mesh) for mesh in item["meshes"]])
     read = [

@@ -1,15 +1,19 @@
-"""What is asked of the worker: a robot's sensors and visuals as JSON."""
+"""What is asked of the worker: a robot's sensors, lights and visuals as JSON."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from itertools import islice
 from typing import Any
 
 from checker.base.record import Record
-from checker.model.components import Link, Visual
+from checker.model.components import Light, Link, Visual
+from checker.model.geometry.boxes import Box
+from checker.model.geometry.interpenetration import is_convex
+from checker.model.geometry.placed_shapes import placed
 from checker.model.geometry.transform import Transform
-from checker.model.mesh import MeshFault
+from checker.model.mesh import MeshFault, picked_part
 from checker.model.robot import Robot
 from checker.model.sensing.mounts import Mounted, mounted_sensors
 from checker.physics.mesh.uris import MeshFile
@@ -19,6 +23,8 @@ from checker.source.text import Located
 
 SENSORS, VISUALS = 60, 3000
 """The most that are looked at; a robot has a dozen sensors and a hundred visuals."""
+LIGHTS = 60
+"""Pairs of a light and a mesh around it that are looked at."""
 
 Content = Callable[[Located[str]], tuple[MeshFile, str] | MeshFault]
 """Finds the file behind a URI, and a hash of what is in it."""
@@ -32,6 +38,7 @@ class ViewRequest(Record, eq=False):
         contents: A hash of each mesh file, in the order of the request.
         sensors: In the order of the request.
         visuals: By their numbers.
+        lights: With the visual around each, in the order of the request.
         unseen: What is left out, and why, as ends of sentences.
     """
 
@@ -39,12 +46,14 @@ class ViewRequest(Record, eq=False):
     contents: tuple[str, ...]
     sensors: tuple[Mounted, ...]
     visuals: tuple[tuple[Link, Visual], ...]
+    lights: tuple[tuple[Light, Visual], ...]
     unseen: tuple[str, ...]
 
     @property
-    def visible(self) -> bool:
-        """Whether there is anything to be seen."""
-        return bool(self.item["meshes"] or self.item["solids"])
+    def has_work(self) -> bool:
+        """Whether there is anything to be seen by a sensor, or around a light."""
+        seen = self.item["meshes"] or self.item["solids"]
+        return bool((self.sensors or self.lights) and seen)
 
     @property
     def work(self) -> int:
@@ -62,9 +71,11 @@ def view_request(robot: Robot, content: Content) -> ViewRequest:
     if len(looking) > SENSORS or len(visuals) > VISUALS:
         unseen.append(f"at most {SENSORS} sensors and {VISUALS} visuals are checked")
         looking, visuals = looking[:SENSORS], visuals[:VISUALS]
+    lights = list(islice(_covered_lights(robot, visuals), LIGHTS))
+    around = {visual for _, visual, _ in lights}
     scene = _Scene({}, {}, unseen)
-    if looking:
-        for number, (link, visual) in enumerate(visuals):
+    for number, (link, visual) in enumerate(visuals):
+        if looking or visual in around:
             scene.add(number, visual, robot.pose_of_part(link, visual.pose), content)
     item = {
         "sensors": [
@@ -73,9 +84,46 @@ def view_request(robot: Robot, content: Content) -> ViewRequest:
         "solids": scene.solids,
         "meshes": list(scene.meshes.values()),
     }
-    contents = tuple(key for key, _ in scene.meshes)
+    if lights:
+        numbers = {visual: number for number, (_, visual) in enumerate(visuals)}
+        item["lights"] = [_shining(light, pose, numbers[visual]) for light, visual, pose in lights]
+    contents = tuple(key for key, *_ in scene.meshes)
     seen = tuple(mount for mount, _ in looking)
-    return ViewRequest(item, contents, seen, tuple(visuals), tuple(dict.fromkeys(scene.unseen)))
+    pairs = tuple((light, visual) for light, visual, _ in lights)
+    left_out = tuple(dict.fromkeys(scene.unseen))
+    return ViewRequest(item, contents, seen, tuple(visuals), pairs, left_out)
+
+
+def _covered_lights(
+    robot: Robot, visuals: Iterable[tuple[Link, Visual]]
+) -> Iterator[tuple[Light, Visual, Transform]]:
+    """Yield lights that cast shadows with each opaque, concave mesh that they may stand inside."""
+    lights = [
+        (light, pose)
+        for link in robot.links
+        for light in link.lights
+        if light.casts_shadows and light.type != "directional"
+        if (pose := robot.pose_of_part(link, light.pose)) is not None
+        if all(map(math.isfinite, _numbers(pose)))
+    ]
+    for link, visual in visuals if lights else ():
+        if visual.geometry.shape == "mesh" and not visual.is_see_through:
+            for piece in placed(robot, link, (visual,)):
+                inside = [at for at in lights if _is_within(at[1], piece.box)]
+                if inside and not is_convex(robot, piece):
+                    yield from ((light, visual, pose) for light, pose in inside)
+
+
+def _is_within(pose: Transform, box: Box) -> bool:
+    return box.gap(Box(pose.translation, pose.translation)) <= 0.0
+
+
+def _shining(light: Light, pose: Transform, visual: int) -> dict[str, Any]:
+    shining: dict[str, Any] = {"visual": visual, "at": list(pose.translation)}
+    if light.beam is not None:
+        shining["along"] = list(pose.rotate(light.beam.along))
+        shining["half"] = light.beam.half
+    return shining
 
 
 class _Scene(Record, eq=False):
@@ -83,12 +131,12 @@ class _Scene(Record, eq=False):
 
     Attributes:
         solids: By kind.
-        meshes: By the hash of the content and the name of the part.
+        meshes: By the hash of the content, the name of the part and whether it is centred.
         unseen: Why some are left out.
     """
 
     solids: dict[str, dict[str, list[Any]]]
-    meshes: dict[tuple[str, str], dict[str, Any]]
+    meshes: dict[tuple[str, str, bool], dict[str, Any]]
     unseen: list[str]
 
     def add(self, number: int, visual: Visual, pose: Transform | None, content: Content) -> None:
@@ -126,26 +174,17 @@ class _Scene(Record, eq=False):
         if isinstance(found, MeshFault):
             self.unseen.append(f"{named} {found.reason}")
             return
-        part, whole = _part(visual)
+        picked = picked_part(visual.geometry)
+        part, centred = picked or ("", False)
         scale = [factor.value for factor in visual.geometry.sizes.get("scale", ())]
-        if not whole or len(scale) != 3 or not all(map(math.isfinite, scale)):
+        if (picked and not part) or len(scale) != 3 or not all(map(math.isfinite, scale)):
             self.unseen.append(f"{named} is only partly used (<submesh>)")
             return
         file, key = found
-        mesh = {"file": str(file.location), "name": named.rpartition("/")[2], "part": part}
-        uses = self.meshes.setdefault((key, part), {**mesh, "uri": named, "uses": []})["uses"]
+        mesh: dict[str, Any] = {"file": str(file.location), "name": named.rpartition("/")[2]}
+        mesh |= {"uri": named, "part": part, "centred": centred, "uses": []}
+        uses = self.meshes.setdefault((key, part, centred), mesh)["uses"]
         uses.append({"visual": number, "scale": scale, "pose": _numbers(pose)})
-
-
-def _part(visual: Visual) -> tuple[str, bool]:
-    """Return the name of the part that `<submesh>` picks, and whether it stays where it is."""
-    submesh = visual.geometry.element.child("submesh")
-    if submesh is None:
-        return "", True
-    name, center = submesh.child("name"), submesh.child("center")
-    centred = center is not None and center.text.value.strip() in ("true", "1")
-    text = name.text.value.strip() if name is not None else ""
-    return text, bool(text) and not centred
 
 
 def _numbers(pose: Transform) -> list[float]:

@@ -14,7 +14,7 @@ from checker.base.output import Stages
 from checker.base.parts import WorkerFailed
 from checker.model.mesh import MeshFault, MeshTrouble
 from checker.model.robot import Robot
-from checker.model.sensing.view import SensorViews, View
+from checker.model.sensing.view import CoveredLight, SensorViews, View
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.mesh.process import SIZE_LIMIT, mesh_work
 from checker.physics.mesh.uris import MeshFile
@@ -75,7 +75,7 @@ class RobotViews:
         if number not in self._begun:
             with self.stages.stage("views"):
                 request = view_request(self.robots[number], _content_of(self.robots[number]))
-                begun = self._work(request) if request.sensors and request.visible else None
+                begun = self._work(request) if request.has_work else None
                 if begun is not None:
                     begun.begin()
                 self._begun[number] = request, begun
@@ -123,15 +123,17 @@ def _checked(answer: Any, request: ViewRequest) -> _Answer:
     Raises:
         AttributeError, KeyError, TypeError, ValueError: It does not.
     """
-    views, unread = list(answer["views"]), list(answer["unread"])
+    views, unread, covered = (list(answer[name]) for name in ("views", "unread", "covered"))
     if (
         len(views) == len(request.sensors)
         and all(-1 <= int(view["by"]) < len(request.visuals) for view in views)
         and all(len(view["shares"]) == len(view["reach"]) for view in views)
         and all(view["cut"] >= 0.0 and sum(view["shares"], 0.0) >= 0.0 for view in views)
         and all(0 <= number < len(request.contents) and str(why) for number, why in unread)
+        and all(0 <= number < len(request.lights) for number, *_ in covered)
+        and all(0.0 <= around + ahead <= 2.1 for _, around, ahead in covered)
     ):
-        return {"views": views, "unread": unread}
+        return {"views": views, "unread": unread, "covered": covered}
     raise ValueError("no views of these sensors")
 
 
@@ -147,13 +149,18 @@ def _views_of(robot: Robot, request: ViewRequest, answer: dict[str, Any]) -> Sen
     )
     meshes = request.item["meshes"]
     unread = (f"{meshes[number]['uri']} {reason}" for number, reason in answer["unread"])
-    return SensorViews(robot, views, (*request.unseen, *unread))
+    covered = []
+    for number, around, ahead in answer["covered"]:
+        light, visual = request.lights[int(number)]
+        covered.append(CoveredLight(light, visual, around, ahead))
+    unseen = (*request.unseen, *unread) if views else ()
+    return SensorViews(robot, views, unseen, tuple(covered))
 
 
 def _without_places(request: ViewRequest) -> list[Any]:
     meshes = request.item["meshes"]
     return [
-        (key, mesh["part"], mesh["uses"])
+        (key, mesh["part"], mesh["centred"], mesh["uses"])
         for key, mesh in zip(request.contents, meshes, strict=True)
     ]
 

@@ -1,7 +1,8 @@
-"""Casts the rays of sensors at visuals.
+"""Casts the rays of sensors at visuals, and those of lights at meshes around them.
 
-What is asked holds `sensors` (pose and grid), `solids` (visuals of one kind, with their sizes) and
-`meshes` (files, with the visuals that show them). Poses are 12 numbers in the robot's frame: the
+What is asked holds `sensors` (pose and grid), `solids` (visuals of one kind, with their sizes),
+`meshes` (files, with the visuals that show them) and, if there are any, `lights` (see `covered`),
+each with the `visual` that it may stand inside. Poses are 12 numbers in the robot's frame: the
 rotation row by row, then the place.
 """
 
@@ -14,6 +15,7 @@ from checker.base.files import NotReadable
 from checker.base.sandbox.files import Content
 from checker.physics.mesh.content import NoSurface
 from checker.physics.mesh.reader import read_content
+from checker.physics.views.lights import covered
 from checker.physics.views.obstacles import ball_around, entered, in_view, met
 from checker.physics.views.rays import Grid, grid_from_json
 
@@ -32,10 +34,12 @@ FARTHEST = 1e12
 Met = dict[str, Any]
 """What a sensor sees of a visual: the numbers of both (`sensor`, `visual`), the `rays` that meet
 it, how far away (`reach`, metres), and those that meet it nearer than the sensor sees (`cut`)."""
+Seen = dict[str, Any]
+"""What is `met` of a mesh, and the number of each light inside with what of it is `covered`."""
 
 
 def views_of(
-    item: Mapping[str, Any], sensors: Sensors, of_meshes: Sequence[list[Met] | str] = ()
+    item: Mapping[str, Any], sensors: Sensors, of_meshes: Sequence[Seen | str] = ()
 ) -> dict[str, Any]:
     """Return what each sensor sees of the visuals.
 
@@ -47,20 +51,23 @@ def views_of(
     Returns:
         `views`: for each sensor `shares` of the view and the metres (`reach`) to what fills each of
         them, the share that is `cut` off, and the visual that fills most (`by`; -1 for none).
-        `unread`: numbers of files, and why.
+        `unread`: numbers of files, and why. `covered`: numbers of lights, and the shares of all
+        directions and of its beam in which the mesh around each stands in the way.
     """
     hits = list(_solids(item["solids"], sensors))
     unread: list[tuple[int, str]] = []
+    lights: list[tuple[int, float, float]] = []
     for number, seen in enumerate(of_meshes):
         if isinstance(seen, str):
             unread.append((number, seen))
         else:
-            hits += seen
+            hits += seen["met"]
+            lights += seen["covered"]
     views = [
         _view(grid, [hit for hit in hits if hit["sensor"] == number])
         for number, (_, grid) in enumerate(sensors)
     ]
-    return {"views": views, "unread": unread}
+    return {"views": views, "unread": unread, "covered": lights}
 
 
 def sensors_of(item: Mapping[str, Any]) -> Sensors:
@@ -126,14 +133,39 @@ def _solids(kinds: Mapping[str, Any], sensors: Sensors) -> Iterator[Met]:
                 yield _met(group["visuals"][number], sensor, first[number], cut[number])
 
 
-def seen_of_mesh(sensors: Sensors, mesh: Mapping[str, Any], data: Content) -> list[Met] | str:
+def seen_of_mesh(
+    sensors: Sensors,
+    mesh: Mapping[str, Any],
+    data: Content,
+    lights: Sequence[Mapping[str, Any]] = (),
+) -> Seen | str:
     """Return what the sensors see of a mesh, or why that is not known.
 
     Args:
         sensors: That look at it.
         mesh: One of the `meshes` that are asked about.
         data: What is in the file.
+        lights: All that are asked about.
     """
+    import numpy as np
+
+    corners = _corners(mesh, data)
+    if isinstance(corners, str):
+        return corners
+    hits: list[Met] = []
+    inside: list[tuple[int, float, float]] = []
+    for use in mesh["uses"] if len(corners) else ():
+        placed = np.array(use["pose"])
+        in_robot = (corners * use["scale"]) @ placed[:9].reshape(3, 3).T + placed[9:]
+        hits += _seen(sensors, use["visual"], in_robot)
+        for number, light in enumerate(lights):
+            if light["visual"] == use["visual"]:
+                inside.append((number, *covered(in_robot, light)))
+    return {"met": hits, "covered": inside}
+
+
+def _corners(mesh: Mapping[str, Any], data: Content) -> Array | str:
+    """Return the corners of the part of a file that is used, or why they are not known."""
     import numpy as np
 
     if isinstance(data, NotReadable):
@@ -147,21 +179,21 @@ def seen_of_mesh(sensors: Sensors, mesh: Mapping[str, Any], data: Content) -> li
         content = content.only(part)
         if not content.pieces:
             return "is only partly used (<submesh>)"
-    corners = content.corners
+    corners: Array = content.corners
     corners = corners[(np.abs(corners) <= FARTHEST).all(axis=(1, 2))]
-    hits: list[Met] = []
-    if not len(corners):
-        return hits
-    for use in mesh["uses"]:
-        placed = np.array(use["pose"])
-        in_robot = (corners * use["scale"]) @ placed[:9].reshape(3, 3).T + placed[9:]
-        middle, radius = ball_around(in_robot)
-        for sensor, (pose, grid) in enumerate(sensors):
-            turned = pose[:9].reshape(3, 3)
-            # Most of a robot is behind most of its cameras.
-            if not in_view((middle - pose[9:]) @ turned, radius, grid):
-                continue
-            first, cut = met((in_robot - pose[9:]) @ turned, grid)
-            if cut.any() or np.isfinite(first).any():
-                hits.append(_met(use["visual"], sensor, first, cut))
-    return hits
+    return corners - ball_around(corners)[0] if mesh["centred"] and len(corners) else corners
+
+
+def _seen(sensors: Sensors, visual: int, in_robot: Array) -> Iterator[Met]:
+    """Yield what each sensor sees of the triangles of a visual."""
+    import numpy as np
+
+    middle, radius = ball_around(in_robot)
+    for sensor, (pose, grid) in enumerate(sensors):
+        turned = pose[:9].reshape(3, 3)
+        # Most of a robot is behind most of its cameras.
+        if not in_view((middle - pose[9:]) @ turned, radius, grid):
+            continue
+        first, cut = met((in_robot - pose[9:]) @ turned, grid)
+        if cut.any() or np.isfinite(first).any():
+            yield _met(visual, sensor, first, cut)

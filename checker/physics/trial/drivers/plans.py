@@ -18,6 +18,7 @@ from checker.model.locomotion.locomotion import (
     TrackedDrive,
 )
 from checker.model.robot import Robot
+from checker.model.urdf.description import joints_with_motor
 from checker.model.values import parse_number
 from checker.physics.mass.mechanism import AXES
 from checker.physics.trial.course import (
@@ -195,13 +196,26 @@ def at_rest(robot: Robot, joints: Iterable[str], legs: tuple[Leg, ...]) -> dict[
 
 
 def plan_of(robot: Robot) -> Plan:
-    """Return what a robot shall do in its trial; joints that plugins move otherwise stand still."""
+    """Return what a robot shall do in its trial.
+
+    Joints that plugins move otherwise stand still, and of URDF those that have a motor and turn no
+    wheel: some controller holds them.
+    """
     plan = _of_kind(robot, robot.locomotion)
     turned = {*plan.speeds, *plan.places}
-    others = [name for name in robot.driven_joints if name not in turned]
+    held = dict.fromkeys((*robot.driven_joints, *_joints_with_motor(robot)))
+    others = [name for name in held if name not in turned]
     places = {**plan.places, **at_rest(robot, others, plan.legs)}
     efforts = _efforts(robot, (*plan.speeds, *places))
     return replace(plan, places=places, efforts=efforts)
+
+
+def _joints_with_motor(robot: Robot) -> Iterator[str]:
+    wheels = {link.name.value for link in robot.wheels}
+    for name in joints_with_motor(robot) if robot.format == "urdf" else ():
+        joint = robot.joints_by_name.get(name)
+        if joint is not None and joint.child.value not in wheels:
+            yield name
 
 
 def _of_kind(robot: Robot, locomotion: Locomotion) -> Plan:

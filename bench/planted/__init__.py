@@ -1,0 +1,1 @@
+"""Faults to plant in good robots, each with the rules that must find it."""

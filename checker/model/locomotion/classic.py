@@ -1,0 +1,125 @@
+"""Drive plugins of Gazebo Classic, which URDF files name in `<gazebo>` tags."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import cache
+from itertools import zip_longest
+from typing import TYPE_CHECKING
+
+from msgspec import convert
+
+from checker.base.record import Record
+from checker.base.resources import table
+from checker.model.components import Plugin
+from checker.model.locomotion.locomotion import MotionLimits, Side, Wheel, WheelDrive
+from checker.model.locomotion.wheels import WheelReader
+from checker.model.plugin_library import library_stem
+from checker.model.values import parse_number
+from checker.source.text import Located
+
+if TYPE_CHECKING:
+    from checker.model.robot import Robot
+
+_Named = tuple[Located[str], Side]
+
+
+class ClassicDrive(Record):
+    """How a drive plugin calls its parameters; see `drives` in `gazebo_classic_plugins.json`."""
+
+    match: str
+    left: tuple[str, ...]
+    right: tuple[str, ...]
+    separation: str
+    diameter: str
+    default_separation: float
+    default_diameter: float
+    each_pair: bool
+    swapped_unless_false: str
+
+    def swaps(self, plugin: Plugin) -> bool:
+        """Say whether the plugin takes the wheels that it names as left for those on the right."""
+        tag = self.swapped_unless_false
+        words = [text.value.strip().lower() for text in plugin.at(tag)] if tag else ["false"]
+        return not words or words[0] not in ("false", "0")
+
+    def joints(self, plugin: Plugin) -> list[tuple[_Named, ...]]:
+        """Return the joints that a plugin names and their sides, for each set of distances."""
+        left, right = Side.LEFT, Side.RIGHT
+        if self.swaps(plugin):
+            left, right = right, left
+        on_left = [(name, left) for tag in self.left for name in plugin.at(tag)]
+        on_right = [(name, right) for tag in self.right for name in plugin.at(tag)]
+        if not self.each_pair:
+            return [(*on_left, *on_right)]
+        pairs = zip_longest(on_left, on_right)
+        return [tuple(name for name in pair if name is not None) for pair in pairs]
+
+
+def classic_drive(plugin: Plugin) -> ClassicDrive | None:
+    """Return how a drive plugin of Gazebo Classic calls its parameters; None for all others.
+
+    The ports to ROS 1 and to ROS 2 are one library by name: the joints' tags tell which it is.
+    """
+    stem = library_stem(plugin.filename.value)
+    ports = [drive for drive in _drives() if re.fullmatch(drive.match, stem)]
+    return next((drive for drive in ports if any(drive.joints(plugin))), next(iter(ports), None))
+
+
+@cache
+def _drives() -> tuple[ClassicDrive, ...]:
+    return convert(table("gazebo_classic_plugins")["drives"], tuple[ClassicDrive, ...])
+
+
+def classic_joints(plugins: Iterable[Plugin]) -> Iterator[str]:
+    """Yield the names of the wheel joints that drive plugins of Gazebo Classic turn."""
+    for plugin in plugins:
+        drive = classic_drive(plugin)
+        for pair in drive.joints(plugin) if drive is not None else ():
+            yield from (name.value for name, _ in pair)
+
+
+def classic_drives(robot: Robot, reader: WheelReader) -> Iterator[WheelDrive]:
+    """Yield what drive plugins of Gazebo Classic turn: one drive for each set of distances."""
+    for plugin in robot.plugins:
+        drive = classic_drive(plugin)
+        if drive is None:
+            continue
+        separations = list(_numbers(plugin, drive.separation))
+        diameters = list(_numbers(plugin, drive.diameter))
+        for number, named in enumerate(drive.joints(plugin)):
+            diameter = _at(diameters, number, drive.default_diameter, plugin)
+            yield WheelDrive(
+                plugin,
+                tuple(_wheels(reader, plugin, named)),
+                _at(separations, number, drive.default_separation, plugin),
+                Located(diameter.value / 2, diameter.span, stated=diameter.stated),
+                MotionLimits(plugin.span),
+                MotionLimits(plugin.span),
+                separation_tag=drive.separation,
+                diameter_tag=drive.diameter,
+                swaps=drive.swaps(plugin),
+            )
+
+
+def _wheels(reader: WheelReader, plugin: Plugin, named: Iterable[_Named]) -> Iterator[Wheel]:
+    for name, side in named:
+        wheel = reader.read(plugin, name, side, {})
+        if wheel is not None:
+            yield wheel
+
+
+def _numbers(plugin: Plugin, tag: str) -> Iterator[Located[float]]:
+    for text in plugin.at(tag):
+        value = parse_number(text.value)
+        if value is not None:
+            yield Located(value, text.span)
+
+
+def _at(
+    stated: list[Located[float]], number: int, default: float, plugin: Plugin
+) -> Located[float]:
+    if number < len(stated):
+        return stated[number]
+    return Located(default, plugin.span, stated=False)

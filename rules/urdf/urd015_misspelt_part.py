@@ -1,0 +1,50 @@
+"""An element or attribute of URDF whose name is misspelt.
+
+URDF readers pass over what they do not know, without a message. A link with `<colision>` touches
+nothing, and an `<origin xzy="…">` is at zero.
+
+Fix: write the name as the message says.
+Source: URDF specification; urdfdom reads elements and attributes by their names
+(`urdf_spec.json`).
+"""
+
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.specification import misspelt_parts
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_ONLY_LOOKS = "link/visual"
+
+
+@rule("URD015", "misspelt-urdf-part", Severity.ERROR, Concern.ROBOT)
+def check(description: UrdfDescription) -> Findings:
+    """Report unknown names that resemble one that is missing there.
+
+    What only changes how a part looks is a warning, and so is a description for RViz.
+    """
+    for part in misspelt_parts(description.document):
+        harmless = description.for_rviz or part.path.startswith(_ONLY_LOOKS)
+        yield finding(
+            part.span,
+            f"URDF readers do not know {part.name} in <{part.parent}>; did you mean {part.meant}?",
+            severity=Severity.WARNING if harmless else None,
+            key=f"{part.parent}/{part.name}",
+        )
+
+
+def _tip(content: str) -> dict[str, str]:
+    joint = '<joint name="j" type="fixed"><parent link="upper_arm"/><child link="tip"/></joint>'
+    return {"@urdf": f'<link name="tip">\n{content}\n</link>\n{joint}'}
+
+
+_BOX = '<geometry><box size="1 1 1"/></geometry>'
+_MARK = "  <!-- ^ URD015 -->"
+GOOD = [
+    _tip(f"<collision>{_BOX}</collision>"),
+    _tip(f'<collision>{_BOX}<origin xyz="0 0 1"/></collision><self_collision_checking/>'),
+    _tip("<contact><lateral_friction/></contact><sensor/>"),
+]
+BAD = [
+    _tip(f"<colision>{_MARK}{_BOX}</colision>"),
+    _tip(f'<collision>{_BOX}<origin xzy="0 0 1"/>{_MARK}</collision>'),
+    _tip(f"<visual>{_MARK}<geometri/></visual>"),
+]
