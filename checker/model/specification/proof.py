@@ -64,6 +64,9 @@ _OPEN = re.compile(
 )
 _ABOUT_TESTS = re.compile(rf"\b{_TEST}\b", re.IGNORECASE)
 _ABOUT = {what: re.compile(rf"\b(?:{what.value})\b", re.IGNORECASE) for what in Proven}
+MAX_LINKS = 500
+_NEAR = 500
+"""Characters before and behind a link that may say what it is about."""
 _TURNING = re.compile(r"\b(?:angular|turning|radius|rotation\w*|yaw)\b", re.IGNORECASE)
 _LINEAR = re.compile(r"\b(?:linear|[xyz])\b", re.IGNORECASE)
 _OTHER = re.compile(r"\b(?:mass|weight|acceleration\w*|flippers?)\b", re.IGNORECASE)
@@ -87,10 +90,11 @@ def is_left_open(text: str, what: Proven, *, alone: bool) -> bool:
 
 
 def is_about(link: Span, what: Proven) -> bool:
-    """Whether the line of a link names what it proves."""
+    """Whether the line of a link names what it proves, near it."""
     text = link.source.text
-    start, end = text.rfind("\n", 0, link.start) + 1, text.find("\n", link.end)
-    return _is_about(_URL.sub(" ", text[start : end if end >= 0 else len(text)]), what)
+    before = text[max(0, link.start - _NEAR) : link.start].rpartition("\n")[2]
+    behind = text[link.end : link.end + _NEAR].partition("\n")[0]
+    return _is_about(_URL.sub(" ", f"{before} {behind}"), what)
 
 
 def _is_about(sentence: str, what: Proven) -> bool:

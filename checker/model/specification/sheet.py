@@ -6,6 +6,7 @@ import re
 from bisect import bisect_left
 from collections.abc import Iterator
 from functools import cached_property
+from itertools import islice
 
 from checker.base.record import Record
 from checker.model.specification.mass_cost_endurance import durations, endurance, masses, total_mass
@@ -17,6 +18,7 @@ from checker.model.specification.motion import (
     turning_radii,
 )
 from checker.model.specification.proof import (
+    MAX_LINKS,
     Proven,
     is_about,
     is_left_open,
@@ -149,7 +151,7 @@ class Specification(Record, eq=False, dict=True):
         if section is None:
             return ()
         stretch = self.stretch_of(section)
-        return tuple(links_in_list(self.source, stretch.start, stretch.end))
+        return tuple(islice(links_in_list(self.source, stretch.start, stretch.end), MAX_LINKS))
 
     def proves(self, what: Proven) -> bool:
         """Whether the sheet links to a measurement, in the section about it or on validation.
