@@ -45,7 +45,7 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         yield from _reversed(drive, left, least_cosine)
         yield from _swapped(drive, left, least_share)
         yield from _steering(robot, drive, least_cosine)
-    yield from _against_its_side(robot.locomotion.undriven, least_cosine)
+    yield from _against_its_side(robot.locomotion.undriven, least_cosine, least_share)
 
 
 def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[Finding]:
@@ -105,16 +105,21 @@ def _reversed(drive: WheelDrive, left: Vector, least_cosine: float) -> Iterator[
         )
 
 
-def _against_its_side(wheels: Sequence[Wheel], least_cosine: float) -> Iterator[Finding]:
+def _against_its_side(
+    wheels: Sequence[Wheel], least_cosine: float, least_share: float
+) -> Iterator[Finding]:
     """Report wheels that no plugin drives and that turn against most others of their side.
 
     Which way the axis of a caster or of a swerve drive points says nothing.
     """
+    offsets = {wheel: abs(wheel.centre[1]) for wheel in wheels if wheel.centre is not None}
+    nearest = least_share * max(offsets.values(), default=0.0)
     for side in Side:
         along = [
             (_dot(wheel.axis, _LEFT), wheel)
-            for wheel in wheels
-            if wheel.side is side and wheel.axis is not None and wheel.steering is None
+            for wheel, offset in offsets.items()
+            if wheel.side is side and wheel.axis is not None
+            if wheel.steering is None and offset > nearest
         ]
         leftward = [wheel for cosine, wheel in along if cosine >= least_cosine]
         rightward = [wheel for cosine, wheel in along if cosine <= -least_cosine]
