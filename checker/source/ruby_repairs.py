@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import chain, islice
 
@@ -35,6 +36,7 @@ _LOOPS = frozenset({"while", "until", "for"})
 _CONDITIONS = frozenset({"if", "unless", *_LOOPS})
 _LITERALS = frozenset({"string", "regex"})
 _QUOTES = ('"', "'")
+_OPENING = re.compile(r"<<[-~]?[\"'`]?([A-Z]\w*)")
 _WORD_ALONE = re.compile(r"^[ \t]*([A-Z]\w*)[ \t]*$", re.MULTILINE)
 
 
@@ -73,8 +75,32 @@ def _missing_end(tree: RubyNode, until: float) -> SyntaxFault | None:
         if is_understood(whole, until):
             parts = parse_ruby(SourceText(tree.source.file, whole)).parts
             part = next((part for part in parts if part.end > len(text)), None)
-            return _opened(tree, part.children[0]) if part and part.children else None
+            if part is None or not part.children:
+                return None
+            inner = _misplaced(part) if count == 1 else None
+            return _opened(tree, (inner or part).children[0])
     return None
+
+
+def _misplaced(part: RubyNode) -> RubyNode | None:
+    """Return the innermost block in a part that takes the `end` of a block around it.
+
+    Such an `end` is not indented like the line in which its block starts.
+    """
+    found = None
+    for node in part.walk():
+        first, last = (node.children or [node])[0], (node.children or [node])[-1]
+        closed = last.type == "end" and not first.named and "\n" in node.text
+        if closed and _indentation(first) != _indentation(last):
+            found = node
+    return found
+
+
+def _indentation(token: RubyNode) -> int:
+    """Return how far the line of a token is indented."""
+    text = token.source.text
+    start = text.rfind("\n", 0, token.start) + 1
+    return len(text[start : token.start]) - len(text[start : token.start].lstrip())
 
 
 def _opened(tree: RubyNode, token: RubyNode) -> SyntaxFault:
@@ -157,9 +183,12 @@ def _heredocs(tree: RubyNode, nodes: Sequence[RubyNode]) -> Iterator[_Repair]:
     """Open a heredoc above what the grammar does not understand, for a word that closes none."""
     text = tree.source.text
     inner = [node.start for node in nodes if node.type == "ERROR"]
-    alone = {match.start(1) for match in _WORD_ALONE.finditer(text)}
+    ends = Counter(match.group(1) for match in _WORD_ALONE.finditer(text))
+    opened = Counter(match.group(1) for match in _OPENING.finditer(text))
+    starts = {match.start(1) for match in _WORD_ALONE.finditer(text)}
     for node in nodes:
-        if node.type == "constant" and node.start in alone:
+        alone = node.type == "constant" and node.start in starts
+        if alone and ends[node.text] > opened[node.text]:
             fault = (node.span, f"no heredoc is open that this {node.text} closes")
             for at in inner[:_SUSPECTS]:
                 end = _line(text, text.rfind("\n", 0, at))[1]

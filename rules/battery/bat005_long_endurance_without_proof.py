@@ -5,6 +5,9 @@ robot: a video or a log of an endurance test, linked in the specification sheet.
 ask for the standard endurance. A sheet whose section on validation refers to that of another
 configuration has its proof there.
 
+A link proves endurance in that section or in the one about endurance, unless its line is about a
+device. It does not where the sheet says that the test was not made or is to be made.
+
 Fix: link the video or the data in the section "Validation and Specification Links". Without a
 measurement, raise `power_load`.
 Source: SubT Model Preparation Guide; reviews limit robots to one hour "until endurance validation
@@ -13,6 +16,7 @@ data can be provided" (`subt_standards.json`).
 
 from checker.model.battery import RELEASE, Battery, batteries
 from checker.model.robot import Robot
+from checker.model.specification.proof import Proven
 from checker.model.specification.sheet import Specification
 from checker.rule import Concern, Context, Findings, HasSpan, Severity, finding, rule, unchecked
 
@@ -38,7 +42,7 @@ def check(
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
-    if specification.validation_links or specification.other_validation:
+    if specification.proves(Proven.ENDURANCE):
         return
     if context.release != RELEASE:
         yield unchecked(f"how fast a battery drains is known for Gazebo {RELEASE.title()} only")
@@ -77,12 +81,26 @@ _PLAIN = "# Rover\n## Validation\n* https://acme.com/rover/endurance.csv\n"
 _REFERS = "# Rover\n## Validation\nSee [there](../acme_rover_sensor_config_2/specifications.md).\n"
 _MARK = "<!-- ^ BAT005 -->"
 
+
+def _sheet(endurance: str, validation: str = "", more: str = "") -> dict[str, str]:
+    return {
+        "@fragment": _battery("4.95"),
+        "specifications.md": f"# Rover\n{more}\n## Endurance Characteristics {endurance}\n"
+        f"## Validation\n{validation}\n",
+    }
+
+
+_VIDEO = "https://youtu.be/H15Kpvpepv4"
+
 GOOD = [
     _battery("9.9"),
     {"@fragment": _battery("4.95"), "specifications.md": f"# Rover\n{_LINK}"},
     _battery("13.2", "18") + _COPTER,
     {"@fragment": _battery("4.95"), "specifications.md": _PLAIN},
     {"@fragment": _battery("4.95"), "specifications.md": _REFERS},
+    _sheet(f"\nIt ran for two hours: {_VIDEO}"),
+    _sheet("\nTwo hours until the battery was empty.", f"* Drive with the camera on: {_VIDEO}"),
+    _sheet("\nTwo hours.", f"* Endurance test: {_VIDEO}\n* Mass measurement: TBD"),
 ]
 BAD = [
     _battery("4.95", mark=f" {_MARK}"),
@@ -94,4 +112,8 @@ BAD = [
         "@fragment": _battery("6.6", "18") + _COPTER,
         "specifications.md": f"# R\n## Endurance\n* Battery life of 1200 seconds {_MARK}\n",
     },
+    _sheet(f"{_MARK}\nTwo hours.", f"* Lidar in dust: {_VIDEO}"),
+    _sheet(f"{_MARK}\nTwo hours.", more=f"## Sensors\n* Ouster OS1: {_VIDEO}"),
+    _sheet(f"{_MARK}\nTwo hours; the test is still to be done.", f"* {_VIDEO}"),
+    _sheet(f"{_MARK}\nTwo hours.", f"* {_VIDEO}\n* Endurance test: TBD"),
 ]

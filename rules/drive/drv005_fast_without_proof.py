@@ -5,6 +5,10 @@ video or a recording, with a link in the specification sheet. Datasheets of sens
 about speed, and neither do placeholders such as `https://youtu.be/xxxx`. Of the accepted packages
 that we checked, two show this: one links only datasheets, the other placeholders.
 
+A link proves speed in the section "Validation and Specification Links" or in the one on motion,
+unless its line is about a device. It does not where the sheet says that the test was not made or is
+to be made.
+
 Fix: link the video or the data in the section "Validation and Specification Links". Without a
 measurement, lower the limits.
 Source: SubT Model Preparation Guide; reviews limit robots to 1 m/s "until validation is completed".
@@ -17,6 +21,7 @@ from checker.model.locomotion.motion_limits import (
 )
 from checker.model.robot import Robot
 from checker.model.specification.motion import MotionQuantity
+from checker.model.specification.proof import Proven
 from checker.model.specification.sheet import Specification
 from checker.rule import Concern, Findings, HasSpan, Severity, finding, rule, unchecked
 from checker.source.text import Located
@@ -45,8 +50,7 @@ def check(
         and not is_unlimited(speed)
         and abs(speed.value) > (air if motion.flies else ground)
     ]
-    proven = specification.validation_links or specification.other_validation
-    if not too_fast or proven:
+    if not too_fast or specification.proves(Proven.SPEED):
         return
     speed, motion = max(too_fast, key=lambda pair: abs(pair[0].value))
     allowed = air if motion.flies else ground
@@ -79,6 +83,15 @@ _COPTER = """
 </plugin>
 """
 _LINKS = "## Validation and Specification Links\n"
+_VIDEO = "https://youtu.be/H15Kpvpepv4"
+
+
+def _sheet(motion: str, validation: str = "", more: str = "") -> dict[str, str]:
+    return {
+        "@fragment": _drive("2"),
+        "specifications.md": f"# Rover\n{more}\n## Motion {motion}\n{_LINKS}{validation}\n",
+    }
+
 
 GOOD = [
     _drive("1"),
@@ -92,6 +105,9 @@ GOOD = [
         "@fragment": _COPTER,
         "specifications.md": f"# Rover\n{_LINKS}* [Validation data](https://acme.com/flights.bag)\n",
     },
+    _sheet(f"\nIt drives 2 m/s: {_VIDEO}"),
+    _sheet("\nIt drives 2 m/s.", f"* Speed: {_VIDEO}\n* Maximum angular speed: TBD"),
+    _sheet("\nThe turning radius was not measured.", f"* {_VIDEO}"),
 ]
 BAD = [
     _drive("2", _MARK),
@@ -105,4 +121,8 @@ BAD = [
         "specifications.md": f"# Rover\n## Motion{_MARK}\nIt flies.\n"
         f"{_LINKS}* [Validation video](https://youtu.be/xxxxxxxxx/)\n",
     },
+    _sheet(f"{_MARK}\nIt drives 2 m/s.", f"* Camera: {_VIDEO}"),
+    _sheet(f"{_MARK}\nIt drives 2 m/s.", more=f"## Sensors\n* Ouster OS1: {_VIDEO}"),
+    _sheet(f"{_MARK}\nThe speed was not tested yet.", f"* {_VIDEO}"),
+    _sheet(f"{_MARK}\nIt drives 2 m/s.", f"* {_VIDEO}\n* Maximum linear speed: to be measured"),
 ]

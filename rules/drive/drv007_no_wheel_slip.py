@@ -66,13 +66,16 @@ def _rover(wheels: int, more: str = "", drive: str = "DiffDrive", mark: str = ""
 
 def _twice(second: int, mark: str = "") -> str:
     """Return a robot of four wheels with a drive for the front ones, and one for others."""
-    drive = """
-<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">{}
-  <left_joint>axle_{}</left_joint><right_joint>axle_{}</right_joint>
-</plugin>"""
     rover = _rover(4, drive="AckermannSteering")
     bare = rover[: rover.index("<plugin")]
-    return bare + drive.format(mark, 0, 1) + drive.format(mark, second, second + 1)
+    return bare + _drive(0, mark) + _drive(second, mark)
+
+
+def _drive(first: int, mark: str) -> str:
+    return f"""
+<plugin filename="libp.so" name="ignition::gazebo::systems::DiffDrive">{mark}
+  <left_joint>axle_{first}</left_joint><right_joint>axle_{first + 1}</right_joint>
+</plugin>"""
 
 
 _MARK = "  <!-- ^ DRV007 -->"

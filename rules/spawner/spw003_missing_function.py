@@ -26,13 +26,22 @@ def check(spawner: Spawner) -> Findings:
     """Report functions that are missing or cannot be called with the launcher's arguments."""
     for name, expected in EXPECTED.items():
         function = spawner.functions.get(name)
-        if function is not None:
+        if function is not None and _is_whole(function, spawner):
             yield from _judge(function, expected)
-        elif spawner.lacks(name):
+        elif function is None and spawner.lacks(name):
             yield finding(
                 spawner.entry.whole(),
                 f"there is no function {name}({', '.join(expected)})",
             )
+
+
+def _is_whole(function: Function, spawner: Spawner) -> bool:
+    """Whether no syntax error stands in a function, whose parameters may then be others."""
+    whole = function.span
+    faults = (*(span for span, _ in spawner.syntax_faults), *spawner.not_understood)
+    return not any(
+        span.source is whole.source and whole.start <= span.start < whole.end for span in faults
+    )
 
 
 def _judge(function: Function, expected: list[str]) -> Iterator[Finding]:
@@ -54,6 +63,7 @@ _ROS = "def rosExecutables(_name, _worldName"
 GOOD = [
     {"launch/spawner.rb": f"{_SPAWNER})\n{_TEXTS}{_ROS})\n{_TEXTS}"},
     {"launch/spawner.rb": f"{_SPAWNER}, _more = 1)\n{_TEXTS}{_ROS}, *_rest)\n{_TEXTS}"},
+    {"launch/spawner.rb": f"{_SPAWNER})\n{_TEXTS}{_ROS.replace(',', '')})\n{_TEXTS}"},
 ]
 BAD = [
     {"launch/spawner.rb": f"# ^ SPW003\n{_SPAWNER})\n{_TEXTS}"},

@@ -8,58 +8,8 @@ from itertools import islice
 from urllib.parse import unquote
 
 from checker.model.specification.sensors import ListedSensor
-from checker.source.markdown import MAX_LENGTH, Markdown
-from checker.source.text import Located, SourceText, Span
-
-# Links of a sheet to measurements of the real robot: videos, recordings, logs.
-
-
-_COMMENT = re.compile(r"<!--.*?(?:-->|\Z)", re.DOTALL)
-_URL = re.compile(r"https?://[^\s)>\]\\]{3,2000}")
-_PLACEHOLDER = re.compile(r"x{3,}|\.\.\.|…|//(?:www\.)?example\.", re.IGNORECASE)
-_RECORDED = re.compile(
-    r"\b(?:validat\w*|tests?|testing|videos?|record\w*|(?:data)?logs?|bags?|bagfiles?|measure\w*"
-    r"|experiments?|endurance|(?:top |max\w* )?speed|turning)\b",
-    re.IGNORECASE,
-)
-_SHARED = re.compile(
-    r"//(?:[\w-]+\.)*(?:youtube\.com|youtu\.be|vimeo\.com|drive\.google\.com|docs\.google\.com"
-    r"|dropbox\.com|onedrive\.live\.com|1drv\.ms|box\.com)/",
-    re.IGNORECASE,
-)
-"""Where teams put videos and logs; manufacturers' pages are elsewhere."""
-
-
-_DATASHEETS = re.compile(r"\b(?:sensors?|specifications?|datasheets?|components?|parts)\b", re.I)
-_WORD = re.compile(r"[^\W\d_]{2}")
-
-
-def validation_links(source: SourceText, start: int, end: int) -> Iterator[Span]:
-    """Yield links to measurements; placeholders such as `https://youtu.be/xxxx` are none.
-
-    Args:
-        source: The sheet.
-        start: Where its section on validation starts: in it, words in the line such as `speed test`
-            say what a link is, and one without any word counts, unless it stands below a line such
-            as `Sensors:`. Elsewhere only its host says it.
-        end: Where that section ends.
-    """
-    # Blanks of the same length keep the offsets.
-    text = _COMMENT.sub(lambda match: " " * len(match.group()), source.text[:MAX_LENGTH])
-    offset, label = 0, ""
-    for line in text.splitlines(keepends=True):
-        inside = start <= offset < end
-        words = _URL.sub(" ", line)
-        plain = _WORD.search(words) is None and _DATASHEETS.search(label) is None
-        named = inside and (plain or _RECORDED.search(words) is not None)
-        for match in _URL.finditer(line):
-            shared = _SHARED.search(match.group()) is not None
-            if (named or shared) and not _PLACEHOLDER.search(match.group()):
-                yield Span(source, offset + match.start(), offset + match.end())
-        if inside and offset > start and words == line and line.strip():
-            label = line
-        offset += len(line)
-
+from checker.source.markdown import Markdown
+from checker.source.text import Located, Span
 
 MAX_LINKS = 2000
 _TEXT_LIMIT = 2000

@@ -6,9 +6,9 @@ import re
 from bisect import bisect_left
 from collections.abc import Iterator
 from functools import cached_property
+from itertools import islice
 
 from checker.base.record import Record
-from checker.model.specification.links import validation_links
 from checker.model.specification.mass_cost_endurance import durations, endurance, masses, total_mass
 from checker.model.specification.motion import (
     Limit,
@@ -16,6 +16,14 @@ from checker.model.specification.motion import (
     limit_of,
     limits,
     turning_radii,
+)
+from checker.model.specification.proof import (
+    MAX_LINKS,
+    Proven,
+    is_about,
+    is_left_open,
+    links_in_list,
+    links_in_text,
 )
 from checker.model.specification.quantities import Quantity
 from checker.model.specification.sensors import ListedSensor, listed_sensors
@@ -25,6 +33,7 @@ from checker.source.text import SourceText, Span
 
 _OTHER_SHEET = re.compile(r"\]\(([^()\s#]{1,200}\.md)[)#]", re.IGNORECASE)
 
+_SECTIONS = {Proven.ENDURANCE: "endurance", Proven.SPEED: "motion"}
 _REFERRED = re.compile(
     r"\b(?:see|refer\w*|same|identical)\b[^.\n]{0,100}?\b(\w{1,80}_sensor_config_\d{1,4})\b", re.I
 )
@@ -137,12 +146,31 @@ class Specification(Record, eq=False, dict=True):
 
     @cached_property
     def validation_links(self) -> tuple[Span, ...]:
-        """Links to measurements of the real robot, in the section for them or elsewhere."""
+        """Links to measurements of the real robot in the section on validation."""
         section = self.section("validation")
         if section is None:
-            return tuple(validation_links(self.source, 0, 0))
+            return ()
         stretch = self.stretch_of(section)
-        return tuple(validation_links(self.source, stretch.start, stretch.end))
+        return tuple(islice(links_in_list(self.source, stretch.start, stretch.end), MAX_LINKS))
+
+    def proves(self, what: Proven) -> bool:
+        """Whether the sheet links to a measurement, in the section about it or on validation.
+
+        It does not where it says that the test was not made or is to be made.
+        """
+        validation, about = self.section("validation"), self.section(_SECTIONS[what])
+        if about is not None and is_left_open(about.text, what, alone=True):
+            return False
+        if any(is_about(link, what) for link in self.validation_links):
+            return True
+        if validation is not None and is_left_open(validation.text, what, alone=False):
+            return False
+        linked = self.validation_links or self.other_validation
+        return bool(linked) or (about is not None and self._links_to_video(about))
+
+    def _links_to_video(self, section: Section) -> bool:
+        stretch = self.stretch_of(section)
+        return any(links_in_text(self.source, stretch.start, stretch.end))
 
     @cached_property
     def other_validation(self) -> str:
