@@ -127,7 +127,7 @@ def test_odd_values_stop_no_rule(rule: Rule, tmp_path: Path) -> None:
         ("REF006", 1, {"folder": "textures/"}, ""),
         ("REF006", 1, {"folder": "textures"}, ""),
         ("ROS012", -3, {"published_elsewhere": ""}, "(camera_optical_frame)"),
-        ("SEN010", 13, {"rgbd_pixels": 100}, "expected at most 100 pixels"),
+        ("SEN010", -1, {"rgbd_pixels": 100}, "expected at most 100 pixels"),
         ("BRD002", 0, {"depth": -0.05}, "inside link"),
         ("SEN024", -4, {"angle": 1.6}, "looks in the same direction"),
         ("SEN024", -4, {"angle": 1.5}, ""),
