@@ -222,7 +222,7 @@ KINEMATICS = (
     kind(
         "an axis in an unknown frame",
         "KIN010 SDF003 SDF004",
-        model("//axis/xyz", with_attribute("expressed_in", "x")),
+        model("//axis[not(use_parent_model_frame)]/xyz", with_attribute("expressed_in", "x")),
     ),
     kind(
         "a wheel's axis askew",
@@ -551,14 +551,16 @@ SENSORS = (
         "a camera that looks up",
         "SEN026",
         model(
-            "//sensor[contains(@name,'front')]/pose", with_text("0.2 0 0.3 0 -1.5707963267948966 0")
+            "//sensor[contains(@name,'front') and contains(@type,'camera')]/pose",
+            with_text("0.2 0 0.3 0 -1.5707963267948966 0"),
         ),
     ),
     kind(
         "a camera that looks back",
         "SEN026",
         model(
-            "//sensor[contains(@name,'front')]/pose", with_text("0.4 0 0.4 0 0 3.141592653589793")
+            "//sensor[contains(@name,'front') and contains(@type,'camera')]/pose",
+            with_text("0.4 0 0.4 0 0 3.141592653589793"),
         ),
     ),
     kind(

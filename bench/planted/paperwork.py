@@ -9,6 +9,7 @@ from bench.planted.edits import (
     Kind,
     cut,
     delete,
+    has,
     kind,
     on_file,
     overwritten,
@@ -118,8 +119,18 @@ SPECIFICATIONS = (
         "DOC009",
         sheet(r"Turning radius of [\d.]+ m", "Turning radius of 0.2 m"),
     ),
-    kind("no proof of speed", "DRV005 DOC008", sheet(r"^.*(Speed|Motion Test).*$")),
-    kind("no proof of endurance", "BAT005", sheet(r"^.*Endurance (-|Test).*$")),
+    kind(
+        "no proof of speed",
+        "DRV005",
+        has("launch/spawner.rb", r"<max_velocity>[2-9]"),
+        text(SHEET, r"https?://(youtu|drive)\S*", "a video", everywhere=True),
+    ),
+    kind(
+        "no proof of endurance",
+        "BAT005",
+        has(SHEET, r"10482 seconds"),
+        text(SHEET, r"https?://(youtu|drive)\S*", "a video", everywhere=True),
+    ),
 )
 
 MANIFEST = (

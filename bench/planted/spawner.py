@@ -32,7 +32,7 @@ def gone(tag: str) -> Edit:
 
 RUBY = (
     kind("a function without end", "SPW001", ruby(r"^end$")),
-    kind("a here-document without end", "SPW001", ruby(r"^  SDF$")),
+    kind("a here-document without end", "SPW001 SPW003 SPW004", ruby(r"^  SDF$")),
     kind("a string without end", "SPW001", ruby(r"\\n\"$", r"\\n")),
     kind("a bracket too many", "SPW001", ruby(r"_yaw\)$", "_yaw))")),
     kind("an insertion without end", "SPW001 SPW004", ruby(r"#\{_z \+ ([\d.]+)\}", r"#{_z + \1")),

@@ -19,6 +19,7 @@ from bench.planted.edits import (
 )
 
 FILE = "urdf/*.urdf"
+MOVED = "//link[collision][@name=/robot/joint[@type!='fixed']/child/@link]"
 MOVING = "/robot/joint[@type='revolute' or @type='continuous']"
 
 
@@ -145,7 +146,7 @@ KINDS: tuple[Kind, ...] = (
         "URDF: a link without inertia",
         "INE001 URD007",
         urdf(
-            "//link[collision][inertial/mass/@value > 0.02]/inertial",
+            f"{MOVED}[inertial/mass/@value > 0.02]/inertial",
             removed,
         ),
     ),

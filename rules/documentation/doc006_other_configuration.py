@@ -2,9 +2,10 @@
 
 A copied specification sheet that keeps the other number or command starts the other robot: whoever
 follows it drives something else. Mentions of other configurations are fine; only what the sheet
-says about itself counts. Another team is reported in the title, in the text up to the next heading
-and in the description of model.config, unless the sentence names the own team too, or says with
-words such as "based on" where the robot comes from. PKG012 reports names of other packages.
+says about itself counts. Another team is reported in the title, in the text below it, in the first
+paragraph of the description and in the description of model.config, unless the sentence names the
+own team too, or says with words such as "based on" where the robot comes from. PKG012 reports names
+of other packages.
 
 Fix: write this package's name and number.
 Source: SubT reviews of sheets copied from another configuration.
@@ -27,7 +28,7 @@ from checker.package.submissions import (
 )
 from checker.package.teams import TEAM_OF, other_teams
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
-from checker.source.markdown import PassageKind
+from checker.source.markdown import Passage, PassageKind
 from checker.source.text import Located, Span
 
 _ITSELF = re.compile(
@@ -38,7 +39,7 @@ _ITSELF = re.compile(
     re.IGNORECASE,
 )
 _INTRODUCTION = 4
-"""Passages that say what the sheet is about: the title, and what stands below it."""
+"""Passages: the title, and what stands below it."""
 _COMMAND = re.compile(
     r"\b(?:roslaunch|ign\s+launch|rosrun|robotConfig\d*:=|modelName:=)[^\n]{0,500}", re.IGNORECASE
 )
@@ -74,17 +75,24 @@ def _title(sheet: Specification, owner: str, number: int) -> Iterator[Finding]:
 
 
 def _introduced(sheet: Specification, owner: str) -> Iterator[Finding]:
-    """Report another team in the title or in the first passages, up to the next heading."""
+    """Report another team where the sheet says what it is about."""
     is_reported = title_of_another(sheet.source.text, owner) is not None
-    headings = 0
-    for passage in sheet.markdown.passages[:_INTRODUCTION]:
-        is_heading = passage.kind is PassageKind.HEADING
-        headings += is_heading
-        if headings > 1:
-            return
-        if not (is_heading and is_reported):
+    for passage in _introduction(sheet):
+        if not (passage.kind is PassageKind.HEADING and is_reported):
             for match in other_teams(passage.text, owner):
                 yield _of_team(passage.part(*match.span()), match.group(), owner)
+
+
+def _introduction(sheet: Specification) -> Iterator[Passage]:
+    """Yield the title, what stands below it, and the first passage of the description."""
+    headings = 0
+    for passage in sheet.markdown.passages[:_INTRODUCTION]:
+        headings += passage.kind is PassageKind.HEADING
+        if headings <= 1:
+            yield passage
+    section = sheet.section("description")
+    if section is not None and section.level > 1:
+        yield from section.passages[:1]
 
 
 def _described(description: Located[str], package: str) -> Iterator[Finding]:
@@ -197,6 +205,7 @@ BAD = [
     ),
     _sheet(f"# Rover of CTU-CRAS-Norlab{_MARK}"),
     _sheet(f"# Explorer - Rover{_MARK}"),
+    _sheet("# Rover", "A rover.", "## Description", f"The MARBLE Rover has six wheels.{_MARK}"),
     _config("CTU-CRAS-NORLAB Rover for SubT.", _XML_MARK),
     _config("Team Explorer's rover for SubT.", _XML_MARK),
 ]

@@ -26,11 +26,11 @@ def check(
     Options:
         least: Degrees; a smaller angle is not reported.
         most: Degrees; a larger angle is not reported.
-        step: Degrees; an angle that is no multiple of it is not reported.
+        step: Degrees, at least 1; an angle that is no multiple of it is not reported.
     """
 
     def is_in_degrees(angle: float) -> bool:
-        return least <= abs(angle) <= most and abs(angle) % step == 0.0
+        return least <= abs(angle) <= most and math.remainder(angle, max(step, 1.0)) == 0.0
 
     for pose, _ in robot.poses():
         for angle in pose.numbers[3:6] if pose.in_radians else ():

@@ -13,7 +13,7 @@ Source: definition of the moment of inertia.
 
 import math
 
-from checker.physics.mass.link_geometry import known_reach, unknown_mesh
+from checker.physics.mass.link_geometry import displacement, known_reach, unknown_mesh
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
@@ -52,6 +52,8 @@ def check(
         unknown = unknown_mesh(masses.robot, inertia.link)
         if unknown:
             yield unchecked(unknown)
+        elif ratio < warning_below and displacement(masses.robot, inertia.link, inertia.centre):
+            continue  # INE005 says so.
         elif reach and (ratio > warning_above or masses.share(name) > share):
             heavy = masses.share(name) > share and name not in masses.robot.tree.held
             grave = ratio > error_above and not masses.robot.is_mounted(name)

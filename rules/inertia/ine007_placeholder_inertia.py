@@ -63,7 +63,11 @@ def _unit(inertia: LinkInertia) -> Iterator[Finding]:
 
 
 def _alike(masses: MassProperties, group: Sequence[LinkInertia], tolerance: float) -> bool:
+    """Say whether links are of similar mass and size."""
     weights = [inertia.mass for inertia in group]
+    if all(inertia.link in masses.robot.wheels for inertia in group):
+        # Wheels of another size are a fault of their own.
+        return _near(weights, tolerance)
     boxes = [masses.robot.own_box_of(inertia.link) for inertia in group]
     sizes = [box.diagonal for box in boxes if box is not None]
     return _near(weights, tolerance) and _near(sizes, tolerance)

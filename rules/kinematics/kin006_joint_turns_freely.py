@@ -13,7 +13,7 @@ Source: SDFormat specification, axis/limit: without it the range is infinite.
 import math
 from collections.abc import Iterator
 
-from checker.model.components import Joint
+from checker.model.components import Joint, Plugin
 from checker.model.locomotion.locomotion import Wheel
 from checker.model.robot import Robot
 from checker.model.tree import Tie
@@ -64,7 +64,9 @@ def _left_out(robot: Robot) -> Iterator[Finding]:
         if not _is_unlimited(joint) or joint.scoped_name in robot.driven_joints:
             continue
         opposite = next((w for w in robot.locomotion.wheels if _is_opposite(robot, tie, w)), None)
-        if opposite is not None:
+        if opposite is not None and not _is_misnamed(
+            robot, robot.driven_joints[opposite.joint.scoped_name]
+        ):
             yield finding(
                 joint,
                 f"nothing drives wheel joint {joint.name.value!r}, but its opposite, "
@@ -72,6 +74,14 @@ def _left_out(robot: Robot) -> Iterator[Finding]:
                 related=[(opposite.joint, "is driven")],
                 key="opposite",
             )
+
+
+def _is_misnamed(robot: Robot, drive: Plugin) -> bool:
+    """Say whether a drive names a joint that does not exist, or one twice: it may mean this."""
+    elements = drive.element.descendants()
+    named = [it.text.value for it in elements if it.tag.lower().endswith("joint")]
+    known = {joint.name.value for joint in robot.joints}
+    return not known.issuperset(named) or len({*named}) < len(named)
 
 
 def _is_opposite(robot: Robot, tie: Tie, wheel: Wheel) -> bool:

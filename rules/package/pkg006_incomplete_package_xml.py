@@ -4,7 +4,7 @@ catkin refuses to build a workspace with such a package, and so no robot in it c
 need the license to use the model, and the maintainer's address to ask about it. At most a
 maintainer without a name occurs in accepted packages. An entry that is left from the template of
 another package, such as "The acme_rover_sensor_config_2 package" or a link to that package's page
-on ros.org, is incomplete as well.
+on ros.org, is incomplete as well; the link is information as long as it is a comment.
 
 Fix: add name, version (`1.0.0`), description, maintainer with email, license, and
 `<buildtool_depend>catkin</buildtool_depend>`.
@@ -20,15 +20,18 @@ from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
 from checker.package.submissions import described_package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
-from checker.source.text import Located
+from checker.source.text import Located, Span
 
 _VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
+_WIKI = r"https?://(?:www\.)?(?:wiki\.)?ros\.org/(?:wiki/)?"
 _PAGE = re.compile(
-    r"https?://(?:www\.)?(?:wiki\.)?ros\.org/(?:wiki/)?"
-    r"(\w{1,100}_(?:bringup|control|description|gazebo|robot|sensor_config_\d{1,4}|sim|simulation))/?\Z",
+    rf"{_WIKI}(?:Robots/\w{{1,100}}|\w{{1,100}}_(?:bringup|control|description|gazebo|robot|sim"
+    r"|simulation|sensor_config_\d{1,4}))/?",
     re.IGNORECASE,
 )
 """The page of a robot's package, as templates of package.xml name it."""
+_TEMPLATE_LINK = re.compile(rf"<!--\s{{0,80}}<url[^<>]{{0,80}}>({_WIKI}\w{{1,100}})</url>", re.I)
+"""What `catkin_create_pkg` writes: the page of the package, in a comment."""
 _TO_DO = re.compile(r"\s*(?:TODO|TBD|FIXME)\b")
 _COMMON = {
     "bringup",
@@ -74,15 +77,25 @@ def _left_from_copying(package: Package, manifest: PackageManifest) -> Iterator[
             severity=Severity.WARNING,
         )
     own = f"{package.name} {manifest.name.value} {description.value}".casefold()
-    for url in manifest.urls:
-        page = _PAGE.match(url.value.strip())
-        words = set(page[1].casefold().split("_")) - _COMMON if page is not None else set()
-        if page is not None and words and not any(word in own for word in words):
+    for link, severity in _links(manifest):
+        page = link.span.text.strip().rstrip("/").rpartition("/")[2]
+        words = set(page.casefold().split("_")) - _COMMON
+        if words and not any(word in own for word in words):
             yield finding(
-                url,
-                f"the link leads to the page of {page[1]}, but the package is {package.name}",
-                severity=Severity.WARNING,
+                link,
+                f"the link leads to the page of {page}, but the package is {package.name}",
+                severity=severity,
             )
+
+
+def _links(manifest: PackageManifest) -> Iterator[tuple[Located[str], Severity]]:
+    """Yield links to pages of robots' packages; one that is still a comment is information."""
+    for url in manifest.urls:
+        if _PAGE.fullmatch(url.value.strip()):
+            yield url, Severity.WARNING
+    source = manifest.span.source
+    for match in _TEMPLATE_LINK.finditer(source.text):
+        yield Located(match[1], Span(source, *match.span(1))), Severity.INFO
 
 
 def _required(manifest: PackageManifest) -> Iterator[Finding]:
@@ -146,7 +159,7 @@ def _manifest(description: str, maintainer: str, license: str) -> str:
 
 _DESCRIPTION = "The acme_rover_sensor_config_1 package</description>"
 _MAINTAINER = ' email="a@example.org">A</maintainer>'
-_WIKI = "<url>http://wiki.ros.org"
+_PAGES = "<url>http://wiki.ros.org"
 _LICENSE = "Apache-2.0</license>"
 _MARK = "  <!-- ^ PKG006 -->"
 
@@ -155,7 +168,8 @@ GOOD = [
     {
         "package.xml": _manifest(
             f"The acme_rover_sensor_config_1 tracked vehicle package</description>\n"
-            f"  {_WIKI}/rover_description</url> {_WIKI}/xacro</url>",
+            f"  {_PAGES}/rover_description</url> {_PAGES}/xacro</url>\n"
+            f"  <!-- {_PAGES}/acme_rover_sensor_config_1</url> -->",
             _MAINTAINER,
             _LICENSE,
         )
@@ -178,7 +192,14 @@ BAD = [
     },
     {
         "package.xml": _manifest(
-            f"{_DESCRIPTION}\n  {_WIKI}/quadrotor_description</url>{_MARK}", _MAINTAINER, _LICENSE
+            f"{_DESCRIPTION}\n  {_PAGES}/quadrotor_description</url>{_MARK}", _MAINTAINER, _LICENSE
+        )
+    },
+    {
+        "package.xml": _manifest(
+            f"{_DESCRIPTION}\n  <!-- {_PAGES}/x1_sensor_config_6</url> -->{_MARK}",
+            _MAINTAINER,
+            _LICENSE,
         )
     },
 ]

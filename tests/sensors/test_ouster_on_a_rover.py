@@ -164,6 +164,10 @@ def rover(samples: Path, tmp_path: Path) -> Rover:
     assert "one IMU and" in text
     text = text.replace("one planar lidar", "two lidars").replace("one IMU and", "two IMUs and")
     config.write_text(text, "utf-8")
+    manifest = folder / "package.xml"
+    text = manifest.read_text("utf-8")
+    assert "a planar lidar, two cameras and an IMU" in text
+    manifest.write_text(text.replace("a planar lidar", "two lidars").replace("an IMU", "two IMUs"))
 
     def checked(
         path: str = "", right: str = "", wrong: str = "", *, select: tuple[str, ...] = ()

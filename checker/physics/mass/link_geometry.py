@@ -124,6 +124,15 @@ def _placed(robot: Robot, link: Link) -> Iterator[tuple[_Shape, Transform]]:
             yield shape, pose
 
 
+def displacement(robot: Robot, link: Link, centre: Vector) -> float:
+    """Return how far a centre of mass is outside the box around a link's shapes.
+
+    As a multiple of the box's diagonal; 0 where the box is not known.
+    """
+    box = known_box(robot, link)
+    return box.gap(Box(centre, centre)) / box.diagonal if box and box.diagonal else 0.0
+
+
 def known_box(robot: Robot, link: Link) -> Box | None:
     """Return the box around the shapes of a link that are known, in the robot's frame."""
     boxes = [robot.box_of_shape(link, shape) for shape, _ in _placed(robot, link)]

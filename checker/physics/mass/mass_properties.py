@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
 from checker.model.components import Joint, Link
 from checker.model.geometry.transform import Vector
 from checker.model.robot import Robot
+from checker.physics.mass.link_geometry import displacement
 from checker.source.text import Span
 
+_HEAVY, _OUTSIDE = 0.02, 0.5
+"""Share of the robot's mass, and displacement, from which a centre of mass is not believed."""
 _NOISE = 1e-14
 """kg·m²: a grain of sand has more."""
 
@@ -86,7 +89,17 @@ class MassProperties(Record, eq=False):
     def unbalanced(self) -> str:
         """Why it is not known how the robot stands, as the end of a sentence; empty when it is."""
         robot = self.robot
-        return robot.unweighed or robot.unplaced_part or robot.bare_wheel or self.support_unknown
+        unknown = robot.unweighed or robot.unplaced_part or robot.bare_wheel
+        return unknown or self.support_unknown or next(self._displaced(), "")
+
+    def _displaced(self) -> Iterator[str]:
+        """Yield links whose centre of mass cannot be where it is, as the end of a sentence."""
+        for name, inertia in self.links.items():
+            link, centre = inertia.link, inertia.centre
+            if link.inertial is None or centre is None or not self.share(name) > _HEAVY:
+                continue
+            if displacement(self.robot, link, centre) > _OUTSIDE:
+                yield f"the centre of mass of link {link.name.value!r} is outside it"
 
     @property
     def weighed(self) -> Mapping[str, LinkInertia]:
