@@ -28,7 +28,9 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
             is an error.
     """
     moved = robot.locomotion
-    for wheel in (*moved.wheels, *moved.undriven):
+    judged = [(wheel, Severity.ERROR) for wheel in moved.wheels]
+    judged += [(wheel, Severity.WARNING) for wheel in moved.undriven]
+    for wheel, severity in judged:
         angle = askew(robot, wheel)
         rolls = tread(robot, wheel)
         if rolls is None or angle is None or math.degrees(angle) <= degrees:
@@ -38,7 +40,7 @@ def check(robot: Robot, *, degrees: float = 1.0) -> Findings:
             f"{rolls.shape.geometry.shape} {rolls.shape.name.value!r} of wheel "
             f"{wheel.link.name.value!r} is {math.degrees(angle):.3g}° off the axis of joint "
             f"{wheel.joint.name.value!r}, expected 0°",
-            severity=Severity.WARNING if wheel in moved.undriven else Severity.ERROR,
+            severity=severity,
             related=[(wheel.joint, "the joint")],
         )
 
