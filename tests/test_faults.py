@@ -7,7 +7,7 @@ import pytest
 from bench.faults import ROBOTS, Result, results
 from tests.real_packages import CORPUS, MODERN, needs
 
-pytestmark = [needs(CORPUS), needs(MODERN)]
+pytestmark = [*needs(CORPUS), *needs(MODERN)]
 
 
 @pytest.fixture(scope="module")
