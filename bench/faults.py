@@ -23,7 +23,7 @@ from random import Random
 
 from lxml.etree import LxmlError
 
-from bench.planted import launch, model, paperwork, spawner, urdf
+from bench.planted import launch, model, paperwork, sensors, shapes, spawner, urdf
 from bench.planted.edits import Kind
 from checker.pipeline import check_package
 from checker.settings import Settings
@@ -32,7 +32,14 @@ from tests.judged.judgements import folder_of
 Found = frozenset[tuple[str, str, str, str]]
 """Rules, files, elements and messages of findings."""
 
-SUBMISSION = (*model.KINDS, *spawner.KINDS, *launch.KINDS, *paperwork.KINDS)
+SUBMISSION = (
+    *model.KINDS,
+    *shapes.KINDS,
+    *sensors.KINDS,
+    *spawner.KINDS,
+    *launch.KINDS,
+    *paperwork.KINDS,
+)
 
 
 @dataclass(frozen=True)
