@@ -19,6 +19,9 @@ from checker.expand.launch.graph import Remap
 from checker.expand.xacro.files import ROOT
 from checker.source.text import Located, Span
 
+SHARE = ROOT
+"""The folder above all share folders: what `package://` and `model://` start from."""
+
 
 def is_known(text: str) -> bool:
     """Whether nothing in a text is left to the machine that launches."""
@@ -51,6 +54,8 @@ def share_path(text: str) -> SharePath | None:
 
 def shown(text: str) -> str:
     """Return a text for messages: share folders as a launch file in XML writes them."""
+    if text == SHARE:
+        return "share"
     parts = text.split(f"{ROOT}/")
     rest = (part.partition("/") for part in parts[1:])
     return parts[0] + "".join(
