@@ -12,6 +12,7 @@ from checker.expand.ros2_launch.values import (
     Guarded,
     Made,
     PlacedText,
+    Symbol,
     Unknown,
     Value,
     chosen,
@@ -100,7 +101,7 @@ def _parameter(name: str, value: Value, context: Context, span: Span) -> Paramet
     as_text = False
     if isinstance(value, Made) and value.name == "ParameterValue":
         kind = chosen(value.values.get("value_type"))
-        as_text = getattr(kind, "last", kind) == "str"
+        as_text = (kind.last if isinstance(kind, Symbol) else kind) == "str"
         span = value.span
         value = chosen(value.values.get("value"))
     substituted = _is_substitution(value)
