@@ -14,7 +14,7 @@ from checker.expand.ros2_launch.graph import (
     Argument,
     Component,
     Condition,
-    Environment,
+    EnvironmentChange,
     FileUse,
     Include,
     LaunchFault,
@@ -62,7 +62,7 @@ class Gathered:
     components: list[LoadedComponents] = field(default_factory=list)
     processes: list[Process] = field(default_factory=list)
     includes: list[Include] = field(default_factory=list)
-    environment: list[Environment] = field(default_factory=list)
+    environment: list[EnvironmentChange] = field(default_factory=list)
     files: list[FileUse] = field(default_factory=list)
     faults: list[LaunchFault] = field(default_factory=list)
     unread: list[Unread] = field(default_factory=list)
@@ -278,7 +278,7 @@ class Visitor:
         self.found.processes.append(
             Process(
                 words=words,
-                shell=chosen(made.values.get("shell")) in (True, "true", "True"),
+                in_shell=chosen(made.values.get("shell")) in (True, "true", "True"),
                 conditions=context.conditions,
                 after=context.after,
                 span=made.span,
@@ -397,7 +397,7 @@ class Visitor:
         elif mode == "unset":
             context.state.environment.pop(str(name), None)
         self.found.environment.append(
-            Environment(
+            EnvironmentChange(
                 name=str(name),
                 value=_located(value, made.span),
                 mode=mode,

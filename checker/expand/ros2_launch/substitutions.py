@@ -96,7 +96,9 @@ def _plain(name: str) -> Callable[[Made, Context], Text]:
 def _wrapped(form: str, name: str) -> Callable[[Made, Context], Text]:
     def work(made: Made, context: Context) -> Text:
         text = _value(made, name, context)
-        return text if isinstance(text, Unknown) else PlacedText(form.format(text), made.span)
+        return (
+            text if isinstance(text, Unknown) else PlacedText(form.replace("{}", text), made.span)
+        )
 
     return work
 
