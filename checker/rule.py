@@ -115,12 +115,14 @@ class Context(Record):
         sdf_version: SDF version that the profile asks for; empty when the file's own counts.
         reads: Newest SDF version that the target knows: it turns older files into that one, so
             that what is new in it counts in them too.
+        distro: ROS 2 distribution (`humble`, `jazzy`, …); empty for a profile that is about none.
     """
 
     profile: str = "subt"
     release: str = "dome"
     sdf_version: str = "1.6"
     reads: str = "1.7"
+    distro: str = ""
 
     @property
     def of_submissions(self) -> bool:

@@ -22,7 +22,7 @@ from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
 from checker.rule import Rule
-from checker.rulebook.profiles import profile_names
+from checker.rulebook.profiles import distro_names, profile_names
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
 from checker.rulebook.suppression.entries import SettingsEntry, entries_of
 from checker.source.text_file import read_text
@@ -59,6 +59,7 @@ class Settings(Record):
         package_path: Folders in which further packages are found.
         suppress: Findings that shall not count.
         baseline: Findings that were there before, which do not count either.
+        distro: ROS 2 distribution to judge for; empty for the profile's default.
     """
 
     profile: str = DEFAULT_PROFILE
@@ -77,6 +78,7 @@ class Settings(Record):
     package_path: tuple[Path, ...] = ()
     suppress: tuple[SettingsEntry, ...] = ()
     baseline: Baseline = field(default_factory=Baseline)
+    distro: str = ""
 
     def selects(self, rule: Rule) -> bool:
         """Whether the user wants this rule to run."""
@@ -99,6 +101,7 @@ class Settings(Record):
         if self.source is None:
             return ""
         changes = [f"profile {self.profile}"]
+        changes += [f"distro {self.distro}"] if self.distro else []
         changes += [f"only {', '.join(self.select)}"] if self.select else []
         changes += [f"without {', '.join(self.ignore)}"] if self.ignore else []
         changes += [f"severity of {', '.join(self.severity)}"] if self.severity else []
@@ -181,6 +184,7 @@ def _tool_section(content: Mapping[str, Any]) -> Any:
 
 _KEYS = {
     "profile": "profile",
+    "distro": "distro",
     "select": "select",
     "ignore": "ignore",
     "fail-on": "fail_on",
@@ -229,8 +233,9 @@ def _is_huge(content: object) -> bool:
 
 def _convert(key: str, value: Any, path: Path) -> Any:
     match key:
-        case "profile":
-            return _one_of(key, value, profile_names(), path)
+        case "profile" | "distro":
+            names = profile_names() if key == "profile" else distro_names()
+            return _one_of(key, value, names, path)
         case "fail-on":
             return Severity(_one_of(key, value, ("error", "warning"), path))
         case "select" | "ignore":

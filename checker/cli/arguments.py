@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-PROFILES = ("subt", "sdf", "urdf", "gazebo-harmonic")
+PROFILES = (
+    *("subt", "sdf", "urdf", "gazebo-harmonic", "gazebo-fortress", "gazebo-ionic", "gazebo-jetty"),
+    "ros2",
+)
+DISTROS = ("humble", "iron", "jazzy", "kilted", "lyrical", "rolling")
 FORMAT_NAMES = ("text", "json", "sarif", "github", "junit", "markdown", "html")
 
 EXITS = """exit codes:

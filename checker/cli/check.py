@@ -21,7 +21,7 @@ from checker.base.output import (
     write,
 )
 from checker.base.words import plain, shortened
-from checker.cli.arguments import FORMAT_NAMES, PROFILES, add_exit_codes, ids, positive
+from checker.cli.arguments import DISTROS, FORMAT_NAMES, PROFILES, add_exit_codes, ids, positive
 from checker.cli.baseline import baseline_to_renew, write_baseline
 from checker.cli.exit_code import exit_code
 from checker.finding import Safety, Severity
@@ -62,7 +62,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--statistics", action="store_true", help="print the number of findings of each rule"
     )
     parser.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: subt, or urdf for URDF)"
+        "--profile", choices=PROFILES, help="set of rules (default: what suits the package)"
+    )
+    parser.add_argument(
+        "--distro", choices=DISTROS, help="ROS 2 distribution to judge for (default: jazzy)"
     )
     parser.add_argument(
         "--select", metavar="IDS", type=ids, help="run only these rules, groups, or concern:robot"
@@ -118,6 +121,7 @@ def run(options: argparse.Namespace) -> int:
         empty_of(Path(options.report))
     wishes = {
         "profile": options.profile,
+        "distro": options.distro,
         "select": options.select,
         "ignore": options.ignore,
         "package_path": tuple(options.package_path) if options.package_path else None,

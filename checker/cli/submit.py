@@ -252,7 +252,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="access token (safer: the variable SUBT_CHECK_TOKEN, which other users cannot see)",
     )
     parser.add_argument(
-        "--profile", choices=PROFILES, help="set of rules (default: subt, or urdf for URDF)"
+        "--profile", choices=PROFILES, help="set of rules (default: what suits the package)"
     )
     parser.add_argument("--format", choices=FORMAT_NAMES, default="text")
     parser.add_argument(

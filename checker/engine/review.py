@@ -126,7 +126,7 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
     subject = Subject(package, cache, devices=known_devices(settings.devices))
     try:
         check_against_rules(settings, all_rules())
-        judge = profile(settings.profile)
+        judge = profile(settings.profile, settings.distro)
         return run_and_set_aside(all_rules(), subject, judge, settings).findings
     finally:
         subject.close()
@@ -141,7 +141,7 @@ def _report_or_crash(subject: Subject, shown: str, settings: Settings) -> Packag
 
 
 def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
-    package, judge = subject.package, profile(settings.profile)
+    package, judge = subject.package, profile(settings.profile, settings.distro)
     with subject.stages.stage("rules", "rules"):
         subject.start(needed_parts(all_rules(), judge, settings))
         if settings.display and not isinstance(subject.display, NotAvailable):

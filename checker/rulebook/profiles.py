@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
+from msgspec.structs import replace
+
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.finding import Severity
@@ -36,7 +38,7 @@ class Profile(Record):
 
 @cache
 def _groups() -> frozenset[str]:
-    names = [name for profile in profile_names() for name in table("profiles")[profile]["rules"]]
+    names = [name for judge in map(profile, profile_names()) for name in judge.rules]
     return frozenset(name.rstrip("0123456789") for name in names)
 
 
@@ -45,18 +47,39 @@ def profile_names() -> tuple[str, ...]:
     return tuple(name for name in table("profiles") if not name.startswith("_"))
 
 
-def profile(name: str) -> Profile:
+def profile(name: str, distro: str = "") -> Profile:
     """Return a profile.
 
+    Args:
+        name: Of the profile.
+        distro: ROS 2 distribution, for a profile that is about one; its own default when empty.
+
     Raises:
-        KeyError: There is no profile of that name.
+        KeyError: There is no profile or no distribution of that name.
     """
     entry = table("profiles")[name]
+    entry = {**table("profiles").get(entry.get("like", ""), {}), **entry}
+    context = Context(name, entry["release"], entry["sdf_version"], entry["reads"])
+    if "distro" in entry:
+        context = _for_distro(context, distro or entry["distro"])
     return Profile(
         name,
         entry["title"],
-        Context(name, entry["release"], entry["sdf_version"], entry["reads"]),
+        context,
         tuple(entry["rules"]),
         tuple(entry["without"]),
         {rule: Severity(level) for rule, level in entry["severity"].items()},
     )
+
+
+def distro_names() -> tuple[str, ...]:
+    """Return the names of the ROS 2 distributions."""
+    return tuple(entry["distro"] for entry in table("gazebo_releases")["ros"])
+
+
+def _for_distro(context: Context, distro: str) -> Context:
+    """Return the context with the Gazebo release that a distribution comes with."""
+    releases = {entry["distro"]: entry["gazebo"] for entry in table("gazebo_releases")["ros"]}
+    reads = {it["release"]: it["sdf_version"] for it in table("gazebo_releases")["releases"]}
+    release = releases[distro]
+    return replace(context, distro=distro, release=release, reads=reads[release])

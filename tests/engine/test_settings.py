@@ -42,6 +42,7 @@ def settings_from(text: str, folder: Path, name: str = "subt-check.toml") -> Set
 def test_everything_that_can_be_set(tmp_path: Path) -> None:
     settings = settings_from(
         """profile = "sdf"
+        distro = "humble"
         select = ["SEN", "INE001"]
         ignore = ["no-inertial"]
         fail-on = "warning"
@@ -65,6 +66,7 @@ def test_everything_that_can_be_set(tmp_path: Path) -> None:
         tmp_path / "subt-check.toml",
         trial=False,
         thorough=True,
+        distro="humble",
     )
     assert "; without trial; thorough" in settings.description
 
@@ -169,7 +171,7 @@ def test_the_command_line_replaces_what_it_names() -> None:
     [
         ("profile = !", "is not TOML: Invalid value (at line 1, column 11)"),
         (f"profile = {'[' * 3000}", "is nested too deeply"),
-        ("colour = 1", "unknown key 'colour', expected one of profile, select, ignore, "),
+        ("colour = 1", "unknown key 'colour', expected one of profile, distro, select, "),
         ("profile = 'mars'", "profile is 'mars', expected one of subt, sdf, urdf, "),
         ("profile = ['subt']", "profile is ['subt'], expected one of subt, sdf, urdf, "),
         ("fail-on = 'info'", "fail-on is 'info', expected one of error, warning"),
