@@ -17,7 +17,7 @@ BOOK = {
     "GEO": 16,
     "MSH": 10,
     "SEN": 27,
-    "PLG": 9,
+    "PLG": 10,
     "SPW": 13,
     "DRV": 11,
     "BAT": 5,

@@ -14,7 +14,9 @@ packages (`subt_plugins.json`). None of the accepted packages that we checked sh
 from checker.base.words import Suggestions
 from checker.model.plugin_library import (
     classic_plugin,
+    is_of_gazebo,
     library_stem,
+    newer_name,
     plugin_libraries,
     release_label,
 )
@@ -40,6 +42,8 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
         stem = library_stem(plugin.filename.value)
         if not stem or stem in known or classic_plugin(stem) is not None:
             continue
+        if not context.of_submissions and newer_name(stem) in known:
+            continue  # PLG010 says so.
         if lenders.unknown:
             yield unchecked(
                 f"{plugin.filename.value} may come from {', '.join(lenders.unknown)}, which is not "
@@ -62,7 +66,7 @@ def _must_be_there(stem: str, context: Context) -> bool:
     Submissions bring nothing along. Elsewhere, libraries of other packages are found by the
     simulator's paths; only those that bear Gazebo's own name are expected to be its own.
     """
-    return context.of_submissions or stem.startswith(("ignition-gazebo-", "gz-sim-"))
+    return context.of_submissions or is_of_gazebo(stem)
 
 
 _CMAKE = """project(acme_rover_sensor_config_1)
