@@ -54,9 +54,8 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     yield from _lost(package, config)
     if missing := list(_missing(config)):
         words = f"{', '.join(missing[:-1])} and {missing[-1]}" if missing[1:] else missing[0]
-        yield finding(
-            config, f"model.config has no {words}", severity=Severity.WARNING, key="missing"
-        )
+        severity = Severity.WARNING if context.of_submissions else Severity.INFO
+        yield finding(config, f"model.config has no {words}", severity=severity, key="missing")
 
 
 def _lost(package: Package, config: ModelConfig) -> Iterator[Finding]:
