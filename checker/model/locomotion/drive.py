@@ -19,7 +19,7 @@ DRIVE_CLASSES = {
 }
 """Plugin classes that move a robot, and what a report calls that."""
 
-_READS_ONLY = frozenset({"JointStatePublisher"})
+_READS_ONLY = frozenset({"JointStatePublisher", "LiftDrag", "AdvancedLiftDrag"})
 """Plugin classes that name joints and do not move them."""
 
 _LEGS = "AnymalControlPlugin"
