@@ -19,7 +19,7 @@ BOOK = {
     "SEN": 28,
     "PLG": 10,
     "SPW": 13,
-    "DRV": 12,
+    "DRV": 13,
     "BAT": 5,
     "BRD": 3,
     "ROS": 15,
