@@ -15,11 +15,11 @@ from collections.abc import Iterator
 
 from checker.model.components import Plugin
 from checker.model.geometry.transform import Vector
+from checker.model.locomotion.drive import WING_CLASSES
 from checker.model.robot import Robot
 from checker.model.values import parse_number
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
 
-_CLASSES = ("LiftDrag", "AdvancedLiftDrag")
 _AXES = 3
 
 
@@ -36,7 +36,7 @@ def check(robot: Robot, *, least_sine: float = 0.01, reach: float = 2.0) -> Find
         yield unchecked(robot.unread_plugins)
     size = _size(robot)
     for plugin in robot.plugins:
-        if plugin.class_name in _CLASSES:
+        if plugin.class_name in WING_CLASSES:
             yield from _no_plane(plugin, least_sine)
             yield from _no_area(plugin)
             yield from _far_away(plugin, reach * size)

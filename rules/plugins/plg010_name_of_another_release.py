@@ -50,7 +50,7 @@ def check(robot: Robot, context: Context) -> Findings:
                 old,
                 f"{old.value} is a name of Ignition Gazebo, {effect}: expected {new}",
                 severity=severity,
-                key="class" if "::" in old.value else "library",
+                key="spelling",
                 fix=replace_text(old, new, _safety(context)),
             )
 

@@ -4,8 +4,7 @@ The version defines what each element means: the frame of a pose, the joint type
 parser reads a file by its stated version, turns older ones into its own, and refuses newer ones:
 Dome's reads up to 1.7, Fortress's 1.9, Harmonic's 1.11, Ionic's and Jetty's 1.12. SubT asks for
 1.6; another version that Dome reads is a warning. If `model.config` states another version than the
-model file, tools that choose by it choose the wrong file; where it names only one file, there is no
-choice, and outside of SubT it is information.
+model file, tools that choose by it choose the wrong file.
 
 Fix: write a version that the target reads, for the SubT simulator `<sdf version="1.6">`, in
 `model.sdf` and in `model.config`, and check the file against that version.
@@ -48,11 +47,9 @@ def check(sdf: SdfDocument, paperwork: Paperwork, context: Context) -> Findings:
     yield from _of_model(version, context)
     expected = context.sdf_version or version.value.strip()
     config = paperwork.config
-    entries = config.sdf if config is not None and expected else ()
-    chosen = bool(context.sdf_version) or len(entries) > 1
-    for entry in entries:
+    for entry in config.sdf if config is not None and expected else ():
         if normpath(entry.file.value) == sdf.document.source.file:
-            yield from _of_config(entry, expected, Severity.WARNING if chosen else Severity.INFO)
+            yield from _of_config(entry, expected)
 
 
 def _of_model(version: Located[str], context: Context) -> Iterator[Finding]:
@@ -81,7 +78,7 @@ def _is_refused(version: str, context: Context) -> bool:
     return stated is None or newest is None or stated > newest
 
 
-def _of_config(entry: SdfEntry, expected: str, severity: Severity) -> Iterator[Finding]:
+def _of_config(entry: SdfEntry, expected: str) -> Iterator[Finding]:
     written = entry.version.value.strip()
     if written == expected:
         return
@@ -89,7 +86,7 @@ def _of_config(entry: SdfEntry, expected: str, severity: Severity) -> Iterator[F
     yield finding(
         entry.version,
         f"model.config {state} for {entry.file.value}, expected {expected}",
-        severity=severity,
+        severity=Severity.WARNING,
         fix=replace_text(entry.version, expected) if written else None,
     )
 
