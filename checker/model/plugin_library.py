@@ -15,7 +15,7 @@ from checker.base.resources import table
 SUBT_RELEASE = "dome"
 """The release that SubT and the plugins of its robots were built for."""
 
-_CLASSIC = re.compile(r"(?:gazebo_ros|hector_gazebo)_.*")
+_CLASSIC = re.compile(r"(?:gazebo_ros2?|hector_gazebo)_.*")
 _OLDER_LIBRARY = re.compile(r"ignition-gazebo\d*-")
 _OF_GAZEBO = re.compile(r"(?:ignition-gazebo|gz-sim)\d*-.*-system")
 _INLINE_NAMESPACE = re.compile(r"::v\d+::")
@@ -100,6 +100,17 @@ def _subt_libraries() -> dict[str, PluginLibrary]:
 def library_of_class(release: str, name: str) -> PluginLibrary | None:
     """Return the library of a release that holds a class."""
     return next((lib for lib in plugin_libraries(release).values() if lib.has_class(name)), None)
+
+
+def lender_of(stem: str) -> str:
+    """Return the ROS package that holds a library; empty where none is known."""
+    return str(table("gazebo_plugins")["ros_packages"].get(stem, ""))
+
+
+def releases_with(stem: str) -> list[str]:
+    """Return what messages call the releases that have a library, the oldest first."""
+    releases = table("gazebo_plugins")["releases"]
+    return [str(releases[name]["label"]) for name in releases if stem in gazebo_libraries(name)]
 
 
 def release_label(release: str) -> str:
