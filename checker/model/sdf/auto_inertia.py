@@ -119,6 +119,6 @@ def _inertial(
     return Inertial(
         Pose(Transform.from_xyz_rpy(centre, (0.0, 0.0, 0.0)), "", (), span),
         Located(mass, span),
-        tuple(Located(moment, span) for moment in moments),
+        tuple(Located(moment, span, stated=False) for moment in moments),
         span,
     )
