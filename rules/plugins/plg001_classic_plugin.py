@@ -3,6 +3,9 @@
 Gazebo, since it was called Ignition, cannot load plugins built for Gazebo Classic: it prints one
 line and continues without the drive, the sensor or the light that the plugin provides.
 
+A xacro may serve several simulators by an argument: if its default chooses Gazebo Classic, the
+plugins for later ones are not seen, and nothing is judged.
+
 None of the accepted packages that we checked shows this.
 
 Fix: remove the plugin and use what the message names: a sensor in the model, or a system plugin (in
@@ -16,15 +19,20 @@ from checker.finding import Fix
 from checker.model.components import Plugin
 from checker.model.plugin_library import classic_plugin, library_stem, newer_name
 from checker.model.robot import Robot
+from checker.model.urdf.simulator import classic_by_default
+from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.xml_insertion import removal
 
 
 @rule("PLG001", "classic-plugin", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, context: Context) -> Findings:
+def check(robot: Robot, package: Package, context: Context) -> Findings:
     """Report plugins whose library belongs to Gazebo Classic."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
+    if reason := classic_by_default(robot, package):
+        yield unchecked(reason)
+        return
     for plugin in robot.all_plugins:
         known = classic_plugin(plugin.filename.value)
         if known is None:
