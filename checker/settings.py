@@ -22,9 +22,9 @@ from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
 from checker.package.package import Package
-from checker.package.target import usual_profile
+from checker.package.target import MODEL, ROS_2, usual_profile
 from checker.rule import Rule
-from checker.rulebook.profiles import distro_names, profile_names
+from checker.rulebook.profiles import distro_names, gazebo_profile, profile_names
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
 from checker.rulebook.suppression.entries import SettingsEntry, entries_of
 from checker.source.text_file import read_text
@@ -93,9 +93,15 @@ class Settings(Record):
         return replace(self, profile_chosen=self.profile_chosen or "profile" in wanted, **wanted)
 
     def suiting(self, package: Package) -> Settings:
-        """Return the settings for what is checked: without a choice, its usual profile counts."""
-        is_default = self.profile == DEFAULT_PROFILE and not self.profile_chosen
-        return replace(self, profile=usual_profile(package)) if is_default else self
+        """Return the settings for what is checked: without a choice, its usual profile counts.
+
+        Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution.
+        """
+        usual = usual_profile(package)
+        is_chosen = self.profile_chosen or self.profile != DEFAULT_PROFILE
+        if is_chosen and not (self.profile == ROS_2 and usual == MODEL):
+            return self
+        return replace(self, profile=gazebo_profile(self.distro) if usual == MODEL else usual)
 
     @property
     def description(self) -> str:

@@ -26,6 +26,7 @@ BOOK = {
     "DOC": 9,
     "URD": 19,
     "CTL": 8,
+    "WLD": 3,
     "TRI": 18,
 }
 """The groups of the book, and the number of the last rule of each; none is left out."""

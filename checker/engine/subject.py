@@ -38,6 +38,7 @@ from checker.model.sdf.expanded import SUFFIX, expanded_model
 from checker.model.sdf.includes import ModelIncludes, included_model
 from checker.model.sdf.links import read_plugin
 from checker.model.sdf.reader import read_sdf
+from checker.model.sdf.world import World, read_worlds
 from checker.model.sensing.view import SensorViews
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.description import UrdfDescription
@@ -217,6 +218,14 @@ class Subject(Record, eq=False, dict=True):
         if self.model.root.tag == "robot":
             return NotAvailable("the model is a URDF file", applicable=False)
         return SdfDocument(self.model, (self.model.root.get("version") or "").strip())
+
+    @cached_property
+    def worlds(self) -> tuple[World, ...] | NotAvailable:
+        """The worlds of the model file."""
+        if isinstance(self.sdf, NotAvailable):
+            return NotAvailable(self.sdf.reason, applicable=self.package.kind is PackageKind.WORLD)
+        worlds = read_worlds(self.sdf.document, ModelIncludes(self.package))
+        return worlds or NotAvailable("the file contains no world", applicable=False)
 
     @cached_property
     def robots(self) -> tuple[Robot, ...] | NotAvailable:
@@ -439,6 +448,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     Package: lambda subject: subject.package,
     Paperwork: lambda subject: subject.paperwork,
     SdfDocument: lambda subject: subject.sdf,
+    World: lambda subject: subject.worlds,
     Robot: lambda subject: subject.robots,
     FirstConfiguration: lambda subject: subject.first_configuration,
     MassProperties: lambda subject: subject.masses,

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from inspect import signature
+from pathlib import Path
+
 import pytest
 
 from checker.finding import Edit, Severity
 from checker.model.sensing.kind import sensor_types
+from checker.package.package import Package
+from checker.package.workspace import Workspace
 from checker.rule import Context, Finding
 from checker.rulebook.discovery import all_rules
 from tests.model.robots import sdf
@@ -16,7 +21,10 @@ LIDAR = '<sensor name="scan" type="{}"><ray><range><max>9</max></range></ray></s
 
 def said(rule: str, type: str, release: str, version: str = "1.6") -> list[Finding]:
     robot = sdf(f'<link name="body">{LIDAR.format(type)}</link>', version)
-    found = RULES[rule].check(robot, Context(release=release))
+    package = Package(Path("rover"), Workspace(()), only="model.sdf")
+    parts = {"robot": robot, "package": package, "context": Context(release=release)}
+    check = RULES[rule].check
+    found = check(**{name: parts[name] for name in signature(check).parameters})
     return [each for each in found if isinstance(each, Finding)]
 
 
