@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -81,6 +81,7 @@ class Subject(Record, eq=False, dict=True):
         stages: Told of what takes long.
         devices: Sensor devices of which figures are known.
         processes: Processes that wait for something to do.
+        xacro_args: Arguments for xacro, before those that launch files give.
     """
 
     package: Package
@@ -88,6 +89,7 @@ class Subject(Record, eq=False, dict=True):
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
     processes: StartedProcesses = NO_PROCESSES
+    xacro_args: Mapping[str, str] = field(default_factory=dict)
     _provided: dict[type, Sequence[object]] = field(default_factory=dict)
 
     def part(self, kind: type) -> Sequence[object] | NotAvailable:
@@ -175,7 +177,9 @@ class Subject(Record, eq=False, dict=True):
     @cached_property
     def package_descriptions(self) -> PackageDescriptions:
         """The URDF files that stand for a robot, as they are being expanded."""
-        return PackageDescriptions(self.package, self.cache)
+        launch = self.ros2_launch
+        ros2 = None if isinstance(launch, NotAvailable) else launch
+        return PackageDescriptions(self.package, self.cache, args=self.xacro_args, ros2=ros2)
 
     @property
     def urdf_files(self) -> UrdfFiles | NotAvailable:
