@@ -271,8 +271,9 @@ def check_example(rule: Rule, kind: str, example: Example, folder: Path) -> None
     """
     package = write_example(example, folder)
     with open_input(package) as opened:
-        subject = Subject(opened.packages[0], Cache(cache_folder()))
         settings = find_settings([package]).overridden(thorough=True)
+        cache = Cache(cache_folder())
+        subject = Subject(opened.packages[0], cache, xacro_args=settings.xacro_args)
         rules = [rule, *_companions(example)]
         outcome = run_and_set_aside(rules, subject, judge_of(rule, example), settings)
         subject.close()

@@ -57,6 +57,7 @@ class Settings(Record):
         devices: Sensor devices of the user's, each in the form of `devices.json`.
         display: Whether the report shall hold the robot in 3D.
         package_path: Folders in which further packages are found.
+        xacro_args: Arguments for xacro files, before those that launch files give.
         suppress: Findings that shall not count.
         baseline: Findings that were there before, which do not count either.
         distro: ROS 2 distribution to judge for; empty for the profile's default.
@@ -76,6 +77,7 @@ class Settings(Record):
     devices: tuple[Mapping[str, Any], ...] = ()
     display: bool = False
     package_path: tuple[Path, ...] = ()
+    xacro_args: Mapping[str, str] = field(default_factory=dict)
     suppress: tuple[SettingsEntry, ...] = ()
     baseline: Baseline = field(default_factory=Baseline)
     distro: str = ""
@@ -113,6 +115,7 @@ class Settings(Record):
         changes += [f"severity of {', '.join(self.severity)}"] if self.severity else []
         changes += [f"options of {', '.join(self.options)}"] if self.options else []
         changes += [f"own devices: {len(self.devices)}"] if self.devices else []
+        changes += [f"xacro arguments: {', '.join(self.xacro_args)}"] if self.xacro_args else []
         changes += [f"{len(self.suppress)} suppressed with reasons"] if self.suppress else []
         changes += [f"baseline {self.baseline.path.name}"] if self.baseline.path else []
         changes += [] if self.trial else ["without trial"]
@@ -200,6 +203,7 @@ _KEYS = {
     "thorough": "thorough",
     "devices": "devices",
     "package-path": "package_path",
+    "xacro-args": "xacro_args",
     "suppress": "suppress",
     "baseline": "baseline",
 }
@@ -252,7 +256,7 @@ def _convert(key: str, value: Any, path: Path) -> Any:
             if not isinstance(value, bool):
                 raise InvalidSettings(path, f"{key} is {value!r}, expected true or false")
             return value
-        case "devices" | "suppress" | "baseline" | "package-path":
+        case "devices" | "suppress" | "baseline" | "package-path" | "xacro-args":
             return _READERS[key](value, path)
         case _:
             return _by_rule(key, value, path)
@@ -305,6 +309,16 @@ def _package_path(value: Any, path: Path) -> tuple[Path, ...]:
     return folders
 
 
+def _xacro_arguments(value: Any, path: Path) -> dict[str, str]:
+    """Read a table of arguments; TOML's own numbers and truth values stand for their texts."""
+    arguments: dict[str, str] = {}
+    for name, given in _table("xacro-args", value, path).items():
+        if not isinstance(given, str | int | float):
+            raise InvalidSettings(path, f"xacro-args.{name} is no text, number or truth value")
+        arguments[name] = str(given).lower() if isinstance(given, bool) else str(given)
+    return arguments
+
+
 def _inside(key: str, value: Any, path: Path, kind: str) -> Path:
     """Return the path that settings name: a stranger's may not name what lies elsewhere."""
     inside = normal_path(value) if isinstance(value, str) else None
@@ -319,6 +333,7 @@ _READERS: Mapping[str, Callable[[Any, Path], Any]] = {
     "suppress": _suppressed,
     "baseline": _baseline,
     "package-path": _package_path,
+    "xacro-args": _xacro_arguments,
 }
 
 

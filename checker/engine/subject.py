@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -18,6 +18,7 @@ from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.launch.package_launch import LaunchEntries, launch_entries, launch_graph
+from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.spawner.emitted_xml import (
     SpawnedXml,
     StartedXml,
@@ -80,6 +81,7 @@ class Subject(Record, eq=False, dict=True):
         stages: Told of what takes long.
         devices: Sensor devices of which figures are known.
         processes: Processes that wait for something to do.
+        xacro_args: Arguments for xacro, before those that launch files give.
     """
 
     package: Package
@@ -87,6 +89,7 @@ class Subject(Record, eq=False, dict=True):
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
     processes: StartedProcesses = NO_PROCESSES
+    xacro_args: Mapping[str, str] = field(default_factory=dict)
     _provided: dict[type, Sequence[object]] = field(default_factory=dict)
 
     def part(self, kind: type) -> Sequence[object] | NotAvailable:
@@ -174,7 +177,9 @@ class Subject(Record, eq=False, dict=True):
     @cached_property
     def package_descriptions(self) -> PackageDescriptions:
         """The URDF files that stand for a robot, as they are being expanded."""
-        return PackageDescriptions(self.package, self.cache)
+        launch = self.ros2_launch
+        ros2 = None if isinstance(launch, NotAvailable) else launch
+        return PackageDescriptions(self.package, self.cache, args=self.xacro_args, ros2=ros2)
 
     @property
     def urdf_files(self) -> UrdfFiles | NotAvailable:
@@ -385,6 +390,14 @@ class Subject(Record, eq=False, dict=True):
         return launch_graph(self.package, self.started)
 
     @cached_property
+    def ros2_launch(self) -> Ros2Launch | NotAvailable:
+        """What the ROS 2 launch files of the package start."""
+        # Few packages have such files; the others need not load what evaluates them.
+        from checker.expand.ros2_launch.package_launch import ros2_launch
+
+        return ros2_launch(self.package)
+
+    @cached_property
     def launch_entries(self) -> LaunchEntries:
         """The launch files that a URDF package can be started with."""
         if self.package.kind is not PackageKind.URDF_DESCRIPTION:
@@ -446,6 +459,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     SpawnedXml: lambda subject: subject.spawned,
     StartedXml: lambda subject: subject.started,
     LaunchGraph: lambda subject: subject.launch,
+    Ros2Launch: lambda subject: subject.ros2_launch,
     ControlSystem: lambda subject: subject.control,
     Specification: lambda subject: subject.specification,
     UrdfDescription: lambda subject: subject.descriptions,

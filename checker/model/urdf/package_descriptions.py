@@ -17,6 +17,8 @@ from checker.base.record import Record
 from checker.expand.launch.expansion import expand_launch
 from checker.expand.launch.launch_file import Load, loads
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
+from checker.expand.ros2_launch.descriptions import loaded_descriptions
+from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.xacro.expansion import Expansions, Outcome, Unread, Wanted
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.expand.xacro.files import local_path
@@ -44,12 +46,18 @@ class Candidate(Record):
         args: Arguments for xacro.
         loaded: Whether a launch file loads it.
         by_xacro: Whether xacro reads it, whatever it holds.
+        missing: Arguments that whoever starts it must give, and the launch file that says so.
     """
 
     path: str
     args: Mapping[str, str] = field(default_factory=dict)
     loaded: bool = False
     by_xacro: bool = False
+    missing: Mapping[str, str] = field(default_factory=dict)
+
+
+StartedLoad = tuple[Load, Mapping[str, str]]
+"""What a launch file loads, and the arguments that it leaves to whoever starts it."""
 
 
 def may_hold_description(package: Package) -> bool:
@@ -57,7 +65,7 @@ def may_hold_description(package: Package) -> bool:
     return bool(_files(package))
 
 
-def candidates(package: Package, loads: Iterable[Load]) -> list[Candidate]:
+def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate]:
     """Return the files that launch files load; without any, those that stand for a robot.
 
     Args:
@@ -67,11 +75,14 @@ def candidates(package: Package, loads: Iterable[Load]) -> list[Candidate]:
     if package.only:
         return [Candidate(package.only)]
     chosen: dict[str, Candidate] = {}
-    for load in loads:
+    for load, missing in loads:
         path = local_path(package, load.path)
         # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
         if path is not None and not path.startswith("../") and package.exists(path):
-            chosen.setdefault(path, Candidate(path, load.args, True, load.by_xacro))
+            candidate = Candidate(path, load.args, True, load.by_xacro, missing)
+            before = chosen.get(path, candidate)
+            # Of several ways to start it, one that is known counts before one that is not.
+            chosen[path] = candidate if before.missing and not missing else before
     files = [*chosen.values()] or [Candidate(path) for path in _outermost(package)]
     return files[:CANDIDATES_LIMIT]
 
@@ -133,6 +144,7 @@ class PackageDescriptions:
         *,
         only: str = "",
         args: Mapping[str, str] = MappingProxyType({}),
+        ros2: Ros2Launch | None = None,
     ) -> None:
         """Choose the files and begin to expand those that need it.
 
@@ -141,8 +153,11 @@ class PackageDescriptions:
             cache: Where expansions are kept.
             only: The one file to read, whatever launch files load; empty to choose.
             args: Arguments for xacro, before those that launch files give.
+            ros2: What the ROS 2 launch files of the package start, if it has any.
         """
         self._package = package
+        self._args = args
+        self._ros2 = ros2
         self._cache = cache
         self._for_rviz = package.kind not in _URDF_KINDS
         self._candidates: Sequence[Candidate] = ()
@@ -176,10 +191,10 @@ class PackageDescriptions:
                     read = read_description(outcome, candidate.path, for_rviz=self._for_rviz)
                     descriptions.append(read)
             elif isinstance(outcome, Unread):
-                unread.append((candidate, outcome.reason))
-            elif outcome.kind is XacroFaultKind.ARGUMENT and not candidate.loaded:
-                # What starts it may well give the argument.
-                unread.append((candidate, f"{candidate.path} is not expanded: {outcome.message}"))
+                unread.append((candidate, self._unread(candidate, outcome.reason)))
+            elif outcome.kind is XacroFaultKind.ARGUMENT and self._may_be_given(candidate):
+                reason = f"{candidate.path} is not expanded: {outcome.message}"
+                unread.append((candidate, self._unread(candidate, reason)))
             else:
                 faults.append(replace(outcome, loaded=candidate.loaded))
         return UrdfFiles(
@@ -189,6 +204,18 @@ class PackageDescriptions:
             tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
             old,
         )
+
+    def _may_be_given(self, candidate: Candidate) -> bool:
+        """Say whether what starts a file may well give the argument that it lacks."""
+        return not candidate.loaded or bool(candidate.missing.keys() - self._args.keys())
+
+    def _unread(self, candidate: Candidate, reason: str) -> str:
+        """Return a reason; it says which arguments a launch file leaves to whoever starts it."""
+        missing = [name for name in candidate.missing if name not in self._args]
+        if not missing:
+            return reason
+        file, given = candidate.missing[missing[0]], " ".join(f"{name}:=…" for name in missing)
+        return f"{reason}; {file} leaves {given} to who starts it, --xacro-arg gives it here"
 
     def _is_alone(self, document: XmlDocument, candidate: Candidate) -> bool:
         """Say whether a file that holds nothing is the one to check, and no xacro of macros."""
@@ -223,7 +250,14 @@ class PackageDescriptions:
         if self._expansions is not None:
             self._expansions.stop()
 
-    def _loads(self) -> list[Load]:
+    def _loads(self) -> Iterator[StartedLoad]:
+        for graph in self._ros2.entries if self._ros2 is not None else ():
+            for described in loaded_descriptions(self._package, graph):
+                missing = dict.fromkeys(described.unknown, described.node.file)
+                yield described.load, missing
+        yield from ((load, {}) for load in self._classic_loads())
+
+    def _classic_loads(self) -> list[Load]:
         launch_files = self._package.index.with_suffix(*_LAUNCH_SUFFIXES)[:_LAUNCH_LIMIT]
         paths = [file.path for file in launch_files if self._loads_something(file.path)]
         files, documents = LaunchFiles(self._package), map(self._package.xml, paths)
