@@ -11,6 +11,9 @@ with `@` mean:
 - `@links`: symbolic links, each with its target.
 - `@urdf`: a URDF package instead: an arm of one joint, its controller and its launch files. The
   text takes the place of the arm's transmission and plugin; True leaves these as they are.
+- `@ros2`: a ROS 2 package instead: a rover with a lidar, the launch file that starts Gazebo, spawns
+  it and bridges its topics, and `config/bridge.yaml`, whose place the text takes; True leaves it.
+- `@launch`: a mapping of texts in the launch file of a ROS 2 package to what takes their place.
 - `@with`: ids of rules that run along.
 - `@profile`: the profile that judges it instead of the first one that has the rule.
 - `@reported`: what must be reported where no marker can stand.
@@ -179,6 +182,87 @@ URDF_MINIMAL: Mapping[str, str] = {
 """,
 }
 
+ROS2_NAME = "acme_rover_bringup"
+_LAUNCHED = "launch/rover.launch.py"
+
+ROS2_MINIMAL: Mapping[str, str] = {
+    "package.xml": f"""<package format="3">
+  <name>{ROS2_NAME}</name>
+  <version>1.0.0</version>
+  <description>A rover in Gazebo</description>
+  <maintainer email="a@example.org">A</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+""",
+    "CMakeLists.txt": f"""cmake_minimum_required(VERSION 3.8)
+project({ROS2_NAME})
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY config launch urdf DESTINATION share/${{PROJECT_NAME}})
+ament_package()
+""",
+    "config/bridge.yaml": """- topic_name: clock
+  ros_type_name: rosgraph_msgs/msg/Clock
+  gz_type_name: gz.msgs.Clock
+  direction: GZ_TO_ROS
+- topic_name: scan
+  ros_type_name: sensor_msgs/msg/LaserScan
+  gz_type_name: gz.msgs.LaserScan
+  direction: GZ_TO_ROS
+- ros_topic_name: cmd_vel
+  gz_topic_name: /model/rover/cmd_vel
+  ros_type_name: geometry_msgs/msg/Twist
+  gz_type_name: gz.msgs.Twist
+  direction: ROS_TO_GZ
+""",
+    _LAUNCHED: f"""import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch_ros.actions import Node
+
+HERE = get_package_share_directory("{ROS2_NAME}")
+URDF = os.path.join(HERE, "urdf", "rover.urdf")
+
+
+def generate_launch_description():
+    gazebo = os.path.join(get_package_share_directory("ros_gz_sim"), "launch", "gz_sim.launch.py")
+    with open(URDF) as file:
+        description = file.read()
+    return LaunchDescription([
+        IncludeLaunchDescription(gazebo, launch_arguments=[("gz_args", "-r empty.sdf")]),
+        Node(package="robot_state_publisher", executable="robot_state_publisher",
+             parameters=[{{"robot_description": description}}, {{"use_sim_time": True}}]),
+        Node(package="ros_gz_sim", executable="create",
+             arguments=["-name", "rover", "-file", URDF]),
+        Node(package="ros_gz_bridge", executable="parameter_bridge", arguments=[],
+             parameters=[{{"config_file": os.path.join(HERE, "config", "bridge.yaml")}}]),
+    ])
+""",
+    "urdf/rover.urdf": """<robot name="rover">
+  <link name="base_link"/>
+  <link name="lidar_link"/>
+  <joint name="lidar_joint" type="fixed">
+    <parent link="base_link"/>
+    <child link="lidar_link"/>
+  </joint>
+  <gazebo reference="lidar_link">
+    <sensor name="lidar" type="gpu_lidar">
+      <topic>scan</topic>
+      <gz_frame_id>lidar_link</gz_frame_id>
+    </sensor>
+  </gazebo>
+  <gazebo>
+    <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
+      <left_joint>left_wheel_joint</left_joint>
+      <right_joint>right_wheel_joint</right_joint>
+    </plugin>
+  </gazebo>
+</robot>
+""",
+}
+
 
 def model_with(fragment: str) -> str:
     """Return a model.sdf that holds a fragment where its first element belongs."""
@@ -201,13 +285,11 @@ def judge_of(rule: Rule, example: Example = "") -> Profile:
 def write_example(example: Example, workspace: Path) -> Path:
     """Write the package of an example below a folder and return its own folder."""
     changes: dict[str, Any] = {"@fragment": example} if isinstance(example, str) else dict(example)
-    urdf = changes.pop("@urdf", None)
-    package: Path = workspace / changes.pop("@name", NAME if urdf is None else URDF_NAME)
+    urdf, ros2 = changes.pop("@urdf", None), changes.pop("@ros2", None)
+    usual = NAME if urdf is None else URDF_NAME
+    package: Path = workspace / changes.pop("@name", usual if ros2 is None else ROS2_NAME)
     links: Mapping[str, str] = changes.pop("@links", {})
-    contents: dict[str, str | bytes | None] = {**MINIMAL, "model.sdf": model_with("")}
-    if urdf is not None:
-        inside = _ARM_CONTROL if urdf is True else urdf
-        contents = {**URDF_MINIMAL, "urdf/arm.urdf": _ARM.replace("@", inside)}
+    contents = _base(urdf, ros2, changes.pop("@launch", {}))
     for path, text in changes.items():
         if path == "@fragment":
             contents["model.sdf"] = model_with(text)
@@ -224,6 +306,18 @@ def write_example(example: Example, workspace: Path) -> Path:
     for path, text in links.items():
         (package / path).symlink_to(text)
     return package
+
+
+def _base(urdf: Any, ros2: Any, launch: Mapping[str, str]) -> dict[str, str | bytes | None]:
+    """Return the package that an example changes."""
+    if ros2 is not None:
+        own = {} if ros2 is True else {"config/bridge.yaml": ros2}
+        launched = _changed(ROS2_MINIMAL[_LAUNCHED], launch)
+        return {**ROS2_MINIMAL, **own, _LAUNCHED: launched}
+    if urdf is not None:
+        inside = _ARM_CONTROL if urdf is True else urdf
+        return {**URDF_MINIMAL, "urdf/arm.urdf": _ARM.replace("@", inside)}
+    return {**MINIMAL, "model.sdf": model_with("")}
 
 
 def _robot(name: str) -> str:

@@ -26,6 +26,7 @@ BOOK = {
     "DOC": 9,
     "URD": 19,
     "CTL": 8,
+    "BRG": 9,
     "WLD": 3,
     "TRI": 18,
 }

@@ -33,6 +33,7 @@ from checker.model.devices.known import KnownDevices, known_devices
 from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
+from checker.model.ros.simulation import Simulations, simulations
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.expanded import SUFFIX, expanded_model
 from checker.model.sdf.includes import ModelIncludes, included_model
@@ -398,6 +399,18 @@ class Subject(Record, eq=False, dict=True):
         return ros2_launch(self.package)
 
     @cached_property
+    def simulations(self) -> Simulations | NotAvailable:
+        """What the ROS 2 launch files simulate and bridge."""
+        if self.package.only:
+            return NotAvailable("a single file has no launch files", applicable=False)
+        launch = self.ros2_launch
+        known = None if isinstance(launch, NotAvailable) else launch
+        found = simulations(self.package, known, self.cache)
+        if any(each.bridges.is_there or each.starts_gazebo for each in found.all):
+            return found
+        return NotAvailable("no launch file starts Gazebo or a bridge to it", applicable=False)
+
+    @cached_property
     def launch_entries(self) -> LaunchEntries:
         """The launch files that a URDF package can be started with."""
         if self.package.kind is not PackageKind.URDF_DESCRIPTION:
@@ -460,6 +473,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     StartedXml: lambda subject: subject.started,
     LaunchGraph: lambda subject: subject.launch,
     Ros2Launch: lambda subject: subject.ros2_launch,
+    Simulations: lambda subject: subject.simulations,
     ControlSystem: lambda subject: subject.control,
     Specification: lambda subject: subject.specification,
     UrdfDescription: lambda subject: subject.descriptions,

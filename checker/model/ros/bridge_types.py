@@ -1,0 +1,47 @@
+"""Messages that a bridge of ROS 2 converts: which of Gazebo's to which of ROS."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import cache
+
+from checker.base.resources import table
+
+_ROS_TYPE = re.compile(r"[a-z][a-z0-9_]*/msg/[A-Za-z0-9]+\Z")
+
+
+def ros_types(gz_message: str) -> Sequence[str]:
+    """Return the ROS messages of one of Gazebo's, named without its package."""
+    names: Sequence[str] = table("bridge_types")["pairs"].get(gz_message, ())
+    return names
+
+
+@cache
+def gz_messages(ros_type: str) -> tuple[str, ...]:
+    """Return Gazebo's messages of a ROS message."""
+    pairs = table("bridge_types")["pairs"].items()
+    return tuple(gz for gz, names in pairs if ros_type in names)
+
+
+def meant_gz_message(text: str) -> str:
+    """Return the message of Gazebo that another spelling means, by its last word; or nothing."""
+    last = re.split(r"[./:]", text)[-1].lower()
+    return next((name for name in table("bridge_types")["pairs"] if name.lower() == last), "")
+
+
+def meant_ros_type(text: str, among: Sequence[str]) -> str:
+    """Return the ROS message that another spelling means, by its last word; or nothing."""
+    last = re.split(r"[./:]", text)[-1].lower()
+    return next((name for name in among if name.rpartition("/")[2].lower() == last), "")
+
+
+def all_ros_types() -> tuple[str, ...]:
+    """Return every ROS message of the table."""
+    names = (name for row in table("bridge_types")["pairs"].values() for name in row)
+    return tuple(dict.fromkeys(names))
+
+
+def is_ros_type(text: str) -> bool:
+    """Whether a text is spelled as a message of ROS 2: `sensor_msgs/msg/Imu`."""
+    return _ROS_TYPE.match(text) is not None

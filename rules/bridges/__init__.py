@@ -1,0 +1,1 @@
+"""BRG: bridges between Gazebo and ROS 2."""

@@ -1,0 +1,99 @@
+"""A bridge between two messages that it cannot convert.
+
+The bridge only knows fixed pairs of messages, written as `package/msg/Name` and `gz.msgs.Name`;
+upper and lower case count. For any other pair it warns "Failed to create a bridge", goes on, and
+the topic stays silent. A pair that came to the bridge after October 2024 is not known here: where
+no spelling comes near, the finding is a warning or information.
+
+Fix: write the pair that the message names.
+Source: ros_gz_bridge, mappings.py; gazebosim/ros_gz issues 383 and 558.
+"""
+
+from collections.abc import Iterator
+
+from checker.base.words import listed
+from checker.expand.ros2_launch.bridge_entry import GZ_PREFIXES, BridgeEntry
+from checker.expand.ros2_launch.graph import is_known
+from checker.model.ros.bridge_types import (
+    all_ros_types,
+    gz_messages,
+    meant_gz_message,
+    meant_ros_type,
+    ros_types,
+)
+from checker.model.ros.simulation import Simulations
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
+
+_AS_LISTED = ("", "humble", "jazzy")
+"""Distributions of which the table is complete."""
+
+
+@rule("BRG002", "unknown-message-pair", Severity.ERROR, Concern.INTERFACE)
+def check(simulations: Simulations, context: Context) -> Findings:
+    """Report the pairs that are not known."""
+    for simulation in simulations.all:
+        for entry in simulation.entries:
+            passed = entry.passed
+            if entry.is_own and is_known(passed.ros_type.value + passed.gz_type.value):
+                yield from _judged(entry, context.distro)
+
+
+def _judged(entry: BridgeEntry, distro: str) -> Iterator[Finding]:
+    ros, gz = entry.passed.ros_type, entry.passed.gz_type
+    partners = ros_types(entry.gz_name)
+    if not gz.value.startswith(GZ_PREFIXES) or not partners:
+        yield _unknown_message(gz, ros.value)
+    elif ros.value not in partners:
+        expected = listed(partners)
+        said = f"the bridge does not convert {gz.value} to {ros.value}"
+        if meant := meant_ros_type(ros.value, partners):
+            yield finding(ros, f"{said}; expected {meant}")
+        elif ros.value in all_ros_types():
+            severity = None if distro in _AS_LISTED else Severity.WARNING
+            yield finding(ros, f"{said}; it knows {expected}", severity=severity)
+        else:
+            yield finding(ros, f"{said}; it knows {expected}", severity=Severity.WARNING)
+
+
+def _unknown_message(gz: Located[str], ros: str) -> Finding:
+    meant = meant_gz_message(gz.value)
+    if meant:
+        return finding(gz, f"Gazebo has no message {gz.value!r:.200}; expected gz.msgs.{meant}")
+    near = gz_messages(ros)
+    hint = f"; for {ros} it knows {listed([f'gz.msgs.{name}' for name in near])}" if near else ""
+    return finding(
+        gz,
+        f"the bridge is not known to convert {gz.value:.200}{hint}",
+        severity=Severity.WARNING if near else Severity.INFO,
+    )
+
+
+def _entry(ros: str, gz: str, mark: str = "") -> dict[str, object]:
+    lines = ("- topic_name: a", f"  ros_type_name: {ros}", f"  gz_type_name: {gz}")
+    return {
+        "@ros2": "\n".join(lines).replace(mark, f"{mark}  # ^ BRG002") if mark else "\n".join(lines)
+    }
+
+
+GOOD = [
+    {"@ros2": True},
+    _entry("sensor_msgs/msg/Imu", "gz.msgs.IMU"),
+    _entry("sensor_msgs/msg/Imu", "ignition.msgs.IMU"),
+    _entry("geometry_msgs/msg/TwistStamped", "gz.msgs.Twist"),
+]
+BAD = [
+    _entry("std_msgs/JointState", "gz.msgs.Model", "std_msgs/JointState"),
+    _entry("std_msgs/msg/float64", "gz.msgs.Double", "std_msgs/msg/float64"),
+    _entry("sensor_msgs/msg/Imu", "ign_msgs.IMU", "ign_msgs.IMU"),
+    _entry("sensor_msgs/msg/Imu", "gz.msgs.Imu", "gz.msgs.Imu"),
+    _entry("sensor_msgs/msg/Imu", "gz.msgs.Odometry", "sensor_msgs/msg/Imu"),
+    _entry("acme_msgs/msg/Pulse", "gz.msgs.Odometry", "acme_msgs/msg/Pulse"),
+    _entry("acme_msgs/msg/Pulse", "acme.msgs.Pulse", "acme.msgs.Pulse"),
+    {
+        "@ros2": True,
+        "@launch": {
+            "arguments=[]": 'arguments=["/a@sensor_msgs/Imu[gz.msgs.IMU"],  # ^ BRG002\n#',
+        },
+    },
+]

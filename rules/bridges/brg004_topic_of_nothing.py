@@ -1,0 +1,112 @@
+"""A bridge of a topic that nothing in Gazebo has.
+
+The bridge waits for it without a word. Names that a sensor states in `<topic>` are taken as they
+are; all others begin with the names that world and model have in Gazebo, which `-name` of the
+spawning program gives. It is reported where all robots that the launch file spawns were read.
+
+Fix: write the topic of the sensor or system; `gz topic -l` lists them.
+Source: gz-sensors and Gazebo's systems, their default topics.
+"""
+
+import re
+from collections.abc import Iterable
+
+from checker.expand.launch.bridge import Direction
+from checker.expand.ros2_launch.bridge_entry import BridgeEntry
+from checker.model.ros.simulated_topics import SimulatedTopic
+from checker.model.ros.simulation import Simulation, Simulations
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_OF_THE_WORLD = re.compile(r"/(?:clock|stats|gui|keyboard|marker|world/[^/]*/(?!model/))")
+_OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empty")
+"""Messages that windows of Gazebo publish as well, on topics that the user chooses."""
+
+
+@rule("BRG004", "bridge-of-no-topic", Severity.WARNING, Concern.INTERFACE)
+def check(simulations: Simulations) -> Findings:
+    """Report topics that no robot, model or world has, if all of them are known."""
+    for simulation in simulations.launched:
+        if not simulation.robots or simulation.unknown_topics:
+            continue
+        for entry in simulation.entries:
+            if not entry.gz_topic or _OF_THE_WORLD.match(entry.gz_topic):
+                continue
+            behind = simulation.topics_of(entry)
+            if not behind and not _may_be_of_user(entry):
+                hint = _instead(simulation, entry)
+                if hint or simulation.starts_gazebo:
+                    yield finding(
+                        entry.passed.gz_topic,
+                        f"no sensor or system in Gazebo has the topic {entry.gz_topic}{hint}",
+                    )
+            elif behind and (fault := _other_name(simulation, entry, behind)):
+                yield finding(entry.passed.gz_topic, f"{entry.gz_topic}: {fault}")
+
+
+def _may_be_of_user(entry: BridgeEntry) -> bool:
+    return entry.direction is not Direction.TO_IGN and entry.gz_name in _OF_THE_USER
+
+
+def _instead(simulation: Simulation, entry: BridgeEntry) -> str:
+    """Return a topic of this message that nothing bridges yet, if there is one."""
+    bridged = {topic.key for other in simulation.entries for topic in simulation.topics_of(other)}
+    for key, topics in simulation.topics.items():
+        for topic in topics:
+            fits = topic.direction is entry.direction or entry.direction is Direction.BOTH
+            if key not in bridged and fits and entry.gz_name in topic.messages:
+                return f"; {topic.owner_name} has {topic.topic}"
+    return ""
+
+
+def _other_name(
+    simulation: Simulation, entry: BridgeEntry, behind: Iterable[SimulatedTopic]
+) -> str:
+    """Say which name of a model or world is none; nothing where one of the topics fits."""
+    models, worlds = simulation.model_names, simulation.world_names
+    fault = ""
+    for topic in behind:
+        fault = _difference(topic.topic.split("/"), entry.gz_topic.split("/"), models, worlds)
+        if not fault:
+            return ""
+    return fault
+
+
+def _difference(
+    parts: list[str], written: list[str], models: frozenset[str], worlds: frozenset[str]
+) -> str:
+    for before, part, name in zip(["", *parts], parts, written, strict=False):
+        known = {"model": models, "world": worlds}.get(before, frozenset())
+        if part == "*" and known and name not in known:
+            return f"no {before} is called {name!r}, but {', '.join(sorted(known))}"
+        if part not in ("*", name):
+            return f"the topic is {'/'.join(parts)}"
+    return ""
+
+
+def _entry(topic: str, ros: str, gz: str, mark: str = "") -> dict[str, object]:
+    return {
+        "@ros2": f"- topic_name: {topic}{mark}\n  ros_type_name: {ros}\n  gz_type_name: {gz}\n"
+        "  direction: GZ_TO_ROS\n"
+    }
+
+
+_SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
+_ODOMETRY = ("nav_msgs/msg/Odometry", "gz.msgs.Odometry")
+_MARK = "  # ^ BRG004"
+GOOD = [
+    {"@ros2": True},
+    _entry("/model/rover/odometry", *_ODOMETRY),
+    {
+        **_entry("/lidar", *_SCAN),
+        "@launch": {'"rover", "-file", URDF': '"rover", "-file", "/somewhere/rover.sdf"'},
+    },
+    {
+        **_entry("/model/other/odometry", *_ODOMETRY),
+        "@launch": {'"-name", "rover"': '"-name", LaunchConfiguration("name")'},
+    },
+]
+BAD = [
+    _entry("/lidar", *_SCAN, _MARK),
+    _entry("/odom", *_ODOMETRY, _MARK),
+    _entry("/model/my_rover/odometry", *_ODOMETRY, _MARK),
+]

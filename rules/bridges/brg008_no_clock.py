@@ -1,0 +1,90 @@
+"""Nodes take their time from /clock, and nothing bridges it.
+
+With `use_sim_time` a node's time stands at zero until somebody publishes /clock. Gazebo publishes
+it on its own side only: without a bridge, timers do not run, transforms are never recent, and
+RViz and navigation wait. It is reported where the launch file that starts Gazebo was read in
+full, and no launch file of the package bridges the clock.
+
+Fix: bridge it: `/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock`.
+Source: ROS 2, design of clock and time; ros-controls/gz_ros2_control issue 443.
+"""
+
+from checker.expand.ros2_launch.graph import Node
+from checker.model.ros.simulation import Simulation, Simulations
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_CLOCK = "rosgraph_msgs/msg/Clock"
+_MAY_PUBLISH = ("bridge", "clock", "gz", "ign", "sim")
+"""Words in the names of programs, of whatever package, that may publish the clock."""
+_KNOWN = ("ros_gz_bridge", "ros_ign_bridge", "ros_gz_image", "ros_ign_image")
+_SPAWNERS = ("ros_gz_sim", "ros_ign_gazebo")
+
+
+@rule("BRG008", "no-clock", Severity.ERROR, Concern.INTERFACE)
+def check(simulations: Simulations) -> Findings:
+    """Report the first node of each launch file that waits for the clock."""
+    if any(_is_clock(simulation) for simulation in simulations.all):
+        return
+    for simulation in simulations.launched:
+        if not simulation.starts_gazebo or simulation.unread or simulation.graph is None:
+            continue
+        nodes = simulation.graph.nodes
+        waiting = [node for node in nodes if node.starts and _takes_clock(node)]
+        if not waiting or any(map(_may_publish, nodes)) or simulation.graph.components:
+            continue
+        parameter = waiting[0].parameter("use_sim_time")
+        others = f" and {len(waiting) - 1} more" if len(waiting) > 1 else ""
+        yield finding(
+            parameter or waiting[0],
+            f"node {waiting[0].executable.value!r}{others} with use_sim_time: nothing bridges "
+            "/clock from Gazebo, which this launch file starts",
+        )
+
+
+def _is_clock(simulation: Simulation) -> bool:
+    return any(
+        entry.passed.ros_type.value == _CLOCK and entry.ros_topic in ("", "/clock")
+        for entry in simulation.entries
+    )
+
+
+def _takes_clock(node: Node) -> bool:
+    parameter = node.parameter("use_sim_time")
+    return (
+        parameter is not None
+        and str(parameter.value).lower() == "true"
+        and node.package.value not in _KNOWN
+    )
+
+
+def _may_publish(node: Node) -> bool:
+    if node.components:
+        return True
+    if node.package.value in _KNOWN:
+        return False
+    if node.package.value in _SPAWNERS:
+        return node.executable.value != "create"
+    return any(word in node.executable.value.lower() for word in _MAY_PUBLISH)
+
+
+_SCAN = """- topic_name: scan
+  ros_type_name: sensor_msgs/msg/LaserScan
+  gz_type_name: gz.msgs.LaserScan
+"""
+_CLOCK_ENTRY = (
+    "- topic_name: {}\n  ros_type_name: rosgraph_msgs/msg/Clock\n  gz_type_name: gz.msgs.Clock\n"
+)
+_TIME = '{"use_sim_time": True}]'
+GOOD = [
+    {"@ros2": True},
+    {"@ros2": _SCAN, "@launch": {_TIME: "]"}},
+    {"@ros2": _SCAN, "@launch": {"LaunchDescription([\n": "LaunchDescription([other(),\n"}},
+    {"@ros2": _SCAN, "config/clock_bridge.yaml": _CLOCK_ENTRY.format("/clock")},
+]
+BAD = [
+    {"@ros2": _SCAN, "@launch": {f"{_TIME}),": f"{_TIME}),  # ^ BRG008"}},
+    {
+        "@ros2": _SCAN + _CLOCK_ENTRY.format("/rover/clock"),
+        "@launch": {f"{_TIME}),": f"{_TIME}),  # ^ BRG008"},
+    },
+]

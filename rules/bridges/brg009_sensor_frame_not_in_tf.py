@@ -1,0 +1,141 @@
+"""Messages of a sensor are in a frame that nothing publishes.
+
+Unless the sensor states the frame of its messages, Gazebo calls it `<model>::<link>::<sensor>`, and
+the bridge makes `<model>/<link>/<sensor>` of it. robot_state_publisher knows the links by their own
+names only: RViz shows nothing, and mapping and navigation drop the messages. It is reported for
+lidars, cameras and IMUs that the launch file bridges, of a robot whose transforms come from the
+same description.
+
+Fix: write `<gz_frame_id>` (from Ionic on `<frame_id>`) with the name of the link into the sensor.
+Source: gz-sensors, frame of messages; ros_gz_project_template issue 23, gz-sensors issue 306.
+"""
+
+from collections.abc import Iterator
+
+from checker.expand.launch.bridge import Direction
+from checker.expand.ros2_launch.graph import Node, is_known
+from checker.model.components import Sensor
+from checker.model.ros.simulation import Simulation, Simulations, SpawnedRobot
+from checker.model.sensing.kind import SensorType, frame_ids
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.source.text import Located
+
+_STATIC = "static_transform_publisher"
+_PUBLISHES_POSES = "PosePublisher"
+
+
+@rule("BRG009", "sensor-frame-not-in-tf", Severity.WARNING, Concern.INTERFACE)
+def check(simulations: Simulations, context: Context) -> Findings:
+    """Report the sensors whose frame is no link."""
+    for simulation in simulations.launched:
+        for spawned in simulation.robots:
+            if spawned.publisher is None or _may_publish_more(simulation, spawned):
+                continue
+            for sensor in spawned.robot.sensors:
+                if not _counts(sensor) or not _is_bridged(simulation, sensor):
+                    continue
+                stated = _stated(sensor, context.release)
+                if stated is None:
+                    model = spawned.name or "<model>"
+                    yield finding(
+                        sensor,
+                        f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
+                        f"the frame {model}/<link>/{sensor.name.value}, which no transform "
+                        f"names; expected <{_element(context.release)}>{sensor.link}",
+                    )
+                elif _is_unknown(stated.value, spawned):
+                    yield finding(
+                        stated,
+                        f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
+                        f"the frame {stated.value!r}, which is no link of the robot",
+                    )
+
+
+def _may_publish_more(simulation: Simulation, spawned: SpawnedRobot) -> bool:
+    """Whether transforms of other frames may be there, or frames be written anew."""
+    nodes: tuple[Node, ...] = simulation.graph.nodes if simulation.graph is not None else ()
+    plugins = {plugin.class_name for plugin in spawned.robot.plugins}
+    prefix = spawned.publisher.parameter("frame_prefix") if spawned.publisher is not None else None
+    return (
+        _PUBLISHES_POSES in plugins
+        or (prefix is not None and prefix.value not in ("", "/"))
+        or any(node.executable.value == _STATIC for node in nodes)
+        or any(entry.passed.overrides_frame for entry in simulation.entries)
+        or any(node.parameter("override_frame_id") is not None for node in nodes)
+    )
+
+
+def _counts(sensor: Sensor) -> bool:
+    return sensor.kind.is_lidar or sensor.kind.takes_pictures or sensor.kind is SensorType.IMU
+
+
+def _is_bridged(simulation: Simulation, sensor: Sensor) -> bool:
+    return any(
+        topic.owner is sensor
+        for entry in simulation.entries
+        if entry.direction is not Direction.TO_IGN
+        for topic in simulation.topics_of(entry)
+    )
+
+
+def _stated(sensor: Sensor, release: str) -> Located[str] | None:
+    """Return the frame that a sensor states, in the spelling of whichever release."""
+    for name in _elements(release):
+        child = sensor.element.child(name)
+        if child is not None and child.text.value.strip():
+            return child.text
+    return None
+
+
+def _elements(release: str) -> Iterator[str]:
+    known = frame_ids(release)
+    yield from (*known.read, *sorted(known.others)) if known is not None else ()
+    yield from ("gz_frame_id", "ignition_frame_id", "frame_id")
+
+
+def _element(release: str) -> str:
+    return next(_elements(release))
+
+
+def _is_unknown(frame: str, spawned: SpawnedRobot) -> bool:
+    name = frame.strip()
+    return is_known(name) and "/" not in name and name not in spawned.robot.links_by_name
+
+
+_FRAME = "<gz_frame_id>lidar_link</gz_frame_id>"
+_SENSOR = '<sensor name="lidar" type="gpu_lidar">'
+
+
+def _rover(frame: str, mark: str = "") -> dict[str, object]:
+    text = ROS2_URDF.replace(_FRAME, frame)
+    return {"@ros2": True, "urdf/rover.urdf": text.replace(_SENSOR, _SENSOR + mark)}
+
+
+ROS2_URDF = f"""<robot name="rover">
+  <link name="base_link"/>
+  <link name="lidar_link"/>
+  <joint name="lidar_joint" type="fixed">
+    <parent link="base_link"/><child link="lidar_link"/>
+  </joint>
+  <gazebo reference="lidar_link">
+    {_SENSOR}
+      <topic>scan</topic>
+      {_FRAME}
+    </sensor>
+  </gazebo>
+</robot>
+"""
+_PUBLISHED = """Node(package="tf2_ros", executable="static_transform_publisher",
+  arguments=["0", "0", "0", "0", "0", "0", "lidar_link", "rover/base_link/lidar"]),
+"""
+GOOD = [
+    {"@ros2": True},
+    _rover(_FRAME),
+    {**_rover(""), "@launch": {"LaunchDescription([\n": f"LaunchDescription([{_PUBLISHED}"}},
+    {**_rover(""), "@launch": {'executable="robot_state_publisher"': 'executable="other"'}},
+    {**_rover(""), "@ros2": "[]\n"},
+]
+BAD = [
+    _rover("", " <!-- ^ BRG009 -->"),
+    _rover("<gz_frame_id>laser</gz_frame_id> <!-- ^ BRG009 -->"),
+]
