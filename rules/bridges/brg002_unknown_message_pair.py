@@ -36,15 +36,16 @@ def check(simulations: Simulations, context: Context) -> Findings:
         for entry in simulation.entries:
             passed = entry.passed
             if entry.is_own and is_known(passed.ros_type.value + passed.gz_type.value):
-                yield from _judged(entry, context.distro)
+                messages = {m for topic in simulation.topics_of(entry) for m in topic.messages}
+                yield from _judged(entry, messages, context.distro)
 
 
-def _judged(entry: BridgeEntry, distro: str) -> Iterator[Finding]:
+def _judged(entry: BridgeEntry, behind: set[str], distro: str) -> Iterator[Finding]:
     ros, gz = entry.passed.ros_type, entry.passed.gz_type
     partners = ros_types(entry.gz_name)
     if not gz.value.startswith(GZ_PREFIXES) or not partners:
         yield _unknown_message(gz, ros.value)
-    elif ros.value not in partners:
+    elif ros.value not in partners and not behind.intersection(gz_messages(ros.value)):
         expected = listed(partners)
         said = f"the bridge does not convert {gz.value} to {ros.value}"
         if meant := meant_ros_type(ros.value, partners):

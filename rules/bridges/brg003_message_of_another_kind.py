@@ -10,6 +10,7 @@ Source: gz-sensors and Gazebo's systems; gazebosim/gz-sensors issue 175.
 
 from checker.base.words import listed
 from checker.expand.ros2_launch.bridge_entry import GZ_PREFIXES
+from checker.model.ros.bridge_types import ros_types
 from checker.model.ros.simulation import Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -22,7 +23,8 @@ def check(simulations: Simulations) -> Findings:
             behind = simulation.topics_of(entry)
             messages = list(dict.fromkeys(name for topic in behind for name in topic.messages))
             stated = entry.passed.gz_type
-            if not messages or not stated.value.startswith(GZ_PREFIXES):
+            known = stated.value.startswith(GZ_PREFIXES) and ros_types(entry.gz_name)
+            if not messages or not known:
                 continue
             if entry.gz_name not in messages:
                 expected = " or ".join(f"gz.msgs.{name}" for name in messages)
@@ -42,6 +44,7 @@ _MARK = "  # ^ BRG003"
 GOOD = [
     {"@ros2": True},
     _entry("scan/points", "sensor_msgs/msg/PointCloud2", "gz.msgs.PointCloudPacked"),
+    _entry("scan", "sensor_msgs/msg/LaserScan", "gz.msgs.Laserscan"),
     _entry("elsewhere", "sensor_msgs/msg/PointCloud2", "gz.msgs.PointCloudPacked"),
 ]
 BAD = [

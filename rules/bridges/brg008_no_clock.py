@@ -9,10 +9,12 @@ Fix: bridge it: `/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock`.
 Source: ROS 2, design of clock and time; ros-controls/gz_ros2_control issue 443.
 """
 
+from checker.expand.ros2_launch.bridge_entry import BridgeFaultKind
 from checker.expand.ros2_launch.graph import Node
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
+_IGNORED = BridgeFaultKind.UNKNOWN_KEY
 _CLOCK = "rosgraph_msgs/msg/Clock"
 _MAY_PUBLISH = ("bridge", "clock", "gz", "ign", "sim")
 """Words in the names of programs, of whatever package, that may publish the clock."""
@@ -28,9 +30,11 @@ def check(simulations: Simulations) -> Findings:
     for simulation in simulations.launched:
         if not simulation.starts_gazebo or simulation.unread or simulation.graph is None:
             continue
+        left_out = {fault.kind for fault in simulation.bridges.faults} - {_IGNORED}
         nodes = simulation.graph.nodes
         waiting = [node for node in nodes if node.starts and _takes_clock(node)]
-        if not waiting or any(map(_may_publish, nodes)) or simulation.graph.components:
+        others_publish = any(map(_may_publish, nodes)) or simulation.graph.components
+        if not waiting or left_out or others_publish:
             continue
         parameter = waiting[0].parameter("use_sim_time")
         others = f" and {len(waiting) - 1} more" if len(waiting) > 1 else ""

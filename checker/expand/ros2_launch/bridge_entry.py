@@ -89,6 +89,11 @@ class BridgeEntry(Record, eq=False):
         return self.passed.direction
 
     @property
+    def counts(self) -> bool:
+        """Whether it is bridged with the defaults of all arguments."""
+        return self.node is None or self.node.starts is True
+
+    @property
     def is_own(self) -> bool:
         """Whether it is written in the package that is checked."""
         return not self.passed.gz_type.span.source.file.startswith("../")

@@ -20,7 +20,8 @@ _TYPES = ("ros_type_name", "gz_type_name")
 _OLD = {"ign_topic_name": "gz_topic_name", "ign_type_name": "gz_type_name"}
 _SERVICE = ("service_name", "gz_req_type_name", "gz_rep_type_name")
 _OTHERS = ("direction", "publisher_queue", "subscriber_queue", "lazy", "qos_profile", "frame_id")
-_MARKS = (*_TOPICS, *_TYPES, *_OLD)
+_MARKS = ("gz_topic_name", "gz_type_name", *_OLD)
+"""Keys that files of no other bridge have."""
 _NEAR = {
     "ros_topic": "ros_topic_name",
     "gz_topic": "gz_topic_name",

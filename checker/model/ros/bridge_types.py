@@ -26,14 +26,18 @@ def gz_messages(ros_type: str) -> tuple[str, ...]:
 
 def meant_gz_message(text: str) -> str:
     """Return the message of Gazebo that another spelling means, by its last word; or nothing."""
-    last = re.split(r"[./:]", text)[-1].lower()
-    return next((name for name in table("bridge_types")["pairs"] if name.lower() == last), "")
+    pairs = table("bridge_types")["pairs"]
+    return next((name for name in pairs if _letters(name) == _letters(text)), "")
 
 
 def meant_ros_type(text: str, among: Sequence[str]) -> str:
     """Return the ROS message that another spelling means, by its last word; or nothing."""
-    last = re.split(r"[./:]", text)[-1].lower()
-    return next((name for name in among if name.rpartition("/")[2].lower() == last), "")
+    return next((name for name in among if _letters(name) == _letters(text)), "")
+
+
+def _letters(text: str) -> str:
+    """Return the last word of a message without what spellings differ in."""
+    return re.split(r"[./:]", text)[-1].lower().replace("_", "")
 
 
 def all_ros_types() -> tuple[str, ...]:

@@ -70,11 +70,16 @@ def unknown_owner(robot: Robot) -> str:
             return f"topics of the {sensor.type.value} sensor {sensor.name.value!r} are not known"
     for plugin in robot.plugins:
         name = plugin.class_name
-        if plugin.nested_in or (name not in known["plugins"] and name not in known["silent"]):
+        if plugin.nested_in or (name not in known["plugins"] and not is_silent(plugin)):
             return f"topics of the plugin {plugin.called} are not known"
     if robot.unresolved_includes:
         return f"{robot.unresolved_includes[0].value} is not available"
     return robot.unread_plugins
+
+
+def is_silent(plugin: Plugin) -> bool:
+    """Whether a plugin is known to have no topics but those of sensors and of the world."""
+    return plugin.class_name in table("simulated_topics")["silent"]
 
 
 def _kind(sensor: Sensor) -> str:

@@ -26,7 +26,12 @@ from checker.expand.ros2_launch.package_files import local_file
 from checker.expand.xacro.expansion import Expansions, Wanted
 from checker.expand.xacro.files import local_path
 from checker.model.robot import Robot
-from checker.model.ros.simulated_topics import SimulatedTopic, simulated_topics, unknown_owner
+from checker.model.ros.simulated_topics import (
+    SimulatedTopic,
+    is_silent,
+    simulated_topics,
+    unknown_owner,
+)
 from checker.model.ros.topics import comparable
 from checker.model.sdf.includes import ModelIncludes
 from checker.model.sdf.reader import read_sdf
@@ -99,6 +104,11 @@ class Simulation(Record, eq=False, dict=True):
         return topics
 
     @property
+    def is_whole(self) -> bool:
+        """Whether it starts Gazebo, and all that it starts was read."""
+        return self.starts_gazebo and not self.unread
+
+    @property
     def model_names(self) -> frozenset[str]:
         """Names of the models in Gazebo; none where one is not known."""
         names = [spawned.name for spawned in self.robots]
@@ -113,17 +123,24 @@ class Simulation(Record, eq=False, dict=True):
 
     def topics_of(self, entry: BridgeEntry) -> list[SimulatedTopic]:
         """Return what is behind the topic of a bridge, whatever world and model are called."""
-        return self.topics.get(comparable(entry.gz_topic), []) if entry.gz_topic else []
+        known = entry.gz_topic and entry.counts
+        return self.topics.get(comparable(entry.gz_topic), []) if known else []
 
     @cached_property
     def unknown_topics(self) -> str:
-        """Why more topics may be there than those that are known; empty where all are."""
+        """Why models may have more topics than those that are known; empty where all are."""
         reasons = [*self.unknown_robots, *self.unknown_worlds]
         reasons += filter(None, map(unknown_owner, self.models))
         reasons += [
             f"{uri.value} is not available" for world in self.worlds for uri in world.unknown
         ]
         return next(iter(reasons), "")
+
+    @property
+    def knows_systems(self) -> bool:
+        """Whether the systems of the world itself have no topics but the usual ones."""
+        plugins = (plugin for world in self.worlds for plugin in world.plugins)
+        return all(is_silent(plugin) for plugin in plugins)
 
     @cached_property
     def unread(self) -> str:

@@ -2,7 +2,8 @@
 
 The bridge waits for it without a word. Names that a sensor states in `<topic>` are taken as they
 are; all others begin with the names that world and model have in Gazebo, which `-name` of the
-spawning program gives. It is reported where all robots that the launch file spawns were read.
+spawning program gives. It is reported where all robots that the launch file spawns were read, and
+either all of what it starts is known, or a topic with this message is left over.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.
@@ -26,20 +27,24 @@ _OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empt
 def check(simulations: Simulations) -> Findings:
     """Report topics that no robot, model or world has, if all of them are known."""
     for simulation in simulations.launched:
-        if not simulation.robots or simulation.unknown_topics:
+        if not simulation.topics or simulation.unknown_topics:
             continue
         for entry in simulation.entries:
-            if not entry.gz_topic or _OF_THE_WORLD.match(entry.gz_topic):
+            unknown = not entry.gz_topic or not entry.counts
+            if unknown or _OF_THE_WORLD.match(entry.gz_topic):
                 continue
             behind = simulation.topics_of(entry)
             if not behind and not _may_be_of_user(entry):
                 hint = _instead(simulation, entry)
-                if hint or simulation.starts_gazebo:
+                whole = simulation.is_whole and simulation.knows_systems
+                if hint or (simulation.robots and whole):
                     yield finding(
                         entry.passed.gz_topic,
                         f"no sensor or system in Gazebo has the topic {entry.gz_topic}{hint}",
                     )
-            elif behind and (fault := _other_name(simulation, entry, behind)):
+            elif (
+                behind and simulation.is_whole and (fault := _other_name(simulation, entry, behind))
+            ):
                 yield finding(entry.passed.gz_topic, f"{entry.gz_topic}: {fault}")
 
 
