@@ -28,7 +28,7 @@ from checker.expand.ros2_launch.graph import (
     is_known,
     shown,
 )
-from checker.expand.ros2_launch.node_parameters import UNKNOWN, read_parameters
+from checker.expand.ros2_launch.node_parameters import MOVEIT, UNKNOWN, read_parameters
 from checker.expand.ros2_launch.substitutions import perform, truth_of
 from checker.expand.ros2_launch.values import (
     Choice,
@@ -44,6 +44,8 @@ from checker.source.text import Located, Span
 
 _DEFERRED = ("on_exit", "on_start", "on_completion", "on_shutdown", "entities", "on_stdout")
 _DEFERRED_TOO = ("on_stderr", "on_stdin", "on_complete")
+_OLD_KEYWORDS = frozenset({"node_name", "node_executable", "node_namespace"})
+"""Of `Node` until Foxy."""
 _NODES: Mapping[str, NodeKind] = MappingProxyType(
     {
         "Node": NodeKind.NODE,
@@ -236,12 +238,16 @@ class Visitor:
                 span=made.span,
             )
         )
-        self.found.unread += unread
+        self.found.unread += (item for item in unread if item.reason != MOVEIT)
         self._keywords(made, context)
         self._events(made, context)
 
     def _keywords(self, made: Made, context: Context) -> None:
-        if "executable" not in made.values:
+        for name in _OLD_KEYWORDS.intersection(made.values):
+            where = made.keywords.get(name, made.span)
+            message = f"{made.name} takes no keyword {name!r}"
+            context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
+        if "executable" not in made.values and "node_executable" not in made.values:
             message = f"{made.name} has no executable"
             context.fault(LaunchFaultKind.ATTRIBUTE, made.span, message, "executable")
 
