@@ -32,6 +32,7 @@ from checker.model.devices.known import KnownDevices, known_devices
 from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
+from checker.model.ros2_control.robot_control import ControlReader, RobotControl
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.includes import ModelIncludes, included_model
 from checker.model.sdf.links import read_plugin
@@ -236,7 +237,7 @@ class Subject(Record, eq=False, dict=True):
             return (
                 descriptions
                 if isinstance(descriptions, NotAvailable)
-                else tuple(description.robot for description in descriptions)
+                else tuple(map(self._controlled, descriptions))
             )
         robots = read_sdf(self.model, ModelIncludes(self.package))
         if self.package.kind is not PackageKind.SINGLE_FILE:
@@ -249,6 +250,29 @@ class Subject(Record, eq=False, dict=True):
                 reason = missing if isinstance(missing, str) else reason
             return NotAvailable(reason, applicable=not nothing_to_see)
         return (self._with_spawned_plugins(robots[0]), *robots[1:])
+
+    def _controlled(self, description: UrdfDescription) -> Robot:
+        """Return the robot of a description with its controllers."""
+        control = self.controls_by_file.get(description.file)
+        robot = description.robot
+        return robot if control is None else replace(robot, controllers=control.controllers)
+
+    @cached_property
+    def controls_by_file(self) -> dict[str, RobotControl]:
+        """ros2_control of the robots that have it, by the file of their description."""
+        descriptions, reader = self.descriptions, ControlReader(self.package)
+        known = () if isinstance(descriptions, NotAvailable) else descriptions
+        controls = ((description.file, reader.control(description)) for description in known)
+        return {file: control for file, control in controls if control is not None}
+
+    @property
+    def robot_controls(self) -> tuple[RobotControl, ...] | NotAvailable:
+        """ros2_control of each robot that has it."""
+        if isinstance(self.descriptions, NotAvailable):
+            return self.descriptions
+        if not self.controls_by_file:
+            return NotAvailable("no robot is controlled by ros2_control", applicable=False)
+        return tuple(self.controls_by_file.values())
 
     def _with_spawned_plugins(self, robot: Robot) -> Robot:
         if isinstance(self.spawned, NotAvailable):
@@ -431,6 +455,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     StartedXml: lambda subject: subject.started,
     LaunchGraph: lambda subject: subject.launch,
     ControlSystem: lambda subject: subject.control,
+    RobotControl: lambda subject: subject.robot_controls,
     Specification: lambda subject: subject.specification,
     UrdfDescription: lambda subject: subject.descriptions,
     UrdfFiles: lambda subject: subject.urdf_files,

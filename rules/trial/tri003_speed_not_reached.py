@@ -60,7 +60,7 @@ def _cause(driven: SettledTrial, ratio: float, tolerance: float) -> str:
         for wheel in drive.wheels:
             if wheel.radius and stated > 0.0 and abs(wheel.radius / stated - ratio) <= tolerance:
                 radius = f"the wheels have a radius of {wheel.radius:.3g} m"
-                tag = f"half of {drive.diameter_tag}" if drive.diameter_tag else "wheel_radius"
+                tag = f"half of {drive.diameter_tag}" if drive.diameter_tag else drive.radius_tag
                 return f"; {tag} is {stated:g} m, but {radius}"
     return ""
 

@@ -7,6 +7,7 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.model.components import Joint, Link, Part
 from checker.model.robot import Robot
+from checker.model.ros2_control.controllers import Controller
 from checker.physics.trial.trial import Leg, Trial
 
 
@@ -30,8 +31,8 @@ class RobotTrial(Record, eq=False, dict=True):
         return part or self.robot
 
     @cached_property
-    def drive(self) -> Part:
-        """Where findings about its motion point: the plugin that moves it, else the robot."""
+    def drive(self) -> Part | Controller:
+        """Where findings about its motion point: what drives it, else the robot."""
         locomotion = self.robot.locomotion
         plugins = [
             *(drive.plugin for drive in locomotion.wheel_drives),

@@ -1,0 +1,1 @@
+"""Hardware and controllers of ros2_control."""
