@@ -192,7 +192,8 @@ def model_with(fragment: str) -> str:
 
 def judge_of(rule: Rule) -> Profile:
     """Return the profile that judges the examples of a rule: that of SubT where it has the rule."""
-    return profile("subt") if profile("subt").includes(rule) else profile("urdf")
+    judges = (profile(name) for name in ("subt", "urdf", "ros2"))
+    return next((judge for judge in judges if judge.includes(rule)), profile("urdf"))
 
 
 def write_example(example: Example, workspace: Path) -> Path:

@@ -1,1 +1,1 @@
-"""Hardware and controllers of ros2_control."""
+"""R2C: ros2_control, its hardware and its controllers."""

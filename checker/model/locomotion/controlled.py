@@ -32,8 +32,8 @@ _CORNERS = {
     "rear_left": Side.LEFT,
 }
 STEERING_CLASSES = frozenset(
-    ("AckermannSteeringController", "BicycleSteeringController")
-    + ("TricycleSteeringController", "TricycleController")
+    f"{kind}Controller"
+    for kind in ("AckermannSteering", "BicycleSteering", "TricycleSteering", "Tricycle")
 )
 _SAME_WAY = 1.0
 """Multiplier of a joint that turns as the one that it mimics."""

@@ -56,7 +56,7 @@ class HardwareClass(Record):
 
     def exists_in(self, distribution: str) -> bool:
         """Say whether a distribution has it."""
-        return "*" in self.distros or _column(distribution) in self.distros
+        return bool({"*", distribution, _column(distribution)} & set(self.distros))
 
 
 @cache
