@@ -134,7 +134,7 @@ def _exported(package: Package) -> Iterator[str]:
             "class_libraries",
         ):
             for found in document.root.descendants("class"):
-                if found.get("base_class_type", "").startswith("hardware_interface::"):
+                if (found.get("base_class_type") or "").startswith("hardware_interface::"):
                     yield found.get("name") or found.get("type") or ""
 
 

@@ -1,4 +1,4 @@
-"""A file of parameters that Gazebo's plugin names and that is not there.
+"""A file of parameters that Gazebo's plugin names and that is not there, or no YAML.
 
 The plugin gives the file of `<parameters>` to the controller manager that it starts. Without it the
 manager does not start, or knows no controller. When a package is renamed, `$(find …)` is often
@@ -22,6 +22,8 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
     A package that package.xml does not name either is a warning; if the file lies in this package
     under the same path, it is an error. A plugin without `<parameters>` is a warning.
     """
+    for fault in control.faults:
+        yield finding(fault.span, f"the file of parameters cannot be read: {fault.message}")
     for manager in control.managers:
         if not manager.files:
             yield finding(
@@ -57,7 +59,7 @@ def _shown(file: ParametersFile) -> str:
     return file.text.value.removeprefix(f"{ROOT}/")
 
 
-def _arm(parameters: str, **files: str) -> object:
+def _arm(parameters: str) -> dict[str, str]:
     described = f"""
 <ros2_control name="arm" type="system">
   <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
@@ -69,7 +71,7 @@ def _arm(parameters: str, **files: str) -> object:
   </plugin>
 </gazebo>
 """
-    return {"@urdf": described, **{path.replace("__", "/"): text for path, text in files.items()}}
+    return {"@urdf": described}
 
 
 _MARK = "  <!-- ^ R2C006 -->"
@@ -80,4 +82,8 @@ BAD = [
     _arm(f"<parameters>$(find acme_arm_description)/config/none.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/control.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/other.yaml</parameters>{_MARK}"),
+    {
+        **_arm("<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>"),
+        "config/arm.yaml": "controller_manager:\n  ros__parameters: {  # ^ R2C006\n",
+    },
 ]

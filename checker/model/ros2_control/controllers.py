@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import cached_property
 
 from checker.base.record import Record
 from checker.model.ros2_control.parameters import MANAGER, NodeBlock, Parameter
@@ -15,13 +14,14 @@ _LISTED = ".type"
 _EVERY = "**"
 
 
-class Controller(Record, eq=False, dict=True):
+class Controller(Record, eq=False):
     """A controller that parameter files configure.
 
     Attributes:
         name: As its node is called.
         type: Such as `diff_drive_controller/DiffDriveController`.
-        parameters: Of its own block, by name.
+        parameters: Of its own block and of those for every node, by name.
+        own: Names of the parameters in its own block.
         listed: Whether the controller manager's block names it.
         span: The key of its block, else the place that states its type.
         block: The key of its own block; None when it has none.
@@ -30,6 +30,7 @@ class Controller(Record, eq=False, dict=True):
     name: str
     type: Located[str]
     parameters: Mapping[str, Parameter]
+    own: frozenset[str]
     listed: bool
     span: Span
     block: Span | None = None
@@ -65,13 +66,8 @@ class Controller(Record, eq=False, dict=True):
         value = parameter.node.scalar if parameter is not None else None
         return value if isinstance(value, bool) else default
 
-    @cached_property
-    def is_known(self) -> bool:
-        """Whether all of its parameters are known before launch."""
-        return all(parameter.is_known for parameter in self.parameters.values())
 
-
-class ControllerFile(Record, eq=False, dict=True):
+class ControllerFile(Record, eq=False):
     """A parameter file that is about controllers.
 
     Attributes:
@@ -79,11 +75,13 @@ class ControllerFile(Record, eq=False, dict=True):
         blocks: What it gives to which nodes.
         loaded_by: What names it: the `<parameters>` of a Gazebo plugin; None when it is only found
             in the package.
+        bare: Keys of controller managers below which `ros__parameters` is missing.
     """
 
     path: str
     blocks: tuple[NodeBlock, ...]
     loaded_by: Span | None = None
+    bare: tuple[Span, ...] = ()
 
     @property
     def managers(self) -> tuple[NodeBlock, ...]:
@@ -122,8 +120,9 @@ def _types(blocks: Sequence[NodeBlock]) -> Iterator[tuple[str, Parameter, bool]]
 def _controller(name: str, draft: _Draft, blocks: Sequence[NodeBlock]) -> Controller:
     own = [block for block in blocks if block.node == name]
     parameters: dict[str, Parameter] = {}
-    for block in own:
+    for block in (*(block for block in blocks if block.node == _EVERY), *own):
         parameters |= block.parameters
+    names = frozenset(parameter for block in own for parameter in block.parameters)
     place = own[-1].span if own else None
     span = place or draft.type.span
-    return Controller(name, draft.type, parameters, draft.listed, span, place)
+    return Controller(name, draft.type, parameters, names, draft.listed, span, place)

@@ -100,6 +100,7 @@ class ControllerType(Record):
         package: That exports it.
         distros: Where it exists.
         joint_params: Parameters that name joints.
+        sensor_params: Parameters that name a sensor or gpio of `<ros2_control>`.
         required: Parameters without which it cannot be configured, and where.
         params: All its parameters by name; `<joints>` in a name stands for each of that list.
         interface: Command interface of its joints; empty where the parameters say it.
@@ -108,6 +109,7 @@ class ControllerType(Record):
     package: str
     distros: tuple[str, ...]
     joint_params: tuple[str, ...]
+    sensor_params: tuple[str, ...]
     required: Mapping[str, tuple[str, ...]]
     params: Mapping[str, KnownParameter]
     interface: str = field(default="")

@@ -142,6 +142,21 @@ def read_blocks(root: YamlNode) -> Iterator[NodeBlock]:
             waiting += reversed(below)
 
 
+def bare_managers(root: YamlNode) -> Iterator[Span]:
+    """Yield the keys of controller managers below which `ros__parameters` is missing."""
+    waiting = [(root, 0)]
+    while waiting:
+        node, depth = waiting.pop()
+        for key, value in node.entries:
+            name = key_name(key).rpartition("/")[2]
+            if value.kind != "mapping" or name == PARAMETERS:
+                continue
+            if name != MANAGER and depth < _DEEPEST:
+                waiting.append((value, depth + 1))
+            elif name == MANAGER and value.get(PARAMETERS) is None:
+                yield key.span
+
+
 def key_name(key: YamlNode) -> str:
     """Return the text of a key; empty for one that is none."""
     return str(key.scalar)[:300] if key.kind == "scalar" and key.scalar is not None else ""

@@ -15,7 +15,7 @@ from checker.model.plugin_library import library_stem
 from checker.model.robot import Robot
 from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
 from checker.model.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
-from checker.model.ros2_control.parameters import read_blocks
+from checker.model.ros2_control.parameters import MANAGER, bare_managers, read_blocks
 from checker.model.urdf.description import UrdfDescription
 from checker.package.package import Package
 from checker.source.text import Located, Span
@@ -54,11 +54,13 @@ class GazeboManager(Record, eq=False):
         plugin: The plugin.
         files: What its `<parameters>` name.
         namespace: Absolute; `/` when it states none.
+        node: Name of the manager's node.
     """
 
     plugin: Plugin
     files: tuple[ParametersFile, ...]
     namespace: Located[str]
+    node: str = MANAGER
 
     @property
     def span(self) -> Span:
@@ -151,7 +153,8 @@ class ControlReader:
         namespace = Located("/", plugin.span, stated=False)
         if stated is not None:
             namespace = Located(f"/{stated.value.strip('/')}", stated.span)
-        return GazeboManager(plugin, files, namespace)
+        node = next((text.value for text in plugin.at("controller_manager_name")), MANAGER)
+        return GazeboManager(plugin, files, namespace, node)
 
     def _parameters_file(self, text: Located[str]) -> ParametersFile:
         path = _FIND.sub(rf"{ROOT}/\1", text.value.strip())
@@ -175,8 +178,8 @@ class ControlReader:
                 if reason:
                     unread.append(reason)
                 if root is not None:
-                    blocks = tuple(read_blocks(root))
-                    yield ControllerFile(file.path, blocks, file.text.span)
+                    blocks, bare = tuple(read_blocks(root)), tuple(bare_managers(root))
+                    yield ControllerFile(file.path, blocks, file.text.span, bare)
 
     def _mentioning(self, names: frozenset[str]) -> Iterator[ControllerFile]:
         """Yield the files of the package that configure a controller of these joints."""
