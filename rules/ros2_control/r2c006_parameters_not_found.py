@@ -24,6 +24,8 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
     """
     for fault in control.faults:
         yield finding(fault.span, f"the file of parameters cannot be read: {fault.message}")
+    for reason in control.unread:
+        yield unchecked(reason)
     for manager in control.managers:
         if not manager.files:
             yield finding(

@@ -137,9 +137,14 @@ class ControllerType(Record):
         """Say whether it cannot be configured without a parameter."""
         if _column(distribution) in self.required.get(name, ()):
             return True
-        known = self.params[name]
-        positive = known.default == 0.0 and "gt<>" in known.validation
-        return positive and self.known_in(name, distribution)
+        known = self.params.get(name)
+        # Where spellings changed, either of two may be stated.
+        return (
+            known is not None
+            and not known.distros
+            and known.default == 0.0
+            and "gt<>" in known.validation
+        )
 
 
 def _fits(known: str, name: str) -> bool:

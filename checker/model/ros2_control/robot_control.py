@@ -97,6 +97,11 @@ class RobotControl(Record, eq=False, dict=True):
         """Whether a plugin of the robot names the files: they are its own for certain."""
         return any(file.loaded_by is not None for file in self.files)
 
+    @property
+    def has_variants(self) -> bool:
+        """Whether the files may be for variants of the robot: nothing says which one is loaded."""
+        return not self.is_named and len(self.files) > 1
+
     @cached_property
     def controllers(self) -> tuple[Controller, ...]:
         """What the files configure."""
@@ -144,7 +149,9 @@ class ControlReader:
         unread: list[str] = []
         named = tuple(self._named(managers, faults, unread))
         mere = RobotControl(robot, hardware, managers)
-        files = named or tuple(self._mentioning(mere.components))
+        # A file that is named and not there is a fault of its own, and no other one stands for it.
+        guesses = not any(manager.files for manager in managers)
+        files = tuple(self._mentioning(mere.components)) if guesses else named
         return RobotControl(robot, hardware, managers, files, tuple(faults), tuple(unread))
 
     def _manager(self, plugin: Plugin) -> GazeboManager:
@@ -170,9 +177,7 @@ class ControlReader:
     ) -> Iterator[ControllerFile]:
         """Yield the files that Gazebo plugins name."""
         for file in (file for manager in managers for file in manager.files):
-            if file.path is None:
-                unread.append(f"{file.text.value.removeprefix(f'{ROOT}/')} is not available")
-            elif file.exists:
+            if file.path is not None and file.exists:
                 root, found, reason = self._yaml(file.path)
                 faults += found
                 if reason:
