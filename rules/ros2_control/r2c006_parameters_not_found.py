@@ -86,6 +86,6 @@ BAD = [
     _arm(f"<parameters>{_SELDOM}/other.yaml</parameters>{_MARK}"),
     {
         **_arm("<parameters>$(find acme_arm_description)/config/arm.yaml</parameters>"),
-        "config/arm.yaml": "controller_manager:\n  ros__parameters: {  # ^ R2C006\n",
+        "config/arm.yaml": "controller_manager:\n\tros__parameters:  # ^ R2C006\n",
     },
 ]

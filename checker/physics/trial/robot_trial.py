@@ -44,6 +44,22 @@ class RobotTrial(Record, eq=False, dict=True):
         return plugins[0] if plugins else self.robot
 
     @property
+    def rigid_steering(self) -> str:
+        """Name of a steered link that touches the ground and cannot roll; empty if there is none.
+
+        Such a robot is drawn in RViz alone: in a simulator its wheels drag.
+        """
+        rolling = {tie.parent for tie in self.robot.tree.ties if tie.joint.type.value != "fixed"}
+        steered = {
+            joint for drive in self.robot.locomotion.wheel_drives for joint, _ in drive.steering
+        }
+        for tie in self.robot.tree.ties:
+            link = self.robot.links_by_name.get(tie.child)
+            if tie.joint in steered and tie.child not in rolling and link and link.collisions:
+                return link.name.value
+        return ""
+
+    @property
     def unlike(self) -> str:
         """Why the trial is none of this robot, as the end of a sentence; empty if it is.
 
