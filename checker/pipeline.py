@@ -86,7 +86,7 @@ class Task(Record):
 
     Attributes:
         path: As the user gave it.
-        only: Name of the one package to check there; empty for all.
+        only: The one package to check there, by its folder and file; None for all.
         settings: To judge by, instead of those beside the package.
         wishes: Fields of the settings to replace.
         say: Told what takes long.
@@ -94,7 +94,7 @@ class Task(Record):
     """
 
     path: Path
-    only: str = ""
+    only: tuple[Path, str] | None = None
     settings: Settings | None = None
     wishes: Mapping[str, Any] = field(default_factory=dict)
     say: Say = say_nothing
@@ -113,9 +113,9 @@ class Task(Record):
 
     def shown(self, package: Package) -> str:
         """Return the package's path as the user would write it."""
-        if package.only:
-            return str(self.path.parent)
         path = self.path.resolve()
+        if package.only and path.is_file():
+            return str(self.path.parent)
         if package.root.is_relative_to(path):
             return str(self.path / package.root.relative_to(path))
         return str(self.path / package.name)
@@ -126,7 +126,8 @@ def _parts(task: Task, jobs: int) -> list[Task]:
     try:
         if jobs > 1 and task.path.is_dir():
             with open_input(task.path) as opened:
-                return [replace(task, only=package.name) for package in opened.packages]
+                units = [(package.root, package.only) for package in opened.packages]
+                return [replace(task, only=unit) for unit in units]
     except (UnreadableInput, OSError):
         pass  # the task that meets it again says so
     return [task]
@@ -151,7 +152,7 @@ def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:
     with open_input(task.path) as opened:
         opening = perf_counter() - started
         for number, package in enumerate(opened.packages):
-            if task.only in ("", package.name):
+            if task.only in (None, (package.root, package.only)):
                 if number:
                     # The packages before have left what nothing but the collection finds.
                     gc.collect()
@@ -252,5 +253,5 @@ def _report(done: Sequence[_Checked]) -> Report:
             not_opened[result] = None
         else:
             packages.setdefault((Path(result.path).resolve(), result.name), result)
-    ordered = sorted(packages.values(), key=lambda package: (package.name, package.path))
+    ordered = sorted(packages.values(), key=lambda package: (package.path, package.name))
     return Report(tuple(ordered), versions(), tuple(not_opened))

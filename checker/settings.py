@@ -21,6 +21,8 @@ from checker.base.record import Record
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
+from checker.package.package import Package
+from checker.package.target import usual_profile
 from checker.rule import Rule
 from checker.rulebook.profiles import distro_names, profile_names
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
@@ -34,8 +36,6 @@ _LARGEST = 10**300
 _DOTTED = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){20}""")
 """A key of many parts: reading one takes the square of their number."""
 DEFAULT_PROFILE = "subt"
-URDF_PROFILE = "urdf"
-"""Judges URDF packages and files where the user names no profile."""
 DEVICES_LIMIT = 100
 
 
@@ -90,10 +90,10 @@ class Settings(Record):
         wanted = {key: value for key, value in changes.items() if value is not None}
         return replace(self, profile_chosen=self.profile_chosen or "profile" in wanted, **wanted)
 
-    def suiting(self, *, urdf: bool) -> Settings:
-        """Return the settings for what is checked: a URDF robot has a profile of its own."""
+    def suiting(self, package: Package) -> Settings:
+        """Return the settings for what is checked: without a choice, its usual profile counts."""
         is_default = self.profile == DEFAULT_PROFILE and not self.profile_chosen
-        return replace(self, profile=URDF_PROFILE) if urdf and is_default else self
+        return replace(self, profile=usual_profile(package)) if is_default else self
 
     @property
     def description(self) -> str:

@@ -46,10 +46,12 @@ Reported = tuple[Package, ReportedFinding]
 def reported(folder: Path) -> tuple[Reported, ...]:
     """Return every finding about the packages in a folder."""
     with open_input(folder) as opened:
-        packages = {package.name: package for package in opened.packages}
+        packages = {(package.root, package.name): package for package in opened.packages}
     report = check_package(folder, Settings())
     return tuple(
-        (packages[each.name], finding) for each in report.packages for finding in each.findings
+        (packages[Path(each.path).resolve(), each.name], finding)
+        for each in report.packages
+        for finding in each.findings
     )
 
 

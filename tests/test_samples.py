@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 import jsonschema
@@ -25,8 +26,12 @@ SCHEMA = json.loads((SAMPLES.parent / "checker/report/report.schema.json").read_
 
 
 def report_of(name: str) -> PackageReport:
-    (package,) = check_package(SAMPLES / name, Settings()).packages
-    return package
+    """Return the report of the package itself; its worlds have reports of their own."""
+    return next(package for package in reports_of(name) if package.name == name)
+
+
+def reports_of(name: str) -> tuple[PackageReport, ...]:
+    return check_package(SAMPLES / name, Settings()).packages
 
 
 def golden(name: str) -> dict[str, Any]:
@@ -100,11 +105,18 @@ def faults_listed(name: str) -> set[Fault]:
 
 def faults_reported(name: str) -> set[Fault]:
     return {
-        (finding.rule, place.file, place.line)
-        for finding in report_of(name).findings
+        (finding.rule, _from_sample(name, package, place.file), place.line)
+        for package in reports_of(name)
+        for finding in package.findings
         for place in finding.places
         if not place.note
     }
+
+
+def _from_sample(name: str, package: PackageReport, file: str) -> str:
+    """Return the path of a file from the sample; its worlds are checked by themselves."""
+    folder = Path(package.path).relative_to(SAMPLES / name)
+    return (folder / file).as_posix() if file else ""
 
 
 @pytest.mark.parametrize("name", BROKEN)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
@@ -22,10 +21,9 @@ from checker.base.resources import templates
 from checker.base.words import plain
 from checker.package.inputs import open_input
 from checker.package.kind import PackageKind
-from checker.package.model_file import own_model
 from checker.package.package import Package
+from checker.package.target import usual_profile
 from checker.settings import FILE_NAME, find_settings, folders_above
-from checker.source.text import SourceText
 
 # Adds the hook to a `.pre-commit-config.yaml` and leaves every other character as it is.
 
@@ -112,9 +110,7 @@ def _without_trailing_comments(text: str) -> str:
 
 _LOOKED_AT = 100
 """Packages; more of them tell nothing new."""
-_SUBMISSIONS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
-_HARMONIC = re.compile(r"\b(?:lib)?gz-sim-|\bgz::sim::")
-"""Plugins by the names that they have since Gazebo Garden."""
+_WITHOUT_ROBOT = (PackageKind.PLUGIN, PackageKind.UNKNOWN)
 
 
 class Guess(Record):
@@ -143,21 +139,13 @@ def guessed_profile(folder: Path) -> Guess:
     if len(profiles) == 1:
         return Guess(next(iter(profiles)), counted)
     if profiles:
-        return Guess("", f"{counted}; each is checked with the profile subt, or urdf if it is URDF")
+        return Guess("", f"{counted}; each is checked with its own")
     return Guess("", "nothing: there is no robot yet")
 
 
 def _profile_of(package: Package) -> str:
     """Return the profile that suits a package; empty for one that holds no robot."""
-    if package.is_urdf:
-        return "urdf"
-    if package.kind in _SUBMISSIONS:
-        return "subt"
-    model = own_model(package)
-    text = package.read(model) if model else None
-    if not isinstance(text, SourceText):
-        return ""
-    return "gazebo-harmonic" if _HARMONIC.search(text.text) else "sdf"
+    return "" if package.kind in _WITHOUT_ROBOT else usual_profile(package)
 
 
 HOOKS_FILE = ".pre-commit-config.yaml"

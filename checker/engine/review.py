@@ -101,7 +101,7 @@ def judged(
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.
     """
-    settings = settings.suiting(urdf=package.is_urdf)
+    settings = settings.suiting(package)
     stages = Stages(lambda words: say(f"{package.name}: {words}"))
     devices = known_devices(settings.devices)
     subject = Subject(package, cache, stages, devices, processes)
@@ -122,7 +122,7 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
     Raises:
         InvalidSettings: The settings name a rule or option that does not exist.
     """
-    settings = settings.suiting(urdf=package.is_urdf)
+    settings = settings.suiting(package)
     subject = Subject(package, cache, devices=known_devices(settings.devices))
     try:
         check_against_rules(settings, all_rules())

@@ -34,6 +34,7 @@ from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
 from checker.model.ros2_control.robot_control import ControlReader, RobotControl
 from checker.model.sdf.document import SdfDocument
+from checker.model.sdf.expanded import SUFFIX, expanded_model
 from checker.model.sdf.includes import ModelIncludes, included_model
 from checker.model.sdf.links import read_plugin
 from checker.model.sdf.reader import read_sdf
@@ -200,6 +201,8 @@ class Subject(Record, eq=False, dict=True):
             return NotAvailable(f"{path} is not well-formed")
         if isinstance(document, NotReadable):
             return NotAvailable(f"{path} {document.reason}")
+        if document.root.tag == "sdf" and path.lower().endswith(SUFFIX):
+            return expanded_model(self.package, path, self.cache)
         return document
 
     @cached_property
@@ -240,11 +243,14 @@ class Subject(Record, eq=False, dict=True):
                 else tuple(map(self._controlled, descriptions))
             )
         robots = read_sdf(self.model, ModelIncludes(self.package))
-        if self.package.kind is not PackageKind.SINGLE_FILE:
+        if self.package.kind is PackageKind.WORLD:
+            robots = tuple(robot for robot in robots if not robot.is_static)
+        if not self.package.only:
             robots = robots[:1]
         if not robots:
             nothing_to_see = self.model.root.child("world") is not None
-            reason = f"{self.model.source.file} contains no model"
+            kind = "model that moves" if nothing_to_see else "model"
+            reason = f"{self.model.source.file} contains no {kind}"
             if (placed := self.model.root.child("include")) is not None:
                 missing = included_model(placed, ModelIncludes(self.package))
                 reason = missing if isinstance(missing, str) else reason

@@ -18,6 +18,7 @@ from checker.package.kind import (
     looks_like_package,
 )
 from checker.package.package import Package
+from checker.package.repository import MAX_FOLDERS, Unit, Units, homes_of, units_below
 from checker.package.workspace import Workspace
 
 SINGLE_FILE_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro", ".xml")
@@ -135,66 +136,65 @@ def _open_folder(path: Path, folder: Path, within: Path | None = None) -> Opened
     except OSError as error:
         reason = f"cannot be listed: {error.strerror}"
         raise UnreadableInput(path, reason, "check its permissions") from None
-    if looks_like_package(folder):
-        return _opened(folder.parent, [folder], within)
-    if found := _packages_below(folder, within):
-        return found
-    if holds_loose_models(folder):
-        return _opened(folder.parent, [folder], within)
-    around = enclosing_package(folder)
-    advice = f"give the package folder {around}" if around else _WHAT_TO_GIVE
+    submissions = folder / SUBMISSIONS
+    if not looks_like_package(folder) and any(map(looks_like_package, _subfolders(submissions))):
+        return _open_folder(path, submissions, within)
+    found = units_below(folder)
+    if found.units:
+        around = () if folder == found.units[0].folder else found.units
+        skipped = tuple(_skipped(folder, found)) if around else ()
+        return _opened(found, folder, skipped, within)
+    enclosing = enclosing_package(folder)
+    advice = f"give the package folder {enclosing}" if enclosing else _WHAT_TO_GIVE
     missing = "contains no package (no package.xml, model.config, model.sdf or launch/spawner.rb)"
     raise UnreadableInput(path, missing, advice)
 
 
-def _opened(home: Path, folders: list[Path], within: Path | None) -> Opened:
-    workspace = Workspace((home,), within)
-    return Opened(workspace, tuple(workspace.at(folder) for folder in folders))
+def _opened(
+    found: Units, folder: Path, skipped: tuple[Skipped, ...], within: Path | None
+) -> Opened:
+    """Open units; those with one home share a workspace, in which the nearest sibling counts."""
+    if not found.complete:
+        reason = f"contains more than {MAX_FOLDERS} folders; the rest is not looked into"
+        skipped = (*skipped, Skipped("", reason))
+    beside = (*found.units, *_around(folder, within))
+    spaces: dict[Path, Workspace] = {}
+    packages = []
+    for unit in found.units:
+        if unit.home not in spaces:
+            spaces[unit.home] = Workspace(homes_of(beside, unit.folder), within)
+        space = spaces[unit.home]
+        whole = space.at(unit.folder) if not unit.only else None
+        packages.append(whole or Package(unit.folder, space, only=unit.only))
+    return Opened(next(iter(spaces.values())), tuple(packages), skipped)
 
 
-def _packages_below(folder: Path, within: Path | None) -> Opened | None:
-    """Open the packages in a folder, else those one level deeper; `submitted_models/` first."""
-    submissions = folder / SUBMISSIONS
-    inner = _subfolders(folder)
-    if submissions in inner and any(map(looks_like_package, _subfolders(submissions))):
-        homes = [submissions]
-    elif any(map(looks_like_package, inner)):
-        homes = [folder]
-    else:
-        homes = [home for home in inner if any(map(looks_like_package, _subfolders(home)))]
-    if not homes:
-        return None
-    workspace = Workspace(tuple(homes), within)
-    packages: dict[str, Package] = {}
-    skipped: list[Skipped] = []
-    for home in homes:
-        _collect(home, workspace, packages, skipped)
-    return Opened(workspace, tuple(packages[name] for name in sorted(packages)), tuple(skipped))
+def _around(folder: Path, within: Path | None) -> tuple[Unit, ...]:
+    """Return what the package around a model folder or a file holds: its models' siblings."""
+    enclosing = enclosing_package(folder.parent, FILE_LEVELS)
+    if enclosing is None or (within is not None and not enclosing.is_relative_to(within)):
+        return ()
+    return units_below(enclosing).units
 
 
-def _collect(
-    home: Path, workspace: Workspace, packages: dict[str, Package], skipped: list[Skipped]
-) -> None:
-    for place in sorted(home.iterdir()):
+def _skipped(folder: Path, found: Units) -> Iterator[Skipped]:
+    """Yield the subfolders of a folder of packages that hold none."""
+    for place in sorted(folder.iterdir()):
         if place.name.startswith(".") or place.name == "__MACOSX" or not _is_folder(place):
             continue
         if place.is_symlink():
-            skipped.append(Skipped(place.name, "is a link; give the folder to which it leads"))
+            yield Skipped(place.name, "is a link; give the folder to which it leads")
         elif not os.access(place, os.R_OK | os.X_OK):
-            skipped.append(Skipped(place.name, "cannot be read: permission denied"))
-        elif not (looks_like_package(place) or holds_loose_models(place)):
-            skipped.append(Skipped(place.name, "contains no package"))
-        elif place.name in packages:
-            skipped.append(Skipped(place.name, "has the name of another package"))
-        else:
-            packages[place.name] = workspace.at(place)
+            yield Skipped(place.name, "cannot be read: permission denied")
+        elif not any(unit.folder.is_relative_to(place) for unit in found.units):
+            yield Skipped(place.name, "contains no package")
 
 
 def _open_single(path: Path, file: Path) -> Opened:
     if not os.access(file, os.R_OK):
         raise UnreadableInput(path, "cannot be read: permission denied", "check its permissions")
-    around = enclosing_package(file.parent, FILE_LEVELS)
-    workspace = Workspace((around.parent,) if around else ())
+    beside = _around(file, None)
+    workspace = Workspace(homes_of(beside, file.parent))
     return Opened(workspace, (Package(file.parent, workspace, only=file.name),))
 
 

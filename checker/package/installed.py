@@ -1,17 +1,21 @@
-"""Where files that CMake installs come from: tools look them up as they are installed."""
+"""Where files that a build installs come from: tools look them up as they are installed."""
 
 from __future__ import annotations
 
 import posixpath
 from collections.abc import Iterator
+from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
 from checker.source.cmake import CMakeFile, Install
+from checker.source.setup_py import Pattern, SetupFile
 
 if TYPE_CHECKING:
+    from checker.package.index import FileIndex
     from checker.package.package import Package
 
 _SHARE = "share/"
+_PATTERN_LIMIT = 200
 
 
 def source_of(package: Package, path: str) -> str | None:
@@ -45,3 +49,36 @@ def _items(install: Install) -> Iterator[tuple[str, str]]:
         origin = item.value
         name = "" if origin.endswith("/") else posixpath.basename(origin)
         yield posixpath.normpath(posixpath.join(below, name)), origin.rstrip("/") or "."
+
+
+def data_file_items(setup: SetupFile, index: FileIndex) -> Iterator[tuple[str, str]]:
+    """Yield the same for the `data_files` of a setup.py, which installs files and no folders."""
+    for entry in setup.data_files:
+        if not entry.destination.startswith(_SHARE):
+            continue
+        below = entry.destination.removeprefix(_SHARE).partition("/")[2]
+        for item in entry.items:
+            for origin in _matching(item, index) if isinstance(item, Pattern) else (item,):
+                yield posixpath.normpath(posixpath.join(below, posixpath.basename(origin))), origin
+
+
+def _matching(pattern: Pattern, index: FileIndex) -> Iterator[str]:
+    """Yield the files that `glob` finds: `*` stays within a folder, and so does a plain `**`."""
+    if len(pattern.text) > _PATTERN_LIMIT:
+        return
+    wanted = posixpath.normpath(pattern.text).split("/")
+    deep = pattern.recursive and wanted.count("**") == 1
+    at = wanted.index("**") if deep else len(wanted)
+    for file in index.files:
+        parts = file.path.split("/")
+        between = len(parts) - len(wanted) + 1
+        if not deep and between == 1:
+            fitting = zip(parts, wanted, strict=True)
+        elif deep and between >= 0:
+            fitting = zip(
+                [*parts[:at], *parts[at + between :]], wanted[:at] + wanted[at + 1 :], strict=True
+            )
+        else:
+            continue
+        if all(fnmatchcase(part, word) for part, word in fitting):
+            yield file.path

@@ -15,6 +15,7 @@ from checker.base.errors import UnreadableInput
 from checker.package.inheritance import SPAWNER, SUBMISSION_NAME
 from checker.package.model_file import own_model
 from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
 
 if TYPE_CHECKING:
     from checker.package.package import Package
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
 # What makes a folder a package, before anything in it is read.
 
 
-MARKERS = ("package.xml", "model.config", "model.sdf", "launch/spawner.rb")
+MODEL_MARKERS = frozenset({"model.config", "model.sdf"})
+MARKERS = ("package.xml", *sorted(MODEL_MARKERS), SPAWNER)
 MODEL_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro")
 
 
@@ -71,6 +73,7 @@ class PackageKind(StrEnum):
     `ROBOT`: a submission with a model of its own (or that ought to have one). `CONFIGURATION`: a
     submission whose model is a sibling's. `PLUGIN`: libraries only. `BASE_MODEL`: a model that
     others build on, without a spawner. `URDF_DESCRIPTION`: URDF or xacro without an SDF model.
+    `WORLD`: a single file that holds a world.
     """
 
     ROBOT = "robot"
@@ -79,6 +82,7 @@ class PackageKind(StrEnum):
     BASE_MODEL = "base_model"
     URDF_DESCRIPTION = "urdf_description"
     SINGLE_FILE = "single_file"
+    WORLD = "world"
     UNKNOWN = "unknown"
 
 
@@ -89,7 +93,7 @@ def kind_of(package: Package) -> PackageKind:
     was forgotten; otherwise the missing file would excuse itself.
     """
     if package.only:
-        return PackageKind.SINGLE_FILE
+        return PackageKind.WORLD if _holds_world(package) else PackageKind.SINGLE_FILE
     if package.base is not None:
         return PackageKind.CONFIGURATION
     submission = SUBMISSION_NAME.search(package.name) is not None
@@ -100,6 +104,11 @@ def kind_of(package: Package) -> PackageKind:
     if package.index.with_suffix(".urdf", ".xacro"):
         return PackageKind.URDF_DESCRIPTION
     return PackageKind.PLUGIN if _carries_library(package) else PackageKind.UNKNOWN
+
+
+def _holds_world(package: Package) -> bool:
+    document = package.xml(package.only)
+    return isinstance(document, XmlDocument) and document.root.child("world") is not None
 
 
 def _carries_library(package: Package) -> bool:

@@ -30,7 +30,7 @@ from checker.package.inheritance import (
     inherited_parts,
     own_sheet,
 )
-from checker.package.installed import installed_items
+from checker.package.installed import data_file_items, installed_items
 from checker.package.kind import PackageKind, kind_of
 from checker.package.mentions import mentioned_names
 from checker.package.model_file import own_model
@@ -40,9 +40,11 @@ from checker.package.references import (
     loaded_files,
     spawner_references,
 )
+from checker.package.repository import units_below
 from checker.package.unused_model import unused_model
 from checker.package.walk import build_index, entry_at
 from checker.source.cmake import CMakeFile, read_cmake
+from checker.source.setup_py import SetupFile, read_setup
 from checker.source.text import SourceText
 from checker.source.text_file import read_text
 from checker.source.xml import XmlDocument, parse_xml
@@ -191,14 +193,37 @@ class Package(Record, eq=False, dict=True):
         return read_cmake(source) if isinstance(source, SourceText) else None
 
     @cached_property
+    def setup(self) -> SetupFile | None:
+        """setup.py; None when it is missing or calls no `setup`."""
+        source = self.read("setup.py") if self.index.find("setup.py") else None
+        return read_setup(source) if isinstance(source, SourceText) else None
+
+    @cached_property
     def installed(self) -> tuple[tuple[str, str], ...]:
-        """Where CMake installs files and folders, and where they come from."""
-        return tuple(installed_items(self.build)) if self.build else ()
+        """Where CMake or setup.py installs files and folders, and where they come from."""
+        of_setup = data_file_items(self.setup, self.index) if self.setup else ()
+        return (*(installed_items(self.build) if self.build else ()), *of_setup)
 
     @cached_property
     def xml_files(self) -> tuple[str, ...]:
-        """Paths of the files that are XML by their names; meshes are left out."""
-        return tuple(file.path for file in self.index.with_suffix(*XML_SUFFIXES))
+        """Paths of the files that are XML by their names.
+
+        Meshes are left out, and models and worlds that are checked by themselves.
+        """
+        paths = (file.path for file in self.index.with_suffix(*XML_SUFFIXES))
+        return tuple(path for path in paths if not self._lies_in_unit(path))
+
+    def _lies_in_unit(self, path: str) -> bool:
+        return any(path == unit or path.startswith(f"{unit}/") for unit in self._units)
+
+    @cached_property
+    def _units(self) -> frozenset[str]:
+        """Paths of the models and worlds within that are checked by themselves."""
+        units = () if self.only else units_below(self.root).units
+        places = (unit.folder / unit.only for unit in units)
+        return frozenset(
+            place.relative_to(self.root).as_posix() for place in places if place != self.root
+        )
 
     @cached_property
     def model_path(self) -> Found | Missing:

@@ -25,7 +25,7 @@ from checker.source.xml import XmlDocument
 @rule("PKG002", "names-disagree", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork) -> Findings:
     """Compare the names in package.xml, CMakeLists.txt and model.config with the folder's."""
-    if package.kind is PackageKind.SINGLE_FILE:
+    if package.only:
         return
     manifest, build = paperwork.manifest, paperwork.build
     if package.kind is PackageKind.URDF_DESCRIPTION:

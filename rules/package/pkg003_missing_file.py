@@ -46,7 +46,7 @@ _CONFIGURATION = re.compile(r"(?<![a-z])config(?:uration)?[\s_#]{1,8}(\d{1,4})\b
 @rule("PKG003", "missing-file", Severity.ERROR, Concern.PAPERWORK)
 def check(package: Package) -> Findings:
     """Report what is missing, including inherited parts in the search."""
-    if package.kind is PackageKind.SINGLE_FILE:
+    if package.only:
         return
     yield from _missing(package, MANIFESTS, Severity.ERROR)
     submission = package.kind in (PackageKind.ROBOT, PackageKind.CONFIGURATION)

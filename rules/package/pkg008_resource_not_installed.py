@@ -1,10 +1,12 @@
-"""A resource that CMakeLists.txt does not install.
+"""A resource that CMakeLists.txt or setup.py does not install.
 
 The robot starts from the installed packages: a folder or model file that is not installed exists
 only on the author's machine. Nothing looks for thumbnails there: these are information.
 
-Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`.
-Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo look for them there.
+Fix: add it to `install(DIRECTORY …)` or `install(FILES …)`; in setup.py, to `data_files`, one entry
+for each folder with the files in it: `glob("launch/*")` does not reach into folders.
+Source: catkin documentation, "Installing resources": `roslaunch` and Gazebo look for them there;
+ROS 2 documentation, "Developing a ROS 2 package": `ros2 launch` looks into the share folder.
 """
 
 import re
@@ -18,6 +20,7 @@ from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.rule import (
     Concern,
+    Context,
     Finding,
     Findings,
     Severity,
@@ -47,10 +50,13 @@ MODEL_FILES = ("model.sdf", "model.config")
 
 
 @rule("PKG008", "resource-not-installed", Severity.ERROR, Concern.PAPERWORK)
-def check(package: Package, paperwork: Paperwork) -> Findings:
+def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Compare the package's files with what the build file installs."""
+    if not context.distro and package.kind in (PackageKind.PLUGIN, PackageKind.UNKNOWN):
+        return
     build = paperwork.build
-    if build is None or package.kind in (PackageKind.PLUGIN, PackageKind.UNKNOWN):
+    if build is None:
+        yield from _by_setup(package)
         return
     if build.faults:
         yield unchecked(f"CMakeLists.txt cannot be read completely: {build.faults[0].message}")
@@ -70,6 +76,23 @@ def check(package: Package, paperwork: Paperwork) -> Findings:
     elif MODEL_FILES[0] in model_files and not whole and not _covers(installed, MODEL_FILES[0]):
         message = f"{MODEL_FILES[0]} is not installed"
         yield _finding(build, message, None, _added(build, "FILES", [MODEL_FILES[0]]))
+
+
+def _by_setup(package: Package) -> Findings:
+    """Compare the package's files with `data_files` of setup.py."""
+    setup = package.setup
+    if setup is None:
+        return
+    if not setup.complete:
+        yield unchecked("data_files of setup.py is computed, so what is installed is not known")
+        return
+    origins = {origin for _, origin in package.installed}
+    for folder, severity in FOLDERS.items():
+        entry = package.index.find(folder)
+        if entry is None or not entry.is_folder or _covers(origins, folder):
+            continue
+        message = f"folder {folder}/ is not installed: data_files names no file of it"
+        yield finding(setup, message, severity=severity, key=message)
 
 
 def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix | None) -> Finding:
@@ -129,10 +152,22 @@ def _covers(installed: set[str], path: str) -> bool:
     return any(fnmatch(path, item) for item in islice(patterns, _PATTERNS_LIMIT))
 
 
+_SETUP = """from glob import glob
+from setuptools import setup
+setup(name="acme_arm", data_files=[  # ^ PKG008
+    ("share/acme_arm", ["package.xml"]),
+    ("share/acme_arm/files", glob("*/*.none")),
+])
+"""
 GOOD = [
+    {
+        "CMakeLists.txt": None,
+        "setup.py": _SETUP.replace("  # ^ PKG008", "").replace("*/*.none", "*/*"),
+    },
     {"meshes/a.dae": "<COLLADA/>", "CMakeLists.txt": "install(DIRECTORY . DESTINATION share)\n"},
 ]
 BAD = [
+    {"CMakeLists.txt": None, "setup.py": _SETUP},
     {
         "meshes/a.dae": "<COLLADA/>",
         "CMakeLists.txt": """project(acme_rover_sensor_config_1)

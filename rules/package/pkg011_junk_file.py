@@ -15,7 +15,6 @@ from collections.abc import Iterator
 from fnmatch import fnmatchcase
 
 from checker.package.inheritance import Found
-from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.cmake import read_cmake
@@ -56,7 +55,7 @@ def check(package: Package) -> Findings:
         if known is not None:
             reported += (f"{path}/",) if entry.is_folder else ()
             yield finding(package.place(path), f"{path} is {known}: delete it", key=known)
-    if package.kind is not PackageKind.SINGLE_FILE:
+    if not package.only:
         yield from _second_models(package)
         yield from _build_files(package)
 

@@ -76,6 +76,7 @@ ALLOWED: Mapping[tuple[str, str], str] = {
         "checker/rulebook/suppression/entries.py",
         GLOB,
     ): "a user's: 200 of 1000 characters, none goes back",
+    ("checker/package/installed.py", GLOB): "part by part of a path, 200 characters",
     ("rules/package/pkg008_resource_not_installed.py", GLOB): "100 patterns of 100 characters",
     ("rules/package/pkg011_junk_file.py", GLOB): "names of junk, named there",
     ("rules/geometry/geo006_wheels_uneven.py", FORMAT): "one of two texts, named there",

@@ -7,9 +7,9 @@ from collections.abc import Callable
 
 from checker.base.record import Record
 from checker.model.sdf.document import parse_version
-from checker.package.fuel import is_on_fuel, path_from_fuel
 from checker.package.manifests import SdfEntry, read_model_config
 from checker.package.package import Package
+from checker.package.uris import Unknown, path_behind
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
@@ -53,19 +53,13 @@ class ModelIncludes(Record):
 
         A bare name is looked up as `model://name` is: along the paths of the simulator.
         """
-        if is_on_fuel(uri):
-            on_fuel = path_from_fuel(self.package, uri)
-            return self._model_in(on_fuel) if on_fuel is not None else None
-        if not uri.startswith("model://"):
-            path = self._at(posixpath.join(folder, uri), folder)
-            if path is not None or "://" in uri:
-                return path
-        name, _, inside = uri.removeprefix("model://").partition("/")
-        holder = self.package.workspace.package(name)
-        if holder is None:
-            return None
-        folder = "" if holder is self.package else f"../{holder.name}"
-        return self._at(posixpath.join(folder, inside or "."), folder)
+        if "://" not in uri:
+            beside = self._at(posixpath.join(folder, uri), folder)
+            if beside is not None:
+                return beside
+            uri = f"model://{uri}"
+        path = path_behind(self.package, folder, uri)
+        return None if isinstance(path, Unknown) else self._at(path, folder)
 
     def _at(self, path: str, folder: str) -> str | None:
         """Return the model file at a path, which may be a folder; None when nothing is there."""

@@ -1,0 +1,142 @@
+"""What a folder holds that can be checked: packages, model folders and loose model files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from pathlib import Path
+
+from checker.base.record import Record
+from checker.package.inheritance import SPAWNER
+from checker.package.kind import MODEL_MARKERS, MODEL_SUFFIXES, looks_like_package
+
+MAX_FOLDERS = 5_000
+MAX_DEPTH = 12
+_ITEMS = 5_000
+"""Of one folder that are looked at."""
+IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
+"""Files that keep the build tools out of a folder; colcon puts one into what it builds."""
+_SDF_SUFFIXES = (".sdf", ".world", ".sdf.xacro", ".world.xacro")
+_URDF_FOLDER = "urdf"
+
+
+class Unit(Record):
+    """What is checked by itself.
+
+    Attributes:
+        folder: Of a package or model, or that of a loose file; links resolved.
+        only: Name of the loose file; empty for a folder.
+    """
+
+    folder: Path
+    only: str = ""
+
+    @property
+    def home(self) -> Path:
+        """The folder in which its siblings lie."""
+        return self.folder if self.only else self.folder.parent
+
+
+class Units(Record):
+    """All that a folder holds.
+
+    Attributes:
+        units: By path, packages before what lies in them.
+        complete: Whether all folders were looked into.
+    """
+
+    units: tuple[Unit, ...]
+    complete: bool = True
+
+
+def units_below(folder: Path) -> Units:
+    """Find packages, model folders and loose model files in a folder, however deep.
+
+    What lies in a model folder or a submission is a part of it. A ROS package may hold models and
+    worlds; these are units of their own beside it. Links are not followed.
+
+    Args:
+        folder: Links resolved; itself a unit if it is a package or model.
+    """
+    search = _Search()
+    return Units(tuple(search.at(folder, inside=False, depth=0)), search.complete)
+
+
+def homes_of(units: Iterable[Unit], near: Path) -> tuple[Path, ...]:
+    """Return the folders that hold units, those nearest to a place first.
+
+    Args:
+        units: Loose files are no siblings of anything.
+        near: Whoever looks for siblings lies there: of two with one name he means the nearer.
+    """
+    homes = dict.fromkeys(unit.home for unit in units if not unit.only)
+    return tuple(sorted(homes, key=lambda home: -len(_common(home, near).parts)))
+
+
+def _common(one: Path, other: Path) -> Path:
+    return Path(os.path.commonpath((one, other)))
+
+
+class _Search:
+    def __init__(self) -> None:
+        self.folders = 0
+        self.complete = True
+
+    def at(self, folder: Path, *, inside: bool, depth: int) -> Iterator[Unit]:
+        """Yield a folder if it is a unit, and what it holds.
+
+        Args:
+            folder: To look into.
+            inside: Whether it lies in a ROS package.
+            depth: Folders above it that were searched.
+        """
+        self.folders += 1
+        if self.folders > MAX_FOLDERS or depth > MAX_DEPTH:
+            self.complete = False
+            return
+        files, folders = _content(folder)
+        if not IGNORED.isdisjoint(files):
+            return
+        is_package = looks_like_package(folder)
+        if is_package:
+            yield Unit(folder)
+            if not MODEL_MARKERS.isdisjoint(files) or (folder / SPAWNER).is_file():
+                return
+        yield from _loose(folder, files, folders, inside=inside or is_package)
+        for name in folders:
+            yield from self.at(folder / name, inside=inside or is_package, depth=depth + 1)
+
+
+def _loose(folder: Path, files: list[str], folders: list[str], *, inside: bool) -> Iterator[Unit]:
+    """Yield the loose model files of a folder; those of URDF belong to the package around."""
+    if not inside and _holds_urdf(folder, files, folders):
+        yield Unit(folder)
+    yield from (Unit(folder, name) for name in files if name.lower().endswith(_SDF_SUFFIXES))
+
+
+def _holds_urdf(folder: Path, files: list[str], folders: list[str]) -> bool:
+    below = _content(folder / _URDF_FOLDER)[0] if _URDF_FOLDER in folders else []
+    return any(
+        name.lower().endswith(MODEL_SUFFIXES) and not name.lower().endswith(_SDF_SUFFIXES)
+        for name in (*files, *below)
+    )
+
+
+def _content(folder: Path) -> tuple[list[str], list[str]]:
+    """Return the names of the files and of the folders in a folder, links and hidden ones aside."""
+    files, folders = [], []
+    try:
+        with os.scandir(folder) as items:
+            for item in islice(items, _ITEMS):
+                if item.is_file(follow_symlinks=False):
+                    files.append(item.name)
+                elif item.is_dir(follow_symlinks=False) and not _is_hidden(item.name):
+                    folders.append(item.name)
+    except OSError:
+        return [], []
+    return sorted(files), sorted(folders)
+
+
+def _is_hidden(name: str) -> bool:
+    return name.startswith(".") or name in ("__MACOSX", "node_modules")

@@ -1,0 +1,62 @@
+"""What a package is made for, as far as it tells: the profile that suits it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from checker.package.kind import PackageKind, enclosing_package
+from checker.source.xml import XmlDocument
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+SUBMISSION, ROS_1, ROS_2, MODEL, ANY_SDF = "subt", "urdf", "ros2", "gazebo-harmonic", "sdf"
+_OF_ROS_2 = ("ament_", "rclcpp", "rclpy", "ros_gz", "rosidl_", "launch_ros", "ros2")
+"""How the names of packages begin that only ROS 2 has."""
+_LEVELS = 6
+_SUBMISSIONS = (PackageKind.ROBOT, PackageKind.CONFIGURATION)
+
+
+def usual_profile(package: Package) -> str:
+    """Return the profile that judges a package where the user names none.
+
+    A submission is one by its name, its spawner or its bridges; a package of ROS 2 by its build
+    type or its dependencies. A model, a world or a single file is judged as the package around it
+    is; without one, it is Gazebo's.
+    """
+    if package.kind in _SUBMISSIONS:
+        return SUBMISSION
+    manifest = None if package.only else package.xml("package.xml")
+    if isinstance(manifest, XmlDocument):
+        return _of_manifest(package, manifest)
+    around = _usual_around(package)
+    if package.is_urdf:
+        return around if around in (ROS_1, ROS_2) else ROS_1
+    if package.only and around == SUBMISSION:
+        return SUBMISSION
+    return ANY_SDF if around == ROS_1 else MODEL
+
+
+def _usual_around(package: Package) -> str:
+    """Return the profile of the package that a model or file lies in; empty without one."""
+    folder = package.root if package.only else package.root.parent
+    around = enclosing_package(folder, _LEVELS)
+    whole = package.workspace.package(around.name) if around else None
+    return usual_profile(whole) if whole is not None and whole.root == around else ""
+
+
+def _of_manifest(package: Package, manifest: XmlDocument) -> str:
+    if _is_ros_2(manifest):
+        return ROS_2
+    return ROS_1 if package.is_urdf else SUBMISSION
+
+
+def _is_ros_2(manifest: XmlDocument) -> bool:
+    export = manifest.root.child("export")
+    build_type = export.child("build_type") if export is not None else None
+    if build_type is not None:
+        return build_type.text.value.startswith("ament_")
+    return any(
+        child.tag.endswith("depend") and child.text.value.startswith(_OF_ROS_2)
+        for child in manifest.root.children
+    )

@@ -1,0 +1,67 @@
+"""Where the URI of a mesh, texture or model leads among the packages at hand."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from typing import TYPE_CHECKING
+
+from checker.base.record import Record
+from checker.package.fuel import is_on_fuel, path_from_fuel
+from checker.package.installed import source_of
+
+if TYPE_CHECKING:
+    from checker.package.package import Package
+
+_SCHEME = re.compile(r"(?:model|package)://([^/]+)/?(.*)", re.DOTALL)
+_ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
+
+
+class Unknown(Record):
+    """What a URI leads to cannot be told; the reason continues a sentence about it.
+
+    Attributes:
+        reason: Such as `is in arm_description, which is not available`.
+        package: That package; empty where none is named.
+    """
+
+    reason: str
+    package: str = ""
+
+
+def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
+    """Return the path that a URI leads to, from a package; nothing need be there.
+
+    A path below an installed package is that of the file in the source which is installed there.
+
+    Args:
+        package: Whose file states it.
+        folder: Of that file, relative to the package.
+        uri: As written.
+    """
+    if named := _SCHEME.match(uri):
+        return _in_package(package, *named.groups())
+    if is_on_fuel(uri):
+        on_fuel = path_from_fuel(package, uri)
+        return on_fuel or Unknown("is on Fuel, in a model that is not available")
+    if _ELSEWHERE.match(uri) or not uri:
+        return Unknown("is outside the workspace")
+    path = posixpath.normpath(posixpath.join(folder, uri))
+    sibling = path.split("/")[1] if path.startswith("../") else ""
+    is_known = sibling in ("", package.root.name) or package.workspace.package(sibling)
+    return path if is_known or package.exists(path) else _absent(sibling)
+
+
+def _in_package(package: Package, name: str, path: str) -> str | Unknown:
+    """Return a path in a named package or model."""
+    # Models on Fuel bear the package's name in upper case.
+    own = name.casefold() == package.name.casefold()
+    holder = package if own else package.workspace.package(name)
+    if holder is None:
+        return _absent(name)
+    inside = path if holder.exists(path or ".") else source_of(holder, path) or path
+    return posixpath.normpath(inside if holder is package else f"../{holder.name}/{inside}")
+
+
+def _absent(name: str) -> Unknown:
+    return Unknown(f"is in {name}, which is not available", name)

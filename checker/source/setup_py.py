@@ -1,0 +1,201 @@
+"""What a setup.py installs: its `data_files`, as far as they are written out.
+
+The file is read as a syntax tree and never run. Texts, lists, names that are set once, f-strings,
+`os.path.join` and `glob` are followed; anything else makes the answer incomplete.
+"""
+
+from __future__ import annotations
+
+import ast
+import posixpath
+from collections.abc import Iterator, Mapping
+
+from checker.base.record import Record
+from checker.source.text import SourceText, Span
+
+LIMIT = 200_000
+"""Characters of a file that is read."""
+_DEEPEST = 50
+_JOINS = ("os.path.join", "path.join", "join")
+_GLOBS = ("glob", "glob.glob")
+
+
+class Pattern(Record):
+    """What `glob` is asked for; `**` reaches into folders only if it is recursive."""
+
+    text: str
+    recursive: bool = False
+
+
+class DataFiles(Record, eq=False):
+    """An entry of `data_files`.
+
+    Attributes:
+        destination: Below the prefix, such as `share/arm/launch`.
+        items: Paths and patterns, from the folder of setup.py.
+        span: The entry.
+    """
+
+    destination: str
+    items: tuple[str | Pattern, ...]
+    span: Span
+
+
+class SetupFile(Record, eq=False):
+    """A setup.py.
+
+    Attributes:
+        data_files: Entries that can be read.
+        complete: Whether these are all.
+        span: `data_files`, or the call of `setup`.
+    """
+
+    data_files: tuple[DataFiles, ...]
+    complete: bool
+    span: Span
+
+
+class _Unknown(Exception):
+    """An expression that is not followed."""
+
+
+def read_setup(source: SourceText) -> SetupFile | None:
+    """Read a setup.py; None when it is no Python or calls no `setup`."""
+    if len(source.text) > LIMIT:
+        return None
+    try:
+        tree = ast.parse(source.text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+    call = next((call for call in _calls(tree) if _name(call.func) == "setup"), None)
+    if call is None:
+        return None
+    reader = _Reader(source, _constants(tree))
+    given = next((word.value for word in call.keywords if word.arg == "data_files"), None)
+    if given is None:
+        spread = any(word.arg is None for word in call.keywords)
+        return SetupFile((), not spread, reader.span(call))
+    return reader.setup_file(given)
+
+
+def _calls(tree: ast.Module) -> Iterator[ast.Call]:
+    for statement in tree.body:
+        if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
+            yield statement.value
+
+
+def _constants(tree: ast.Module) -> dict[str, ast.expr]:
+    """Return the names that are set at the top of the file, but for those that are set twice."""
+    values: dict[str, ast.expr] = {}
+    twice = set()
+    for statement in tree.body:
+        if isinstance(statement, ast.Assign):
+            for target in statement.targets:
+                if isinstance(target, ast.Name):
+                    twice |= {target.id} & values.keys()
+                    values[target.id] = statement.value
+    return {name: value for name, value in values.items() if name not in twice}
+
+
+def _name(node: ast.expr) -> str:
+    """Return a dotted name: `os.path.join`; nothing for what is none."""
+    parts: list[str] = []
+    while isinstance(node, ast.Attribute):
+        parts.append(node.attr)
+        node = node.value
+    return ".".join([node.id, *reversed(parts)]) if isinstance(node, ast.Name) else ""
+
+
+class _Reader:
+    def __init__(self, source: SourceText, names: Mapping[str, ast.expr]) -> None:
+        self.source = source
+        self.names = names
+        self.lines = [0]
+        for line in source.text.splitlines(keepends=True):
+            self.lines.append(self.lines[-1] + len(line))
+
+    def span(self, node: ast.expr) -> Span:
+        """Return the text of an expression."""
+        ends = (node.end_lineno or node.lineno, node.end_col_offset or 0)
+        return Span(self.source, self._offset(node.lineno, node.col_offset), self._offset(*ends))
+
+    def _offset(self, line: int, column: int) -> int:
+        """Return an offset in characters; the tree counts a line's bytes."""
+        start = self.lines[min(line, len(self.lines)) - 1]
+        end = self.lines[min(line, len(self.lines) - 1)]
+        before = self.source.text[start:end].encode("utf-8", "surrogatepass")[:column]
+        return start + len(before.decode("utf-8", "ignore"))
+
+    def setup_file(self, given: ast.expr) -> SetupFile:
+        """Read what is given as `data_files`."""
+        entries: list[DataFiles] = []
+        complete = True
+        for entry in self._entries(given, 0):
+            if entry is None:
+                complete = False
+            else:
+                entries.append(entry)
+        return SetupFile(tuple(entries), complete, self.span(given))
+
+    def _entries(self, node: ast.expr, depth: int) -> Iterator[DataFiles | None]:
+        if depth > _DEEPEST:
+            yield None
+        elif isinstance(node, ast.Name) and node.id in self.names:
+            yield from self._entries(self.names[node.id], depth + 1)
+        elif isinstance(node, ast.List | ast.Tuple):
+            for item in node.elts:
+                yield self._entry(item)
+        elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+            yield from self._entries(node.left, depth + 1)
+            yield from self._entries(node.right, depth + 1)
+        else:
+            yield None
+
+    def _entry(self, node: ast.expr) -> DataFiles | None:
+        if not isinstance(node, ast.Tuple | ast.List) or len(node.elts) != 2:
+            return None
+        try:
+            destination = self._text(node.elts[0], 0)
+            items = tuple(self._items(node.elts[1], 0))
+        except _Unknown:
+            return None
+        return DataFiles(destination, items, self.span(node))
+
+    def _items(self, node: ast.expr, depth: int) -> Iterator[str | Pattern]:
+        if depth > _DEEPEST:
+            raise _Unknown
+        if isinstance(node, ast.Name) and node.id in self.names:
+            yield from self._items(self.names[node.id], depth + 1)
+        elif isinstance(node, ast.List | ast.Tuple):
+            for item in node.elts:
+                yield self._text(item, 0)
+        elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+            yield from self._items(node.left, depth + 1)
+            yield from self._items(node.right, depth + 1)
+        elif isinstance(node, ast.Call) and _name(node.func) in _GLOBS and node.args:
+            recursive = any(
+                word.arg == "recursive"
+                and isinstance(word.value, ast.Constant)
+                and word.value.value is True
+                for word in node.keywords
+            )
+            yield Pattern(self._text(node.args[0], 0), recursive)
+        else:
+            raise _Unknown
+
+    def _text(self, node: ast.expr, depth: int) -> str:
+        if depth > _DEEPEST:
+            raise _Unknown
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            return node.value
+        if isinstance(node, ast.Name) and node.id in self.names:
+            return self._text(self.names[node.id], depth + 1)
+        if isinstance(node, ast.JoinedStr):
+            return "".join(self._text(part, depth + 1) for part in node.values)
+        if isinstance(node, ast.FormattedValue) and node.format_spec is None:
+            return self._text(node.value, depth + 1)
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+            return self._text(node.left, depth + 1) + self._text(node.right, depth + 1)
+        if isinstance(node, ast.Call) and _name(node.func) in _JOINS and not node.keywords:
+            return posixpath.join(*(self._text(word, depth + 1) for word in node.args))
+        raise _Unknown
