@@ -1,4 +1,4 @@
-"""A joint of `<ros2_control>` that the URDF has not, or that is fixed.
+"""A joint of ros2_control that the URDF has not, or that is fixed.
 
 From Jazzy on, the controller manager compares the joints of each `<ros2_control>` tag with those of
 the URDF and ends with an error: none of the robot's controllers runs. Humble does not compare them;

@@ -1,4 +1,4 @@
-"""A mimic joint that `<ros2_control>` describes in another way than the URDF.
+"""A mimic joint that ros2_control describes in another way than the URDF.
 
 A joint with `<mimic>` in the URDF follows its leader; who commands it as well says two things. From
 Jazzy on, the controller manager ends with an error if such a joint has a command interface, if its

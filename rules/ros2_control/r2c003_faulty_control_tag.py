@@ -1,4 +1,4 @@
-"""A `<ros2_control>` tag that the controller manager cannot read.
+"""A `ros2_control` tag that the controller manager cannot read.
 
 The tag needs a `name`, a `type` of `system`, `actuator` or `sensor`, and `<hardware>` with a
 `<plugin>`. Below it stand `<hardware>`, `<joint>`, `<sensor>`, `<gpio>`, `<transmission>` and

@@ -5,8 +5,8 @@ A block of a parameter file is for the node of that full name: `controller_manag
 read it, and neither do its controllers; the spawner then says that a type is not defined. Without
 `ros__parameters` below the name, nothing of the file is read.
 
-Fix: write `/**/controller_manager:` and `/**/name_of_the_controller:`, or put the blocks below the
-namespace.
+Fix: put the blocks below the key of the namespace, or below two asterisks for any namespace, as in
+the examples.
 Source: rcl_yaml_param_parser; rclcpp, `parameter_map_from`.
 """
 
