@@ -18,6 +18,7 @@ from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.launch.package_launch import LaunchEntries, launch_entries, launch_graph
+from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.spawner.emitted_xml import (
     SpawnedXml,
     StartedXml,
@@ -400,6 +401,14 @@ class Subject(Record, eq=False, dict=True):
         return launch_graph(self.package, self.started)
 
     @cached_property
+    def ros2_launch(self) -> Ros2Launch | NotAvailable:
+        """What the ROS 2 launch files of the package start."""
+        # Few packages have such files; the others need not load what evaluates them.
+        from checker.expand.ros2_launch.package_launch import ros2_launch
+
+        return ros2_launch(self.package)
+
+    @cached_property
     def launch_entries(self) -> LaunchEntries:
         """The launch files that a URDF package can be started with."""
         if self.package.kind is not PackageKind.URDF_DESCRIPTION:
@@ -460,6 +469,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     SpawnedXml: lambda subject: subject.spawned,
     StartedXml: lambda subject: subject.started,
     LaunchGraph: lambda subject: subject.launch,
+    Ros2Launch: lambda subject: subject.ros2_launch,
     ControlSystem: lambda subject: subject.control,
     RobotControl: lambda subject: subject.robot_controls,
     Specification: lambda subject: subject.specification,
