@@ -73,8 +73,8 @@ class ControllerFile(Record, eq=False):
     Attributes:
         path: As the package lists it.
         blocks: What it gives to which nodes.
-        loaded_by: What names it: the `<parameters>` of a Gazebo plugin; None when it is only found
-            in the package.
+        loaded_by: What names it: the `<parameters>` of a Gazebo plugin, or a launch file; None when
+            it is only found in the package.
         bare: Keys of controller managers below which `ros__parameters` is missing.
     """
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
+from checker.expand.ros2_launch.package_files import local_file
 from checker.expand.xacro.files import ROOT, local_path, package_in
 from checker.model.components import Joint, Plugin
 from checker.model.plugin_library import library_stem
@@ -94,7 +95,7 @@ class RobotControl(Record, eq=False, dict=True):
 
     @property
     def is_named(self) -> bool:
-        """Whether a plugin of the robot names the files: they are its own for certain."""
+        """Whether a plugin or launch file names the files: they are its own for certain."""
         return any(file.loaded_by is not None for file in self.files)
 
     @property
@@ -133,8 +134,15 @@ class RobotControl(Record, eq=False, dict=True):
 class ControlReader:
     """Reads ros2_control of the robots of a package; each YAML file is parsed once."""
 
-    def __init__(self, package: Package) -> None:
+    def __init__(self, package: Package, launched: Mapping[str, Span] | None = None) -> None:
+        """Begin with nothing read.
+
+        Args:
+            package: Whose robots they are.
+            launched: Files of parameters that its launch files name, each with what names it.
+        """
         self.package = package
+        self.launched = launched or {}
         self._read: dict[str, tuple[YamlNode | None, tuple[YamlFault, ...], str]] = {}
         self._values = 0
 
@@ -151,7 +159,7 @@ class ControlReader:
         mere = RobotControl(robot, hardware, managers)
         # A file that is named and not there is a fault of its own, and no other one stands for it.
         guesses = not any(manager.files for manager in managers)
-        files = tuple(self._mentioning(mere.components)) if guesses else named
+        files = self._likely(mere.components) if guesses else named
         return RobotControl(robot, hardware, managers, files, tuple(faults), tuple(unread))
 
     def _manager(self, plugin: Plugin) -> GazeboManager:
@@ -186,15 +194,31 @@ class ControlReader:
                     blocks, bare = tuple(read_blocks(root)), tuple(bare_managers(root))
                     yield ControllerFile(file.path, blocks, file.text.span, bare)
 
-    def _mentioning(self, names: frozenset[str]) -> Iterator[ControllerFile]:
-        """Yield the files of the package that configure a controller of these joints."""
-        for entry in self.package.index.with_suffix(".yaml", ".yml")[:MAX_FILES]:
-            root, _, _ = self._yaml(entry.path)
+    def _likely(self, names: frozenset[str]) -> tuple[ControllerFile, ...]:
+        """Return the files that launch files name, else those that lie in the package."""
+        launched = tuple(self._mentioning(self.launched, names))
+        index = self.package.index.with_suffix(".yaml", ".yml")[:MAX_FILES]
+        return launched or tuple(self._mentioning([entry.path for entry in index], names))
+
+    def _mentioning(self, paths: Iterable[str], names: frozenset[str]) -> Iterator[ControllerFile]:
+        """Yield those of the files that configure a controller of these joints."""
+        for path in paths:
+            root, _, _ = self._yaml(path)
             if root is None:
                 continue
-            file = ControllerFile(entry.path, tuple(read_blocks(root)))
+            file = ControllerFile(path, tuple(read_blocks(root)), self.launched.get(path))
             if any(_mentions(controller, names) for controller in controllers_of([file])):
                 yield file
+
+    def file(self, path: str) -> ControllerFile | None:
+        """Return the file at a path as xacro and launch see it; None when it cannot be had."""
+        local = local_file(self.package, path)
+        root = self._yaml(local)[0] if local is not None else None
+        return (
+            None
+            if local is None or root is None
+            else ControllerFile(local, tuple(read_blocks(root)))
+        )
 
     def _yaml(self, path: str) -> tuple[YamlNode | None, tuple[YamlFault, ...], str]:
         if path not in self._read:
@@ -217,6 +241,14 @@ class ControlReader:
         document = read_yaml(source)
         self._values += document.root.size if document.root is not None else 0
         return document.root, document.faults, ""
+
+
+def may_be_controlled(description: UrdfDescription) -> bool:
+    """Say whether a robot has a `<ros2_control>` tag, or a plugin that runs a manager."""
+    root = description.document.root
+    return root.child("ros2_control") is not None or any(
+        map(_runs_manager, description.robot.plugins)
+    )
 
 
 def _runs_manager(plugin: Plugin) -> bool:
