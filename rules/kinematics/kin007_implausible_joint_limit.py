@@ -99,9 +99,12 @@ def _commanded(robot: Robot) -> dict[str, Hardware]:
 
 
 def _held(joint: Joint, axis: Axis, hardware: Hardware, *, limited: bool) -> Iterator[Finding]:
-    certain = limited or is_of_gazebo(hardware.plugin.value)
+    simulated = is_of_gazebo(hardware.plugin.value)
+    certain = simulated or limited
+    commands = hardware.joints_by_name[joint.name.value].commands
+    by_effort = simulated or any(command.name.value == "effort" for command in commands)
     for kind, limit in (("effort", axis.effort), ("velocity", axis.velocity)):
-        if limit.stated and limit.value == 0.0:
+        if limit.stated and limit.value == 0.0 and (kind == "velocity" or by_effort):
             yield finding(
                 limit,
                 f"joint {joint.name.value!r} has the {kind} limit 0, but <ros2_control> "
@@ -185,6 +188,7 @@ GOOD = [
     _driven("", "JointStatePublisher"),
     _driven("<limit><effort>0</effort><velocity>0</velocity></limit>", "JointStatePublisher"),
     _controlled(_STEADY),
+    _controlled('<limit lower="-1" upper="1" effort="0" velocity="1"/>'),
 ]
 BAD = [
     _driven("<limit><effort>1e9</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
