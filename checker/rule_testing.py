@@ -12,6 +12,7 @@ with `@` mean:
 - `@urdf`: a URDF package instead: an arm of one joint, its controller and its launch files. The
   text takes the place of the arm's transmission and plugin; True leaves these as they are.
 - `@with`: ids of rules that run along.
+- `@profile`: the profile that judges it instead of the first one that has the rule.
 - `@reported`: what must be reported where no marker can stand.
 
 The marker `^ SEN005` stands on the line that must be reported. Rules of other distributions are
@@ -37,7 +38,7 @@ from checker.package.inputs import open_input
 from checker.report.report import Cause
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules, rules_in
-from checker.rulebook.profiles import Profile, profile
+from checker.rulebook.profiles import Profile, profile, profile_names
 from checker.settings import find_settings
 
 __all__ = ["ROBOTS", "Example", "check_example", "examples_of", "rules_in", "write_example"]
@@ -190,10 +191,11 @@ def model_with(fragment: str) -> str:
     return f'{_HEAD}<link name="base_link"/>\n{fragment}\n{_TAIL}'
 
 
-def judge_of(rule: Rule) -> Profile:
-    """Return the profile that judges the examples of a rule: that of SubT where it has the rule."""
-    judges = (profile(name) for name in ("subt", "urdf", "ros2"))
-    return next((judge for judge in judges if judge.includes(rule)), profile("urdf"))
+def judge_of(rule: Rule, example: Example = "") -> Profile:
+    """Return the profile that judges an example: of those that have the rule, the first."""
+    if isinstance(example, Mapping) and "@profile" in example:
+        return profile(example["@profile"])
+    return next(judge for judge in map(profile, profile_names()) if judge.includes(rule))
 
 
 def write_example(example: Example, workspace: Path) -> Path:
@@ -272,7 +274,7 @@ def check_example(rule: Rule, kind: str, example: Example, folder: Path) -> None
         subject = Subject(opened.packages[0], Cache(cache_folder()))
         settings = find_settings([package]).overridden(thorough=True)
         rules = [rule, *_companions(example)]
-        outcome = run_and_set_aside(rules, subject, judge_of(rule), settings)
+        outcome = run_and_set_aside(rules, subject, judge_of(rule, example), settings)
         subject.close()
     for skipped in outcome.not_checked:
         if skipped.rule == rule.id and skipped.cause is not Cause.NOT_APPLICABLE:

@@ -102,7 +102,7 @@ def example_of(rule: Rule, number: int, folder: Path) -> Iterator[Callable[..., 
 
         def run(**options: object) -> Outcome:
             settings = Settings(options={rule.id: options}, thorough=True)
-            return run_and_set_aside([rule], subject, judge_of(rule), settings)
+            return run_and_set_aside([rule], subject, judge_of(rule, example), settings)
 
         yield run
 

@@ -139,7 +139,7 @@ def guessed_profile(folder: Path) -> Guess:
     if len(profiles) == 1:
         return Guess(next(iter(profiles)), counted)
     if profiles:
-        return Guess("", f"{counted}; each is checked with its own")
+        return Guess("", f"{counted}; each is checked with the profile that suits it")
     return Guess("", "nothing: there is no robot yet")
 
 

@@ -151,7 +151,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
         for fault in package.index.faults
     ]
-    facts, trouble = _facts(subject)
+    robots, trouble = _facts(subject)
     driven = subject.provided(RobotTrial)
     display, undrawn = _display(subject) if settings.display else (None, ())
     return PackageReport(
@@ -163,7 +163,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         tuple(
             InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited
         ),
-        facts,
+        robots[0] if robots else {},
         dict(subject.stages.seconds),
         settings.profile,
         settings.fail_on,
@@ -172,14 +172,15 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         suppressed=outcome.suppressed,
         looked=tuple(outcome.looked),
         display=display,
+        other_robots=robots[1:],
     )
 
 
-def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]:
+def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotChecked, ...]]:
     try:
         return facts_of(subject), ()
     except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
-        return {}, (crashed("facts", error),)
+        return (), (crashed("facts", error),)
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:

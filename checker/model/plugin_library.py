@@ -7,13 +7,17 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
+from msgspec import field
+
 from checker.base.record import Record
 from checker.base.resources import table
 
 SUBT_RELEASE = "dome"
 """The release that SubT and the plugins of its robots were built for."""
 
-_CLASSIC = re.compile(r"(?:gazebo_ros|hector_gazebo)_.*")
+_CLASSIC = re.compile(r"(?:gazebo_ros2?|hector_gazebo)_.*")
+_OLDER_LIBRARY = re.compile(r"ignition-gazebo\d*-")
+_OF_GAZEBO = re.compile(r"(?:ignition-gazebo|gz-sim)\d*-.*-system")
 _INLINE_NAMESPACE = re.compile(r"::v\d+::")
 
 
@@ -24,24 +28,33 @@ class PluginLibrary(Record):
         filename: As plugins usually name it: `libignition-gazebo-diff-drive-system.so`.
         classes: Full names of its classes.
         parameters: Tags that its source asks for; None where the source is not known.
+        rewrites: Words that the release replaces in a class before it looks for it.
     """
 
     filename: str
     classes: tuple[str, ...]
     parameters: frozenset[str] | None = None
+    rewrites: Mapping[str, str] = field(default_factory=dict)
 
     def has_class(self, name: str) -> bool:
-        """Say whether a plugin of this library may have the name.
-
-        Later releases read `ignition::gazebo` as `gz::sim`.
-        """
+        """Say whether a plugin of this library may have the name."""
         name = _INLINE_NAMESPACE.sub("::", name)
-        return name in self.classes or name.replace("ignition::gazebo", "gz::sim") in self.classes
+        return name in self.classes or _rewritten(name, self.rewrites) in self.classes
 
 
 def library_stem(filename: str) -> str:
     """Return what identifies a library: its name without folder, `lib` and `.so`."""
     return filename.rsplit("/", 1)[-1].removeprefix("lib").removesuffix(".so")
+
+
+def newer_name(name: str) -> str:
+    """Return the name of a library or class as releases from Garden on have it."""
+    return _OLDER_LIBRARY.sub("gz-sim-", name).replace("ignition::gazebo::", "gz::sim::")
+
+
+def is_of_gazebo(stem: str) -> bool:
+    """Whether a library bears the name of Gazebo's own systems, of whichever release."""
+    return _OF_GAZEBO.fullmatch(stem) is not None
 
 
 @cache
@@ -55,12 +68,23 @@ def plugin_libraries(release: str) -> Mapping[str, PluginLibrary]:
 def gazebo_libraries(release: str) -> Mapping[str, PluginLibrary]:
     """Return those of them that Gazebo has itself."""
     libraries: dict[str, PluginLibrary] = {}
-    systems = table("gazebo_plugins")["releases"].get(release, {"plugins": ()})["plugins"]
-    for system in systems:
+    entry = table("gazebo_plugins")["releases"].get(release, {"plugins": ()})
+    rewrites = entry.get("rewrites", {})
+    back = {new: old for old, new in rewrites.items()}
+    for system in entry["plugins"]:
         parameters = frozenset({*system["params"], *system.get("attrs", ())})
-        library = PluginLibrary(system["filenames"][1], tuple(system["classes"]), parameters)
-        libraries.update(dict.fromkeys(map(library_stem, system["filenames"]), library))
+        classes = tuple(system["classes"])
+        library = PluginLibrary(system["filenames"][1], classes, parameters, rewrites)
+        stems = {library_stem(name) for name in system["filenames"]}
+        stems |= {_rewritten(stem, back) for stem in stems}
+        libraries.update(dict.fromkeys(sorted(stems), library))
     return libraries
+
+
+def _rewritten(name: str, rewrites: Mapping[str, str]) -> str:
+    for old, new in rewrites.items():
+        name = name.replace(old, new)
+    return name
 
 
 def _subt_libraries() -> dict[str, PluginLibrary]:
@@ -76,6 +100,17 @@ def _subt_libraries() -> dict[str, PluginLibrary]:
 def library_of_class(release: str, name: str) -> PluginLibrary | None:
     """Return the library of a release that holds a class."""
     return next((lib for lib in plugin_libraries(release).values() if lib.has_class(name)), None)
+
+
+def lender_of(stem: str) -> str:
+    """Return the ROS package that holds a library; empty where none is known."""
+    return str(table("gazebo_plugins")["ros_packages"].get(stem, ""))
+
+
+def releases_with(stem: str) -> list[str]:
+    """Return what messages call the releases that have a library, the oldest first."""
+    releases = table("gazebo_plugins")["releases"]
+    return [str(releases[name]["label"]) for name in releases if stem in gazebo_libraries(name)]
 
 
 def release_label(release: str) -> str:

@@ -28,7 +28,7 @@ from checker.model.geometry.mesh_units import ScaledMeshes
 from checker.model.geometry.placed_shapes import union
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
-from checker.model.locomotion.drive import driven_joints, find_wheels
+from checker.model.locomotion.drive import WING_CLASSES, driven_joints, find_wheels
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
@@ -151,6 +151,12 @@ class Robot(Part, dict=True):
     def drives(self) -> bool:
         """Whether it has wheels, or a plugin that drives it."""
         return bool(self.wheels) or self.locomotion.kind is not DriveKind.NONE
+
+    @cached_property
+    def flies(self) -> bool:
+        """Whether rotors or wings carry it."""
+        wings = any(plugin.class_name in WING_CLASSES for plugin in self.plugins)
+        return wings or bool(self.locomotion.rotors)
 
     @cached_property
     def tree(self) -> LinkTree:

@@ -51,7 +51,12 @@ def _without_any(robot: Robot, context: Context) -> Finding:
     what = "no link of the robot has a collision"
     if robot.drives or (robot.stands_alone and context.of_submissions):
         return finding(robot, f"{what}: the robot falls through the ground")
-    return finding(robot, f"{what}: nothing touches the robot", severity=Severity.WARNING)
+    alone = len(robot.links) > 1 or context.of_submissions
+    return finding(
+        robot,
+        f"{what}: nothing touches the robot",
+        severity=Severity.WARNING if alone else Severity.INFO,
+    )
 
 
 def _bodies(robot: Robot, least_mass: float) -> Iterator[Finding]:

@@ -3,7 +3,8 @@
 A sensor of 0.1 kg with a moment of 1 kg·m² resists every turn like a steel bar of two metres, and
 adds an unintended kilogram to the total. This includes links on fixed joints. A link that only
 fixed joints connect to the world never moves, so its mass does not matter. In URDF a link without
-`<inertial>` weighs nothing (URD007), and URD012 reports what an `<inertial>` lacks.
+`<inertial>` weighs nothing (URD007), and URD012 reports what an `<inertial>` lacks. From SDF 1.11
+on `<inertial auto="true">` has the simulator work it out from collisions and densities.
 
 Fix: state mass, pose and inertia of the link, from CAD or the formulas for boxes and cylinders. If
 the link is only a frame, lump it into its parent.
@@ -12,24 +13,29 @@ Source: SDFormat specification, link/inertial: the defaults.
 
 from collections.abc import Iterator
 
-from checker.model.components import Link
+from checker.model.components import Inertial, Link
+from checker.model.sdf.auto_inertia import is_automatic
+from checker.model.sdf.document import parse_version
 from checker.physics.mass.mass_properties import MassProperties
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 
 _MOMENTS = 6
+_FIRST_AUTOMATIC = (1, 11)
+"""SDF version since which the simulator works out an inertia."""
 
 
 @rule("INE001", "no-inertia", Severity.ERROR, Concern.ROBOT)
-def check(masses: MassProperties) -> Findings:
+def check(masses: MassProperties, context: Context) -> Findings:
     """Report moving links without inertial, without mass or without any moment of inertia."""
     if masses.robot.is_static or masses.robot.format == "urdf":
         return
+    automatic = (parse_version(context.reads) or (0, 0)) >= _FIRST_AUTOMATIC
     for link in masses.robot.links:
         if link.scoped_name not in masses.robot.tree.held:
-            yield from _missing(link)
+            yield from _missing(link, automatic=automatic)
 
 
-def _missing(link: Link) -> Iterator[Finding]:
+def _missing(link: Link, *, automatic: bool) -> Iterator[Finding]:
     name = link.name.value
     inertial = link.inertial
     taken = "the simulator uses 1 kg·m² about each axis"
@@ -39,8 +45,8 @@ def _missing(link: Link) -> Iterator[Finding]:
             f"link {name!r} has no <inertial>: the simulator uses 1 kg and 1 kg·m²",
             key="none",
         )
-    elif _left_to_the_simulator(link):
-        return
+    elif is_automatic(link.element.child("inertial")):
+        yield from _left_to_the_simulator(link, inertial, automatic=automatic)
     elif not any(moment.stated for moment in inertial.moments[:_MOMENTS]):
         yield finding(
             inertial.mass,
@@ -53,10 +59,15 @@ def _missing(link: Link) -> Iterator[Finding]:
         )
 
 
-def _left_to_the_simulator(link: Link) -> bool:
-    """Whether SDF 1.11 computes the inertia from shapes and density, as the model asks."""
-    element = link.element.child("inertial")
-    return element is not None and (element.get("auto") or "").strip().lower() in ("1", "true")
+def _left_to_the_simulator(link: Link, inertial: Inertial, *, automatic: bool) -> Iterator[Finding]:
+    """Report what SDF 1.11 cannot work out, and targets that read older versions."""
+    name = link.name.value
+    if not automatic:
+        message = f"link {name!r} has an automatic inertia, which only SDF 1.11 and later know"
+        yield finding(inertial, message, key="automatic")
+    elif not link.collisions:
+        message = f"link {name!r} has an automatic inertia, but no <collision> to work it out from"
+        yield finding(inertial, message, severity=Severity.WARNING, key="automatic")
 
 
 _INERTIA = "<inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia>"
@@ -81,7 +92,12 @@ def _arm(inertial: str, mark: str = "", above: str = "base_link", kind: str = "f
 
 
 _MARK = "<!-- ^ INE001 -->"
+_AUTOMATIC = (
+    '<inertial auto="true"><density>500</density></inertial>'
+    '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>'
+)
 GOOD = [
+    {"@profile": "gazebo-harmonic", "@fragment": _arm(_AUTOMATIC)},
     _arm(f"<inertial><mass>2</mass>{_INERTIA}</inertial>"),
     _arm("", above="world"),
     "<static>true</static>",
@@ -89,6 +105,8 @@ GOOD = [
 BAD = [
     _arm("", _MARK),
     _arm("", _MARK, above="world", kind="revolute"),
+    {"@profile": "gazebo-fortress", "@fragment": _arm(_AUTOMATIC + _MARK)},
+    {"@profile": "gazebo-jetty", "@fragment": _arm(f'<inertial auto="true"/>{_MARK}')},
     _arm(f"<inertial>\n<mass>2</mass>{_MARK}</inertial>"),
     _arm(f"<inertial>{_MARK}{_INERTIA}</inertial>"),
 ]

@@ -16,9 +16,10 @@ accepts a mass of zero.
 import math
 from collections.abc import Iterator
 
-from checker.model.components import Inertial
+from checker.model.components import Inertial, Link
 from checker.model.faults import FaultKind
 from checker.model.robot import Robot
+from checker.model.sdf.auto_inertia import is_automatic
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Span
@@ -47,7 +48,7 @@ def check(
     share = rounding if robot.format == "urdf" else tolerance
     for inertia in masses.links.values():
         inertial = inertia.link.inertial
-        if inertial is None or _spans(inertial) & misread:
+        if inertial is None or _spans(inertial) & misread or _left_open(inertia.link, inertial):
             continue
         # Without mass it is a frame; without moments, INE003 reports it.
         if robot.format == "urdf" and (inertia.mass == 0.0 or not inertia.has_moments):
@@ -62,6 +63,11 @@ def check(
         merged = robot.format == "urdf" and inertia.piece_eigenvalue >= -share
         possible = Severity.WARNING if merged else Severity.ERROR
         yield from _moments(inertia, inertial, possible, share)
+
+
+def _left_open(link: Link, inertial: Inertial) -> bool:
+    """Whether the simulator works out the inertia, from meshes that are not read here."""
+    return is_automatic(link.element.child("inertial")) and math.isnan(inertial.mass.value)
 
 
 def _spans(inertial: Inertial) -> set[Span]:

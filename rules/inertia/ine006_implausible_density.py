@@ -6,14 +6,17 @@ of its way.
 
 Shapes may overlap, so a light link is compared with the smallest volume that they can fill, and a
 heavy one with the greatest. A collision may cover only a part of the link, so for a heavy link the
-visuals count as well. A mesh that is not closed counts as its convex hull.
+visuals count as well. A mesh that is not closed counts as its convex hull. A whole link that is as
+dense as solid steel is suspicious if the rest of the robot is hollow, as robots are.
 
 Fix: correct the mass in kg, or the size of the shapes in m.
 Source: densities of materials: foams from 15 kg/m³, aluminium 2 700, steel 7 850, lead 11 340.
 """
 
+import math
 from collections.abc import Iterator
 
+from checker.model.components import Link
 from checker.physics.mass.link_geometry import not_looked_at, volume_bounds
 from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -26,6 +29,8 @@ def check(
     lightest: float = 10.0,
     heaviest: float = 8000.0,
     impossible: float = 25000.0,
+    metal: float = 5000.0,
+    contrast: float = 5.0,
     share: float = 0.02,
     volume_share: float = 0.25,
 ) -> Findings:
@@ -38,6 +43,9 @@ def check(
             visuals if that is more; more is a warning.
         impossible: Density in kg/m³, for the same volume as for `heaviest`; more is an error,
             because no metal is so dense.
+        metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if
+            the rest of the robot is not.
+        contrast: How many times denser than the rest of the robot such a link is.
         share: Share of the robot's mass; a link with no more may be a placeholder and is skipped,
             unless its volume exceeds `volume_share`.
         volume_share: Share of the sum of all links' largest collisions, by volume; a link with more
@@ -48,6 +56,7 @@ def check(
     for reason in masses.robot.unknown_masses.values():
         yield unchecked(reason)
     large, carried = _large(masses, volume_share), _carried(masses)
+    others = _Others(masses)
     for name, inertia in masses.weighed.items():
         link = inertia.link
         counts = masses.share(name) > share or name in large
@@ -66,10 +75,41 @@ def check(
             grave = inertia.mass / most > impossible
             severity = Severity.ERROR if grave else Severity.WARNING
             yield from _say(inertia, most, f"at most {heaviest:g}", severity)
+        elif most > 0.0 and inertia.mass / most > max(metal, contrast * others.density(name)):
+            rest = f"the other links have {others.density(name):.3g}"
+            yield from _say(inertia, most, f"at most {metal:g}: {rest}", Severity.WARNING)
         elif (
             collisions[0] > 0.0 and inertia.mass / collisions[0] < lightest and name not in carried
         ):
             yield from _say(inertia, collisions[0], f"at least {lightest:g}", Severity.WARNING)
+
+
+class _Others:
+    """The density of the robot without one of its links."""
+
+    def __init__(self, masses: MassProperties) -> None:
+        self.volumes = {
+            name: most
+            for name, inertia in masses.weighed.items()
+            if inertia.link.inertial is not None
+            and (most := _most(masses, inertia.link)) is not None
+        }
+        self.masses = {name: masses.links[name].mass for name in self.volumes}
+
+    def density(self, name: str) -> float:
+        """Return kg/m³ of all other links together; infinite where none is known."""
+        volume = sum(each for other, each in self.volumes.items() if other != name)
+        mass = sum(each for other, each in self.masses.items() if other != name)
+        return mass / volume if volume > 0.0 else math.inf
+
+
+def _most(masses: MassProperties, link: Link) -> float | None:
+    """Return the greatest volume that the shapes of a link can fill, m³; None if unknown."""
+    if not_looked_at(masses.robot, link):
+        return None
+    bounds = [volume_bounds(masses.robot, shapes) for shapes in (link.collisions, link.visuals)]
+    known = [bound[1] for bound in bounds if bound is not None]
+    return max(known) if known and max(known) > 0.0 else None
 
 
 def _carried(masses: MassProperties) -> set[str]:

@@ -39,6 +39,8 @@ def check(
     robot = masses.robot
     if robot.is_static or not (robot.drives or (robot.stands_alone and context.of_submissions)):
         return
+    if robot.flies and not context.of_submissions:
+        return  # It stands on level ground, on an undercarriage as narrow as that of a plane.
     if masses.unbalanced:
         yield unchecked(masses.unbalanced)
         return

@@ -1,7 +1,8 @@
 """A model.config that does not describe the model or name its file.
 
-Gazebo opens the file that `<sdf>` names. If that file does not exist, Gazebo cannot load the robot
-by its name. Fuel shows the other entries, including the contact of the author.
+Gazebo opens the file that `<sdf>` names, of several the newest that it reads. If that file does not
+exist, Gazebo cannot load the robot by its name; another that is missing is a warning. Fuel shows
+the other entries, including the contact of the author.
 
 Fix: name the model file in `<sdf version="1.6">model.sdf</sdf>`, and add name, version, author with
 name and email, and description.
@@ -13,7 +14,8 @@ from collections.abc import Iterator
 from html import escape
 
 from checker.finding import Fix
-from checker.package.manifests import ModelConfig, Paperwork
+from checker.model.sdf.document import parse_version
+from checker.package.manifests import ModelConfig, Paperwork, SdfEntry
 from checker.package.model_file import own_model
 from checker.package.package import Package
 from checker.rule import (
@@ -51,7 +53,7 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
             key="sdf",
             fix=_named(package, context.sdf_version),
         )
-    yield from _lost(package, config)
+    yield from _lost(package, config, _chosen(config, context.reads))
     if missing := list(_missing(config)):
         words = f"{', '.join(missing[:-1])} and {missing[-1]}" if missing[1:] else missing[0]
         yield finding(
@@ -59,7 +61,14 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         )
 
 
-def _lost(package: Package, config: ModelConfig) -> Iterator[Finding]:
+def _chosen(config: ModelConfig, reads: str) -> SdfEntry | None:
+    """Return the file that the target opens: of the versions that it reads, the newest."""
+    newest = parse_version(reads) or (0, 0)
+    read = [it for it in config.sdf if (parse_version(it.version.value) or (0, 0)) <= newest]
+    return max(read, key=lambda it: parse_version(it.version.value) or (0, 0), default=None)
+
+
+def _lost(package: Package, config: ModelConfig, chosen: SdfEntry | None) -> Iterator[Finding]:
     for entry in config.sdf:
         path = posixpath.normpath(entry.file.value)
         written = entry.file.value
@@ -72,6 +81,7 @@ def _lost(package: Package, config: ModelConfig) -> Iterator[Finding]:
             entry.file,
             f"model.config names {written or 'no file'}, but this file does not exist"
             + (f"; did you mean {alike[0]}?" if alike else ""),
+            severity=None if chosen in (None, entry) else Severity.WARNING,
             fix=replace_text(entry.file, model, Safety.UNSAFE) if model and written else None,
         )
 

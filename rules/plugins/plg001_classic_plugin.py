@@ -1,12 +1,15 @@
-"""A plugin of Gazebo 9 in a model for Ignition Gazebo.
+"""A plugin of Gazebo Classic in a model for Gazebo.
 
-Ignition Gazebo cannot load plugins built for Gazebo Classic: it prints one line and continues
-without the drive, the sensor or the light that the plugin provides.
+Gazebo, since it was called Ignition, cannot load plugins built for Gazebo Classic: it prints one
+line and continues without the drive, the sensor or the light that the plugin provides.
+
+A xacro may serve several simulators by an argument: if its default chooses Gazebo Classic, the
+plugins for later ones are not seen, and nothing is judged.
 
 None of the accepted packages that we checked shows this.
 
-Fix: remove the plugin and use what the message names: a system plugin in `launch/spawner.rb`, or a
-sensor in the model.
+Fix: remove the plugin and use what the message names: a sensor in the model, or a system plugin (in
+a submission it stands in `launch/spawner.rb`).
 Source: Model Migration Guide, "Remove/replace unsupported plugins".
 """
 
@@ -14,24 +17,30 @@ from typing import Any
 
 from checker.finding import Fix
 from checker.model.components import Plugin
-from checker.model.plugin_library import classic_plugin, library_stem
+from checker.model.plugin_library import classic_plugin, library_stem, newer_name
 from checker.model.robot import Robot
-from checker.rule import Concern, Findings, Safety, Severity, finding, rule, unchecked
+from checker.model.urdf.simulator import classic_by_default
+from checker.package.package import Package
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.xml_insertion import removal
 
 
 @rule("PLG001", "classic-plugin", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot) -> Findings:
+def check(robot: Robot, package: Package, context: Context) -> Findings:
     """Report plugins whose library belongs to Gazebo Classic."""
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
+    if reason := classic_by_default(robot, package):
+        yield unchecked(reason)
+        return
     for plugin in robot.all_plugins:
         known = classic_plugin(plugin.filename.value)
         if known is None:
             continue
+        advice = _advice(known) if context.of_submissions else _later_advice(known)
         yield finding(
             plugin.filename,
-            f"{plugin.filename.value} is a plugin of Gazebo 9: {_advice(known)}",
+            f"{plugin.filename.value} is a plugin of Gazebo {_whose(context)}: {advice}",
             key=library_stem(plugin.filename.value),
             fix=Fix(Safety.UNSAFE, (removal(plugin.element),)) if _in_vain(plugin, known) else None,
         )
@@ -41,6 +50,21 @@ def _in_vain(plugin: Plugin, entry: dict[str, Any]) -> bool:
     """Whether it is enough to remove the plugin, because the sensor around it works alone."""
     instead = (entry.get("replacement") or {}).get("sensor_type")
     return entry.get("action") == "remove" or bool(plugin.owner and instead)
+
+
+def _whose(context: Context) -> str:
+    return "9" if context.of_submissions else "Classic"
+
+
+def _later_advice(entry: dict[str, Any]) -> str:
+    """Say what takes its place in a release later than Dome."""
+    instead = entry.get("replacement") or {}
+    if "later" in entry:
+        return str(entry["later"])
+    if filename := instead.get("filename"):
+        library = newer_name(library_stem(filename))
+        return f"use {library} ({newer_name(instead['name'])})"
+    return _advice({key: value for key, value in entry.items() if key != "note"})
 
 
 def _advice(entry: dict[str, Any]) -> str:

@@ -3,7 +3,8 @@
 Gazebo cannot load it: it prints one line and continues without the drive, the sensor or other
 function of the plugin. A library counts as known if the target release or SubT has it, or if this
 package or a dependency ships or builds it. Outside of SubT, the simulator's paths may lead to more
-libraries: there it is information, unless the name is one of Gazebo's own.
+libraries: there it is information, unless the name is one of Gazebo's own. It is a warning if the
+library is of a known package, on which package.xml does not depend.
 
 Fix: write the library's name as the message suggests, or ship the library and declare the package
 that contains it in package.xml.
@@ -14,9 +15,13 @@ packages (`subt_plugins.json`). None of the accepted packages that we checked sh
 from checker.base.words import Suggestions
 from checker.model.plugin_library import (
     classic_plugin,
+    is_of_gazebo,
+    lender_of,
     library_stem,
+    newer_name,
     plugin_libraries,
     release_label,
+    releases_with,
 )
 from checker.model.robot import Robot
 from checker.package.dependencies import lenders_of
@@ -40,29 +45,45 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
         stem = library_stem(plugin.filename.value)
         if not stem or stem in known or classic_plugin(stem) is not None:
             continue
-        if lenders.unknown:
+        if not context.of_submissions and newer_name(stem) in known:
+            continue  # PLG010 says so.
+        if lenders.unknown and context.of_submissions:
             yield unchecked(
                 f"{plugin.filename.value} may come from {', '.join(lenders.unknown)}, which is not "
                 "available"
             )
             continue
+        if not context.of_submissions and lender_of(stem) in lenders.missing:
+            continue  # The package names the one that has it.
         yield finding(
             plugin.filename,
             f"library {plugin.filename.value} is not in {release_label(context.release)}, and is "
             "neither shipped nor built by "
-            f"{' or '.join(package.name for package in lenders.at_hand)}{suggestions.hint(stem)}",
-            severity=None if _must_be_there(stem, context) else Severity.INFO,
+            f"{' or '.join(package.name for package in lenders.at_hand)}"
+            f"{_elsewhere(stem, context) or suggestions.hint(stem)}",
+            severity=_severity(stem, context),
             key=stem,
         )
 
 
-def _must_be_there(stem: str, context: Context) -> bool:
-    """Say whether a library is none unless it is at hand.
+def _elsewhere(stem: str, context: Context) -> str:
+    """Say which release or package has the library, as the end of a sentence."""
+    if context.of_submissions:
+        return ""
+    if lender := lender_of(stem):
+        return f"; it is of {lender}, on which package.xml does not depend"
+    return "".join(f"; {label} is the first that has it" for label in releases_with(stem)[:1])
+
+
+def _severity(stem: str, context: Context) -> Severity | None:
+    """Say how grave it is that a library is not at hand.
 
     Submissions bring nothing along. Elsewhere, libraries of other packages are found by the
     simulator's paths; only those that bear Gazebo's own name are expected to be its own.
     """
-    return context.of_submissions or stem.startswith(("ignition-gazebo-", "gz-sim-"))
+    if context.of_submissions or is_of_gazebo(stem):
+        return None
+    return Severity.WARNING if lender_of(stem) else Severity.INFO
 
 
 _CMAKE = """project(acme_rover_sensor_config_1)

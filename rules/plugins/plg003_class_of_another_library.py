@@ -13,6 +13,7 @@ from checker.model.plugin_library import (
     PluginLibrary,
     library_of_class,
     library_stem,
+    newer_name,
     plugin_libraries,
 )
 from checker.model.robot import Robot
@@ -40,6 +41,10 @@ def check(robot: Robot, context: Context) -> Findings:
         library = libraries.get(library_stem(plugin.filename.value))
         if library is None or not plugin.name.stated or library.has_class(plugin.name.value):
             continue
+        if not plugin.name.value and not context.of_submissions:
+            continue  # Later releases take the first class of the library.
+        if library.has_class(newer_name(plugin.name.value)):
+            continue  # PLG010 says so.
         yield _mismatch(plugin, library, library_of_class(context.release, plugin.name.value))
 
 

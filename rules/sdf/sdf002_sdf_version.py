@@ -1,15 +1,15 @@
 """An SDF version that the target does not use, or that does not exist.
 
 The version defines what each element means: the frame of a pose, the joint types and the sensors. A
-parser reads a file by its stated version and refuses versions newer than itself: Dome's reads up to
-1.7. SubT asks for 1.6; another version that Dome reads is a warning, and for other targets
-information. If `model.config` states another version than the model file, tools that choose by it
-choose the wrong file.
+parser reads a file by its stated version, turns older ones into its own, and refuses newer ones:
+Dome's reads up to 1.7, Fortress's 1.9, Harmonic's 1.11, Ionic's and Jetty's 1.12. SubT asks for
+1.6; another version that Dome reads is a warning. If `model.config` states another version than the
+model file, tools that choose by it choose the wrong file.
 
-Fix: write `<sdf version="1.6">` (for the SubT simulator), in `model.sdf` and in `model.config`, and
-check the file against that version.
-Source: libsdformat 10, SDF_VERSION; Model Migration Guide, step 5; SDFormat specification, the
-attribute `version`.
+Fix: write a version that the target reads, for the SubT simulator `<sdf version="1.6">`, in
+`model.sdf` and in `model.config`, and check the file against that version.
+Source: libsdformat, SDF_VERSION of branches sdf10 to sdf16, and Converter.cc; Model Migration
+Guide, step 5; SDFormat specification, the attribute `version`.
 """
 
 from collections.abc import Iterator
@@ -33,8 +33,6 @@ from checker.source.text import Located
 
 OLDER = ("1.0", "1.2", "1.3")
 """Versions that exist, but whose elements are not in the tables."""
-NEWEST = {"dome": "1.7"}
-"""What the parser of a release reads, where it reads newer files than those that are asked for."""
 
 
 @rule("SDF002", "sdf-version", Severity.ERROR, Concern.PORTABILITY)
@@ -47,7 +45,7 @@ def check(sdf: SdfDocument, paperwork: Paperwork, context: Context) -> Findings:
     if version.value.strip() in OLDER:
         yield unchecked(f"the checker does not know the elements of SDF {version.value.strip()}")
     yield from _of_model(version, context)
-    expected = context.sdf_version if _exact(context) else version.value.strip()
+    expected = context.sdf_version or version.value.strip()
     config = paperwork.config
     for entry in config.sdf if config is not None and expected else ():
         if normpath(entry.file.value) == sdf.document.source.file:
@@ -65,25 +63,19 @@ def _of_model(version: Located[str], context: Context) -> Iterator[Finding]:
             version,
             f"SDF version {version.value!r} does not exist, expected {expected or '1.4 to 1.12'}",
         )
-    elif expected and version.value.strip() != expected:
+    elif _is_refused(version.value, context) or (expected and version.value.strip() != expected):
+        wanted = expected or f"{context.reads} or older, which {context.release.capitalize()} reads"
         yield finding(
             version,
-            f"the model is written in SDF {version.value.strip()}, expected {expected}",
-            severity=_severity(version.value, context),
+            f"the model is written in SDF {version.value.strip()}, expected {wanted}",
+            severity=None if _is_refused(version.value, context) else Severity.WARNING,
         )
 
 
-def _severity(version: str, context: Context) -> Severity:
-    """Say how grave another version is: the target refuses what is newer than its parser."""
-    stated = parse_version(version)
-    newest = parse_version(NEWEST.get(context.release, context.sdf_version))
-    if stated is None or newest is None or stated > newest:
-        return Severity.ERROR
-    return Severity.WARNING if _exact(context) else Severity.INFO
-
-
-def _exact(context: Context) -> bool:
-    return context.profile == "subt"
+def _is_refused(version: str, context: Context) -> bool:
+    """Say whether the target's parser is older than a file."""
+    stated, newest = parse_version(version), parse_version(context.reads)
+    return stated is None or newest is None or stated > newest
 
 
 def _of_config(entry: SdfEntry, expected: str) -> Iterator[Finding]:
@@ -103,20 +95,26 @@ def _config(version: str) -> str:
     return f"<model>\n<name>x</name>\n<sdf{version}\n</model>\n"
 
 
+def _model(version: str, mark: str = "") -> str:
+    return f'''<sdf version="{version}">{mark}
+  <model name="rover"><link name="base_link"/></model>
+</sdf>
+'''
+
+
+_MARK = "  <!-- ^ SDF002 -->"
 GOOD = [
     '<sdf version="1.6"><model name="rover"><link name="base_link"/></model></sdf>',
     {"model.config": _config(' version="1.6">model.sdf</sdf>')},
+    {"@profile": "gazebo-harmonic", "model.config": None, "model.sdf": _model("1.10")},
 ]
 BAD = [
-    """
-<sdf version="1.7">  <!-- ^ SDF002 -->
-  <model name="rover"><link name="base_link"/></model>
-</sdf>
-""",
+    _model("1.7", _MARK),
     """
 <sdf>  <!-- ^ SDF002 -->
   <model name="rover"><link name="base_link"/></model>
 </sdf>
 """,
     {"model.config": _config(' version="1.5">model.sdf</sdf>  <!-- ^ SDF002 -->')},
+    {"@profile": "gazebo-fortress", "model.config": None, "model.sdf": _model("1.10", _MARK)},
 ]

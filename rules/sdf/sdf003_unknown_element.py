@@ -6,7 +6,7 @@ name resembles a known one, or if the part would move otherwise; what only chang
 part, and what resembles an element that the target does not read (such as `<always_on>`), is a
 warning. A file of an older version is read as one of the newest version: elements of that version
 are known, too. Elements below `<plugin>` and elements with a namespace prefix are ignored. SDF008
-reports a known element in the wrong place.
+reports a known element in the wrong place, SEN028 those that name the frame of a sensor.
 
 Fix: spell it as the specification does, or move what belongs to a plugin into that plugin.
 Source: SDFormat specification, the version that the file states.
@@ -19,6 +19,7 @@ from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.schema import all_tags
 from checker.model.sdf.unread import is_appearance, is_unread
+from checker.model.sensing.kind import frame_ids
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 
@@ -29,10 +30,12 @@ GRAVE_PARENTS = ("inertial", "inertia", "geometry", "joint", "axis", "limit")
 @rule("SDF003", "unknown-element", Severity.WARNING, Concern.ROBOT)
 def check(sdf: SdfDocument, context: Context) -> Findings:
     """Report elements that no place of this SDF version knows."""
+    known = frame_ids(context.release)
+    frames = {*known.read, *known.others} if known is not None else set()
     unknown = [
         element
         for element, kind in sdf.typed_as(context.reads)
-        if kind is None and element.tag not in all_tags(sdf.version)
+        if kind is None and element.tag not in all_tags(sdf.version) and element.tag not in frames
     ]
     anywhere = Suggestions(all_tags(sdf.version))
     for element, siblings in _with_known_siblings(sdf, unknown):

@@ -2,7 +2,8 @@
 
 The simulator spawns one model of the file. With a world around it, a second model, or
 `<static>true`, it spawns another robot than intended, or one that cannot move. Every parser refuses
-a model without links. None of the accepted packages that we checked shows this.
+a model without links. Worlds and static models are faults of submissions only. None of the accepted
+packages that we checked shows this.
 
 Fix: keep one `<model>` directly below `<sdf>`; put worlds in `worlds/`.
 Source: Model Migration Guide, step 3; SDFormat specification 1.8, "only one model at the root";
@@ -23,7 +24,9 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         return  # SDF005 says so.
     yield from _second_models(sdf, context)
     yield from _without_links(sdf)
-    if context.release:
+    if context.release and not any(sdf.root.child(tag) for tag in _SPAWNED):
+        yield finding(sdf.root, "the file contains no model")
+    if context.of_submissions:
         yield from _no_robot(sdf)
 
 
@@ -52,18 +55,15 @@ def _without_links(sdf: SdfDocument) -> Iterator[Finding]:
 
 
 _WITH_LINKS = ("link", "model", "include")
+_SPAWNED = ("model", "world", "include", "actor", "light")
 
 
 def _no_robot(sdf: SdfDocument) -> Iterator[Finding]:
-    worlds = sdf.root.all("world")
-    for world in worlds:
+    for world in sdf.root.all("world"):
         yield finding(
             world, f"world {world.get('name')!r} is in the model file, expected only a model"
         )
-    models = sdf.root.all("model")
-    if not models and not worlds:
-        yield finding(sdf.root, "the file contains no model")
-    for model in models:
+    for model in sdf.root.all("model"):
         static = model.child("static")
         if static is not None and _is_static(model):
             yield finding(static, f"model {model.get('name')!r} is static: it cannot move")

@@ -16,7 +16,9 @@ from checker.model.components import Sensor
 from checker.model.robot import Robot
 from checker.model.sdf.document import sdf_version
 from checker.model.sensing.kind import SensorType
-from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
+from checker.model.urdf.simulator import classic_by_default
+from checker.package.package import Package
+from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
 from checker.source.text import Span
 
 _OLD = {"gpu_ray": "gpu_lidar", "ray": "lidar"}
@@ -26,11 +28,14 @@ _FIRST_GPU_LIDAR = (1, 6)
 
 
 @rule("SEN002", "older-sensor-spelling", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, context: Context) -> Findings:
+def check(robot: Robot, package: Package, context: Context) -> Findings:
     """Report older spellings of lidars, and lidars that the target release does not simulate."""
     if context.release == _CLASSIC or (
         not context.release and sdf_version(robot.document) < _FIRST_GPU_LIDAR
     ):
+        return
+    if reason := classic_by_default(robot, package):
+        yield unchecked(reason)
         return
     for sensor in robot.sensors:
         type = sensor.type.value

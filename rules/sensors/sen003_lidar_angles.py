@@ -2,7 +2,8 @@
 
 A full turn from -3.1459 to 3.1459 is 0.5 degrees too large: the last rays see what the first ones
 saw, and every point of the cloud is slightly wrong. In the challenge a full turn goes from -π to π,
-as on all other robots, and not from 0 to 2π. If the first angle is not below the last, all rays
+as on all other robots, and not from 0 to 2π; elsewhere that is information, since many devices do
+so. If the first angle is not below the last, all rays
 point in one direction or the scan is mirrored.
 
 Fix: write -3.141592653589793 and 3.141592653589793 for a full turn, and the smaller angle first.
@@ -15,7 +16,7 @@ from collections.abc import Iterator
 from checker.finding import Fix
 from checker.model.robot import Robot
 from checker.model.sensing.lidar import Scan
-from checker.rule import Concern, Finding, Findings, Safety, Severity, finding, rule
+from checker.rule import Concern, Context, Finding, Findings, Safety, Severity, finding, rule
 
 _TURN = 2 * math.pi
 _NEAR = 0.1
@@ -23,7 +24,9 @@ _NEAR = 0.1
 
 
 @rule("SEN003", "lidar-angles", Severity.WARNING, Concern.INTERFACE)
-def check(robot: Robot, *, tolerance: float = 1e-3, near: float = _NEAR) -> Findings:
+def check(
+    robot: Robot, context: Context, *, tolerance: float = 1e-3, near: float = _NEAR
+) -> Findings:
     """Report scans over more than a full turn, from 0 to 2π, or without width.
 
     Options:
@@ -36,11 +39,14 @@ def check(robot: Robot, *, tolerance: float = 1e-3, near: float = _NEAR) -> Find
         if lidar is None or not sensor.kind.is_lidar:
             continue
         name = f"lidar {sensor.name.value!r}"
-        yield from _one_way(f"{name} scans", lidar.horizontal, tolerance, near)
-        yield from _one_way(f"{name} scans vertically", lidar.vertical, tolerance, near)
+        usual = None if context.of_submissions else Severity.INFO
+        yield from _one_way(f"{name} scans", lidar.horizontal, tolerance, near, usual)
+        yield from _one_way(f"{name} scans vertically", lidar.vertical, tolerance, near, usual)
 
 
-def _one_way(phrase: str, scan: Scan, tolerance: float, near: float) -> Iterator[Finding]:
+def _one_way(
+    phrase: str, scan: Scan, tolerance: float, near: float, usual: Severity | None
+) -> Iterator[Finding]:
     lower, upper = scan.lower.value, scan.upper.value
     if not math.isfinite(lower) or not math.isfinite(upper):
         return
@@ -51,7 +57,13 @@ def _one_way(phrase: str, scan: Scan, tolerance: float, near: float) -> Iterator
         expected = ": expected -π to π" if full_turn is not None else ""
         yield finding(scan.lower, over + expected, key=f"over {scan.angle:.6g}", fix=full_turn)
     elif abs(lower) < near and abs(upper - _TURN) < near:
-        yield finding(scan.lower, f"{phrase}: expected -π to π", key="from 0", fix=full_turn)
+        yield finding(
+            scan.lower,
+            f"{phrase}: expected -π to π",
+            severity=usual,
+            key="from 0",
+            fix=full_turn,
+        )
     elif scan.angle <= 0 and scan.samples.value > 1:
         swapped = _written(scan, upper, lower) if scan.angle < 0 else None
         yield finding(

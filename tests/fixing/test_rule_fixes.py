@@ -20,7 +20,7 @@ from checker.package.inputs import open_input
 from checker.package.package import Package
 from checker.report.report import ReportedFinding
 from checker.rule import Rule
-from checker.rule_testing import judge_of, write_example
+from checker.rule_testing import Example, judge_of, write_example
 from checker.rulebook.discovery import all_rules
 from checker.settings import Settings
 from checker.source.text import SourceText
@@ -40,8 +40,8 @@ REVEALED = {
 """What another rule can see only once a fix is made."""
 
 
-def judge(rule: Rule, **wishes: Any) -> Settings:
-    return Settings(trial=False, profile=judge_of(rule).name, **wishes)
+def judge(rule: Rule, example: Example, **wishes: Any) -> Settings:
+    return Settings(trial=False, profile=judge_of(rule, example).name, **wishes)
 
 
 def fixed(package: Package, settings: Settings) -> tuple[Package, bool]:
@@ -68,7 +68,7 @@ def test_a_fix_mends_its_fault_and_brings_no_other(
 ) -> None:
     with open_input(write_example(example, tmp_path)) as opened:
         before = opened.packages[0]
-        alone, every = judge(rule, select=(rule.id,)), judge(rule)
+        alone, every = judge(rule, example, select=(rule.id,)), judge(rule, example)
         faults = findings_of(before, alone, NO_CACHE)
         mended = {each.fingerprint for each in faults if each.fix}
         if not mended:

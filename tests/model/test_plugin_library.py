@@ -8,6 +8,7 @@ from checker.model.plugin_library import (
     classic_plugin,
     library_of_class,
     library_stem,
+    newer_name,
     plugin_libraries,
     release_label,
     release_major,
@@ -22,12 +23,25 @@ def test_every_spelling_of_a_library_has_one_stem(name: str) -> None:
     assert library_stem(name) == DRIVE
 
 
-@pytest.mark.parametrize("release", ["dome", "fortress", "harmonic", "ionic", "jetty"])
+@pytest.mark.parametrize("release", ["dome", "fortress", "harmonic"])
 def test_a_class_is_found_in_its_library_under_its_old_name_too(release: str) -> None:
     library = plugin_libraries(release)[DRIVE]
     assert library.has_class(f"{SYSTEMS}::DiffDrive")
     assert not library.has_class(f"{SYSTEMS}::WheelSlip")
     assert not library.has_class("DiffDrive")
+
+
+@pytest.mark.parametrize("release", ["ionic", "jetty"])
+def test_later_releases_know_no_name_of_ignition(release: str) -> None:
+    libraries = plugin_libraries(release)
+    assert DRIVE not in libraries
+    library = libraries[newer_name(DRIVE)]
+    assert library.has_class("gz::sim::systems::DiffDrive")
+    assert not library.has_class(f"{SYSTEMS}::DiffDrive")
+
+
+def test_fortress_reads_the_newer_name_of_a_library() -> None:
+    assert "gz-sim-diff-drive-system" in plugin_libraries("fortress")
 
 
 def test_the_new_name_came_after_dome() -> None:

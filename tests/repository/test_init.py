@@ -191,14 +191,15 @@ def test_the_profile_is_guessed_from_what_is_there(tmp_path: Path) -> None:
     shutil.copytree(SAMPLES / URDF, tmp_path / "urdf" / URDF)
     assert guessed_profile(tmp_path / "urdf").profile == "urdf"
     assert guessed_profile(tmp_path / "urdf" / URDF).profile == "urdf"
-    for name, plugin in (
-        ("sdf", ""),
-        ("gazebo-harmonic", "<plugin filename='gz-sim-x' name='x'/>"),
-    ):
-        model = tmp_path / name / "box/model.sdf"
-        model.parent.mkdir(parents=True)
-        model.write_text(SDF_FILE.format(plugin))
-        assert guessed_profile(tmp_path / name).profile == name
+    model = tmp_path / "models/box/model.sdf"
+    model.parent.mkdir(parents=True)
+    model.write_text(SDF_FILE.format(""))
+    assert guessed_profile(tmp_path / "models").profile == "gazebo-harmonic"
+    manifest = tmp_path / "arms/arm/package.xml"
+    manifest.parent.mkdir(parents=True)
+    manifest.write_text("<package><name>arm</name><depend>rclpy</depend></package>")
+    (manifest.parent / "arm.urdf").write_text("<robot name='arm'><link name='a'/></robot>")
+    assert guessed_profile(tmp_path / "arms").profile == "ros2"
     shutil.copytree(SAMPLES / GOOD, tmp_path / "urdf" / GOOD)
     both = guessed_profile(tmp_path / "urdf")
     assert both.profile == ""

@@ -19,7 +19,10 @@ DRIVE_CLASSES = {
 }
 """Plugin classes that move a robot, and what a report calls that."""
 
-_READS_ONLY = frozenset({"JointStatePublisher"})
+WING_CLASSES = ("LiftDrag", "AdvancedLiftDrag")
+"""Plugin classes that give a link lift."""
+
+_READS_ONLY = frozenset({"JointStatePublisher", *WING_CLASSES})
 """Plugin classes that name joints and do not move them."""
 
 _LEGS = "AnymalControlPlugin"

@@ -65,7 +65,8 @@ class ModelIncludes(Record):
         """Return the model file at a path, which may be a folder; None when nothing is there."""
         path = posixpath.normpath(path)
         entry = self.package.resolve(path)
-        if path in (".", folder) or (entry is not None and entry.is_folder):
+        is_sibling = path.startswith("../") and path.count("/") == 1
+        if is_sibling or path in (".", folder) or (entry is not None and entry.is_folder):
             return self._model_in(path)
         return path if entry is not None else None
 

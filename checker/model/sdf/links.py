@@ -23,6 +23,7 @@ from checker.model.components import (
 from checker.model.faults import FaultKind
 from checker.model.frames import MODEL_FRAME, FrameNode
 from checker.model.geometry.shapes import Geometry, Material
+from checker.model.sdf.auto_inertia import automatic_inertial, is_automatic
 from checker.model.sdf.scope import Scope
 from checker.model.values import ValueReader
 from checker.source.text import Located
@@ -111,13 +112,14 @@ def read_link(element: Element, scope: Scope) -> Link:
             pose.relative_to or scope.model_frame, pose.transform, pose.span, f"link '{name.value}'"
         ),
     )
+    collisions = tuple(_read_collision(child, scope) for child in element.all("collision"))
     return Link(
         name,
         element,
         scoped_name,
         pose,
-        _read_inertial(element, scoped_name, scope),
-        tuple(_read_collision(child, scope) for child in element.all("collision")),
+        _read_inertial(element, scoped_name, scope, collisions),
+        collisions,
         tuple(_read_visual(child, scope) for child in element.all("visual")),
         tuple(read_sensor(child, scoped_name, scope) for child in element.all("sensor")),
         tuple(_read_light(child, scoped_name, scope) for child in element.all("light")),
@@ -126,11 +128,15 @@ def read_link(element: Element, scope: Scope) -> Link:
     )
 
 
-def _read_inertial(link: Element, frame: str, scope: Scope) -> Inertial | None:
+def _read_inertial(
+    link: Element, frame: str, scope: Scope, collisions: tuple[Collision, ...]
+) -> Inertial | None:
     """Read where a link has how much mass: always in the link's own frame."""
     element = link.child("inertial")
     if element is None:
         return None
+    if is_automatic(element):
+        return automatic_inertial(element, collisions)
     inertia = element.child("inertia") or element
     moments = tuple(
         scope.values.number(inertia, name, default) for name, default in _MOMENTS.items()

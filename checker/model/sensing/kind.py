@@ -42,6 +42,31 @@ def sensor_types(release: str) -> SensorTypes:
     )
 
 
+class FrameIds(Record):
+    """Elements of a sensor that name the frame of its messages, in a release.
+
+    Attributes:
+        read: Those that the release reads; the first that is there counts.
+        deprecated: Those of them that libsdformat warns about.
+        others: Those of other releases.
+    """
+
+    read: tuple[str, ...]
+    deprecated: frozenset[str]
+    others: frozenset[str]
+
+
+@cache
+def frame_ids(release: str) -> FrameIds | None:
+    """Return the elements of a release; None for one of which they are not known."""
+    known = table("gazebo_sensors")["frame_ids"]
+    if release not in known:
+        return None
+    read = tuple(known[release]["read"])
+    every = {tag for entry in known.values() for tag in entry["read"]}
+    return FrameIds(read, frozenset(known[release]["deprecated"]), frozenset(every - set(read)))
+
+
 def _spellings(entries: list[dict[str, list[str]]]) -> frozenset[str]:
     return frozenset(spelling for entry in entries for spelling in entry["spellings"])
 

@@ -1,0 +1,61 @@
+"""A joint with the name of a link.
+
+URDF keeps the names of joints and links apart, and so do RViz and the ROS tools. SDF has one set of
+names for both: once Gazebo has converted the file, libsdformat refuses the model, and nothing is
+spawned. A fixed joint that is merged away leaves no name behind. In a URDF without a `<gazebo>`
+element it is a warning.
+
+Fix: give the joint a name of its own, such as `arm_joint`, also in controllers and transmissions.
+Source: SDFormat 1.7, "unique sibling names"; tried with libsdformat 12: "Joint with non-unique name
+detected in model".
+"""
+
+from checker.model.urdf.description import UrdfDescription
+from checker.model.urdf.fixed_joints import Lumping
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("URD016", "joint-named-as-link", Severity.ERROR, Concern.ROBOT)
+def check(description: UrdfDescription) -> Findings:
+    """Report joints that share their name with a link, once Gazebo has merged fixed joints."""
+    if description.for_rviz:
+        return
+    robot, lumping = description.robot, Lumping(description)
+    gone = {joint.name.value for joint in lumping.merged.values()}
+    for joint in robot.joints:
+        link = robot.links_by_name.get(joint.name.value)
+        if link is None or joint.name.value in gone or link.name.value in lumping.merged:
+            continue
+        yield finding(
+            joint.name,
+            f"joint {joint.name.value!r} has the name of a link: Gazebo refuses the model",
+            severity=None if robot.is_for_gazebo else Severity.WARNING,
+            related=[(link, "the link")],
+        )
+
+
+def _robot(joint: str, kind: str, mark: str = "", gazebo: str = "<gazebo/>") -> dict[str, object]:
+    text = f'''<robot name="arm">
+<link name="base_link"/>
+<link name="hand"/>
+<joint name="{joint}" type="{kind}">{mark}
+  <parent link="base_link"/><child link="hand"/>
+</joint>
+{gazebo}
+</robot>
+'''
+    return {"@urdf": True, "urdf/arm.urdf": text}
+
+
+_KEPT = '<gazebo reference="hand"><preserveFixedJoint>true</preserveFixedJoint></gazebo>'
+_MARK = "  <!-- ^ URD016 -->"
+GOOD = [
+    _robot("hand_joint", "continuous"),
+    _robot("hand", "fixed"),
+]
+BAD = [
+    _robot("hand", "continuous", _MARK),
+    _robot("hand", "continuous", _MARK, gazebo=""),
+    _robot("base_link", "continuous", _MARK),
+    _robot("base_link", "fixed", _MARK, _KEPT.replace("hand", "base_link")),
+]
