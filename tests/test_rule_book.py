@@ -26,6 +26,9 @@ BOOK = {
     "DOC": 9,
     "URD": 19,
     "CTL": 8,
+    "LCH": 11,
+    "WLD": 3,
+    "R2C": 13,
     "TRI": 18,
 }
 """The groups of the book, and the number of the last rule of each; none is left out."""

@@ -1,10 +1,10 @@
-"""Figures about a robot that every report shows; nothing is read or weighed for their sake."""
+"""Figures about robots that every report shows; nothing is read or weighed for their sake."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from msgspec.structs import replace
 
@@ -130,18 +130,39 @@ def _rounded_value(value: float) -> float:
 
 
 _DIGITS = 6
+ROBOTS_LIMIT = 100
+"""Robots of one file or package of which figures are told."""
+_T = TypeVar("_T")
 
 
-def facts_of(subject: Subject) -> dict[str, Any]:
-    """Return what is known of the first robot by now; nothing without a robot.
+def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
+    """Return what is known by now of each robot; nothing without any.
 
     Masses in kg, lengths in m, angles in degrees, inertia in kg·m². What only meshes, Pinocchio
     or the trial can tell is there when a rule has asked for it.
     """
     robots = subject.robots
     if isinstance(robots, NotAvailable):
-        return {}
-    robot = robots[0]
+        return ()
+    weighed, driven = subject.provided(MassProperties), subject.provided(RobotTrial)
+    facts = [
+        dict(_finite(_facts(robot, _at(weighed, number), _at(driven, number))))
+        for number, robot in enumerate(robots[:ROBOTS_LIMIT])
+    ]
+    if len(robots) > 1:
+        for known, robot in zip(facts, robots, strict=False):
+            known["file"] = robot.document.source.file
+    return tuple(facts)
+
+
+def _at(items: Sequence[_T], number: int) -> _T | None:
+    """Return an item; None beyond the last."""
+    return items[number] if number < len(items) else None
+
+
+def _facts(
+    robot: Robot, masses: MassProperties | None, driven: RobotTrial | None
+) -> dict[str, Any]:
     known: dict[str, Any] = {
         "robot": robot.name.value[:200],
         "mass_kg": robot.mass,
@@ -153,11 +174,11 @@ def facts_of(subject: Subject) -> dict[str, Any]:
     }
     if _meshes_are_known(robot):
         known |= {"size_m": _size(robot), **_triangles(robot)}
-    for masses in subject.provided(MassProperties)[:1]:
+    if masses is not None:
         known |= _balance(masses)
-    for driven in subject.provided(RobotTrial)[:1]:
+    if driven is not None:
         known["thrust_to_weight"] = driven.trial.value("thrust_to_weight")
-    return dict(_finite(known))
+    return known
 
 
 def _balance(masses: MassProperties) -> Mapping[str, Any]:

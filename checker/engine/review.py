@@ -104,7 +104,7 @@ def judged(
     settings = settings.suiting(package)
     stages = Stages(lambda words: say(f"{package.name}: {words}"))
     devices = known_devices(settings.devices)
-    subject = Subject(package, cache, stages, devices, processes)
+    subject = Subject(package, cache, stages, devices, processes, settings.xacro_args)
     try:
         if not settings.select:
             # Whatever the rules are, some ask for the meshes: these are read while those load.
@@ -123,7 +123,8 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
         InvalidSettings: The settings name a rule or option that does not exist.
     """
     settings = settings.suiting(package)
-    subject = Subject(package, cache, devices=known_devices(settings.devices))
+    devices = known_devices(settings.devices)
+    subject = Subject(package, cache, devices=devices, xacro_args=settings.xacro_args)
     try:
         check_against_rules(settings, all_rules())
         judge = profile(settings.profile, settings.distro)
@@ -151,7 +152,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
         for fault in package.index.faults
     ]
-    facts, trouble = _facts(subject)
+    robots, trouble = _facts(subject)
     driven = subject.provided(RobotTrial)
     display, undrawn = _display(subject) if settings.display else (None, ())
     return PackageReport(
@@ -163,7 +164,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         tuple(
             InheritedPart(part.part, part.package_name, part.at_hand) for part in package.inherited
         ),
-        facts,
+        robots[0] if robots else {},
         dict(subject.stages.seconds),
         settings.profile,
         settings.fail_on,
@@ -172,14 +173,15 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         suppressed=outcome.suppressed,
         looked=tuple(outcome.looked),
         display=display,
+        other_robots=robots[1:],
     )
 
 
-def _facts(subject: Subject) -> tuple[Mapping[str, Any], tuple[NotChecked, ...]]:
+def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotChecked, ...]]:
     try:
         return facts_of(subject), ()
     except Exception as error:  # noqa: BLE001 - a reader that fails takes no finding with it
-        return {}, (crashed("facts", error),)
+        return (), (crashed("facts", error),)
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -18,6 +18,7 @@ from checker.base.parts import NotAvailable
 from checker.base.record import Record
 from checker.expand.launch.graph import LaunchGraph
 from checker.expand.launch.package_launch import LaunchEntries, launch_entries, launch_graph
+from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.spawner.emitted_xml import (
     SpawnedXml,
     StartedXml,
@@ -32,11 +33,22 @@ from checker.model.devices.known import KnownDevices, known_devices
 from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
+from checker.model.ros2_control.launched import (
+    LaunchedControl,
+    launched_controls,
+    launched_files,
+)
+from checker.model.ros2_control.robot_control import (
+    ControlReader,
+    RobotControl,
+    may_be_controlled,
+)
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.expanded import SUFFIX, expanded_model
 from checker.model.sdf.includes import ModelIncludes, included_model
 from checker.model.sdf.links import read_plugin
 from checker.model.sdf.reader import read_sdf
+from checker.model.sdf.world import World, read_worlds
 from checker.model.sensing.view import SensorViews
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.description import UrdfDescription
@@ -79,6 +91,7 @@ class Subject(Record, eq=False, dict=True):
         stages: Told of what takes long.
         devices: Sensor devices of which figures are known.
         processes: Processes that wait for something to do.
+        xacro_args: Arguments for xacro, before those that launch files give.
     """
 
     package: Package
@@ -86,6 +99,7 @@ class Subject(Record, eq=False, dict=True):
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
     processes: StartedProcesses = NO_PROCESSES
+    xacro_args: Mapping[str, str] = field(default_factory=dict)
     _provided: dict[type, Sequence[object]] = field(default_factory=dict)
 
     def part(self, kind: type) -> Sequence[object] | NotAvailable:
@@ -173,7 +187,9 @@ class Subject(Record, eq=False, dict=True):
     @cached_property
     def package_descriptions(self) -> PackageDescriptions:
         """The URDF files that stand for a robot, as they are being expanded."""
-        return PackageDescriptions(self.package, self.cache)
+        launch = self.ros2_launch
+        ros2 = None if isinstance(launch, NotAvailable) else launch
+        return PackageDescriptions(self.package, self.cache, args=self.xacro_args, ros2=ros2)
 
     @property
     def urdf_files(self) -> UrdfFiles | NotAvailable:
@@ -214,6 +230,14 @@ class Subject(Record, eq=False, dict=True):
         return SdfDocument(self.model, (self.model.root.get("version") or "").strip())
 
     @cached_property
+    def worlds(self) -> tuple[World, ...] | NotAvailable:
+        """The worlds of the model file."""
+        if isinstance(self.sdf, NotAvailable):
+            return NotAvailable(self.sdf.reason, applicable=self.package.kind is PackageKind.WORLD)
+        worlds = read_worlds(self.sdf.document, ModelIncludes(self.package))
+        return worlds or NotAvailable("the file contains no world", applicable=False)
+
+    @cached_property
     def robots(self) -> tuple[Robot, ...] | NotAvailable:
         """The robots of the package with their meshes."""
         robots = self._read_robots()
@@ -239,7 +263,7 @@ class Subject(Record, eq=False, dict=True):
             return (
                 descriptions
                 if isinstance(descriptions, NotAvailable)
-                else tuple(description.robot for description in descriptions)
+                else tuple(map(self._controlled, descriptions))
             )
         robots = read_sdf(self.model, ModelIncludes(self.package))
         if self.package.kind is PackageKind.WORLD:
@@ -255,6 +279,43 @@ class Subject(Record, eq=False, dict=True):
                 reason = missing if isinstance(missing, str) else reason
             return NotAvailable(reason, applicable=not nothing_to_see)
         return (self._with_spawned_plugins(robots[0]), *robots[1:])
+
+    def _controlled(self, description: UrdfDescription) -> Robot:
+        """Return the robot of a description with its controllers."""
+        control = self.controls_by_file.get(description.file)
+        robot = description.robot
+        return robot if control is None else replace(robot, controllers=control.controllers)
+
+    @cached_property
+    def controls_by_file(self) -> dict[str, RobotControl]:
+        """ros2_control of the robots that have it, by the file of their description."""
+        descriptions = self.descriptions
+        known = () if isinstance(descriptions, NotAvailable) else descriptions
+        if not any(may_be_controlled(description) for description in known):
+            return {}
+        graphs = () if isinstance(self.ros2_launch, NotAvailable) else self.ros2_launch.entries
+        reader = ControlReader(self.package, launched_files(self.package, graphs))
+        controls = ((description.file, reader.control(description)) for description in known)
+        return {file: control for file, control in controls if control is not None}
+
+    @property
+    def launched_controls(self) -> tuple[LaunchedControl, ...] | NotAvailable:
+        """What each launch file of ROS 2 does for ros2_control."""
+        if isinstance(self.ros2_launch, NotAvailable):
+            return self.ros2_launch
+        controls = () if isinstance(self.descriptions, NotAvailable) else self.robot_controls
+        known = () if isinstance(controls, NotAvailable) else controls
+        found = tuple(launched_controls(self.package, self.ros2_launch.entries, known))
+        return found or NotAvailable("no launch file spawns a controller", applicable=False)
+
+    @property
+    def robot_controls(self) -> tuple[RobotControl, ...] | NotAvailable:
+        """ros2_control of each robot that has it."""
+        if isinstance(self.descriptions, NotAvailable):
+            return self.descriptions
+        if not self.controls_by_file:
+            return NotAvailable("no robot is controlled by ros2_control", applicable=False)
+        return tuple(self.controls_by_file.values())
 
     def _with_spawned_plugins(self, robot: Robot) -> Robot:
         if isinstance(self.spawned, NotAvailable):
@@ -376,6 +437,14 @@ class Subject(Record, eq=False, dict=True):
         return launch_graph(self.package, self.started)
 
     @cached_property
+    def ros2_launch(self) -> Ros2Launch | NotAvailable:
+        """What the ROS 2 launch files of the package start."""
+        # Few packages have such files; the others need not load what evaluates them.
+        from checker.expand.ros2_launch.package_launch import ros2_launch
+
+        return ros2_launch(self.package)
+
+    @cached_property
     def launch_entries(self) -> LaunchEntries:
         """The launch files that a URDF package can be started with."""
         if self.package.kind is not PackageKind.URDF_DESCRIPTION:
@@ -426,6 +495,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     Package: lambda subject: subject.package,
     Paperwork: lambda subject: subject.paperwork,
     SdfDocument: lambda subject: subject.sdf,
+    World: lambda subject: subject.worlds,
     Robot: lambda subject: subject.robots,
     FirstConfiguration: lambda subject: subject.first_configuration,
     MassProperties: lambda subject: subject.masses,
@@ -436,7 +506,10 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     SpawnedXml: lambda subject: subject.spawned,
     StartedXml: lambda subject: subject.started,
     LaunchGraph: lambda subject: subject.launch,
+    Ros2Launch: lambda subject: subject.ros2_launch,
     ControlSystem: lambda subject: subject.control,
+    RobotControl: lambda subject: subject.robot_controls,
+    LaunchedControl: lambda subject: subject.launched_controls,
     Specification: lambda subject: subject.specification,
     UrdfDescription: lambda subject: subject.descriptions,
     UrdfFiles: lambda subject: subject.urdf_files,

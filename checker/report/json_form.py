@@ -163,6 +163,7 @@ _VECTOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "num
 _TENSOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": _VECTOR}
 _FACTS: Mapping[str, Any] = {
     "robot": {"type": "string"},
+    "file": {"type": "string", "description": "Where several robots are in one package."},
     "mass_kg": {"type": "number"},
     "links": {"type": "integer"},
     "joints": {"type": "integer"},
@@ -208,6 +209,9 @@ class PackageJson(Record, kw_only=True):
         ),
     ]
     timings: Annotated[Mapping[str, float], Meta(description="Seconds by stage.")]
+    other_robots: Annotated[
+        tuple[Mapping[str, Any], ...], Meta(description="Facts of the further robots.")
+    ] = ()
 
 
 class NotOpenedJson(Record):

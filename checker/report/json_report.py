@@ -82,6 +82,7 @@ def _package_json(package: PackageReport) -> PackageJson:
         trial=cast("TrialJson | None", package.trial),
         facts=package.facts,
         timings={stage: round(seconds, 4) for stage, seconds in package.timings.items()},
+        other_robots=package.other_robots,
     )
 
 
@@ -161,7 +162,8 @@ def _package(read: PackageJson) -> PackageReport:
             NotChecked(*msgspec.structs.astuple(unseen)) for unseen in read.not_checked
         ),
         inherited=read.inherited,
-        facts={name: value for name, value in read.facts.items() if _is_fact(name, value)},
+        facts=_facts(read.facts),
+        other_robots=tuple(map(_facts, read.other_robots)),
         timings=read.timings,
         profile=read.profile,
         fail_on=read.fail_on,
@@ -169,6 +171,10 @@ def _package(read: PackageJson) -> PackageReport:
         trial=cast("Mapping[str, Any] | None", read.trial),
         suppressed=tuple(map(_suppressed, read.suppressed)),
     )
+
+
+def _facts(read: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in read.items() if _is_fact(name, value)}
 
 
 def _finding(read: FindingJson) -> ReportedFinding:

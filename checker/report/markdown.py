@@ -126,7 +126,7 @@ def _unseen_line(pair: tuple[str, tuple[str, list[str]]]) -> str:
 
 
 def _facts(package: PackageReport) -> Iterable[Mapping[str, Any]]:
-    return [package.facts] if package.facts else []
+    return [facts for facts in (package.facts, *package.other_robots) if facts]
 
 
 def _facts_line(pair: tuple[str, Mapping[str, Any]]) -> str:

@@ -184,13 +184,14 @@ class PackageReport(Record):
         profile: Name of the profile that judged it.
         fail_on: Findings at or above this severity make the run fail.
         settings: What a settings file changed, in words; empty when there is none.
-        facts: Mass, links, joints, … by name.
+        facts: Mass, links, joints, … of the first robot, by name.
         trial: What was driven and measured, as the JSON report has it; None without a trial.
         timings: Seconds by stage.
         suppressed: What was found and does not count.
         display: None where nobody asked to see the robot, or where there is nothing to see.
         patch: What the safe fixes change, where somebody asked to see the robot.
         looked: Ids of the rules that had all they asked for.
+        other_robots: Facts of the further robots of the package.
     """
 
     name: str
@@ -209,6 +210,7 @@ class PackageReport(Record):
     display: Display | None = None
     patch: str = ""
     looked: tuple[str, ...] = ()
+    other_robots: tuple[Mapping[str, Any], ...] = ()
 
     @property
     def verdict(self) -> VerdictKind:

@@ -151,7 +151,8 @@ def _package(
     lines += _inherited(package)
     lines += _not_checked(package.not_checked)
     lines += trial_text(package.trial, palette) if package.trial else []
-    lines += _facts(package.facts)
+    for facts in (package.facts, *package.other_robots):
+        lines += _facts(facts)
     lines.append(_verdict(package, palette))
     return "\n".join(lines) + "\n"
 
@@ -192,7 +193,7 @@ def _not_checked(not_checked: Sequence[NotChecked]) -> Iterator[str]:
 
 
 def _facts(facts: Mapping[str, object]) -> Iterator[str]:
-    """Show what is known of the robot in one line."""
+    """Show what is known of a robot in one line."""
     if shown := [fact.phrase for fact in facts_in_words(facts)]:
         yield plain(", ".join(shown))
 

@@ -1,0 +1,88 @@
+"""Files of the packages at hand, by the paths that launch files give them."""
+
+from __future__ import annotations
+
+import posixpath
+
+from checker.base.files import NotReadable
+from checker.expand.ros2_launch.graph import SharePath, is_known, share_path
+from checker.expand.xacro.files import ROOT, local_path
+from checker.package.installed import source_of
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+
+
+def holder_of(package: Package, name: str) -> Package | None:
+    """Return the package at hand of a name, the checked one among them.
+
+    Args:
+        package: That is checked.
+        name: As package.xml declares it, or that of its folder.
+    """
+    return package if name in own_names(package) else package.workspace.package(name)
+
+
+def own_names(package: Package) -> tuple[str, ...]:
+    """Return the names of a package: the declared one first, then that of its folder."""
+    manifest = package.xml("package.xml")
+    declared = ""
+    if isinstance(manifest, XmlDocument) and (name := manifest.root.child("name")) is not None:
+        declared = name.text.value
+    return tuple(dict.fromkeys(filter(None, (declared, package.root.name))))
+
+
+def local_file(package: Package, path: str) -> str | None:
+    """Return a path below a share folder as the package lists it; None when it is not at hand."""
+    target = share_path(path)
+    if target is None:
+        return None
+    if target.package in own_names(package):
+        path = posixpath.normpath(f"{ROOT}/{package.root.name}/{target.path}")
+    local = local_path(package, path)
+    return local if local is not None and package.exists(local) else None
+
+
+def read_file(package: Package, path: str) -> SourceText | str:
+    """Return the text of a file below a share folder, or why it cannot be had."""
+    target = share_path(path)
+    if target is None:
+        return "which file is read is not known before the launch"
+    local = local_file(package, path)
+    if local is None:
+        if holder_of(package, target.package) is None:
+            return f"package {target.package} is not at hand"
+        return f"{target} does not exist"
+    source = package.read(local)
+    return f"{local} {source.reason}" if isinstance(source, NotReadable) else source
+
+
+def exists(package: Package, path: str) -> bool | None:
+    """Whether there is a file or folder at a path; None when that cannot be told."""
+    target = share_path(path)
+    if target is None or not is_known(path) or holder_of(package, target.package) is None:
+        return None
+    return local_file(package, path) is not None
+
+
+def installed_path(package: Package, file: str) -> str:
+    """Return the path of a file where it is installed.
+
+    Args:
+        package: That is checked.
+        file: As the package lists it.
+    """
+    holder, rest = package, file
+    if file.startswith("../"):
+        name, _, rest = file.removeprefix("../").partition("/")
+        holder = package.workspace.package(name) or package
+    name = own_names(holder)[0]
+    for target, origin in holder.installed:
+        if rest == origin or rest.startswith(f"{origin}/"):
+            return posixpath.normpath(f"{ROOT}/{name}/{target}/{posixpath.relpath(rest, origin)}")
+    return f"{ROOT}/{name}/{rest}"
+
+
+def installs(package: Package, target: SharePath) -> bool:
+    """Whether a package installs what lies at a path of its share folder."""
+    return source_of(package, target.path) is not None
