@@ -65,12 +65,15 @@ def may_hold_description(package: Package) -> bool:
     return bool(_files(package))
 
 
-def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate]:
+def candidates(
+    package: Package, loads: Iterable[StartedLoad], *, others: bool = False
+) -> list[Candidate]:
     """Return the files that launch files load; without any, those that stand for a robot.
 
     Args:
         package: To look into.
         loads: What its launch files load.
+        others: Whether the files that stand for a robot count beside those that are loaded.
     """
     if package.only:
         return [Candidate(package.only)]
@@ -83,8 +86,10 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
             before = chosen.get(path, candidate)
             # Of several ways to start it, one that is known counts before one that is not.
             chosen[path] = candidate if before.missing and not missing else before
-    files = [*chosen.values()] or [Candidate(path) for path in _outermost(package)]
-    return files[:CANDIDATES_LIMIT]
+    if others or not chosen:
+        for path in _outermost(package):
+            chosen.setdefault(path, Candidate(path))
+    return [*chosen.values()][:CANDIDATES_LIMIT]
 
 
 def _files(package: Package) -> list[str]:
@@ -164,7 +169,7 @@ class PackageDescriptions:
         if only:
             self._candidates = [Candidate(only, loaded=True)]
         elif may_hold_description(package):
-            self._candidates = candidates(package, self._loads())
+            self._candidates = candidates(package, self._loads(), others=ros2 is not None)
         self._wanted = [
             Wanted(candidate.path, {**SAMPLE_ARGUMENTS, **candidate.args, **args})
             for candidate in self._candidates
