@@ -28,6 +28,7 @@ BOOK = {
     "CTL": 8,
     "LCH": 11,
     "WLD": 3,
+    "R2C": 13,
     "TRI": 18,
 }
 """The groups of the book, and the number of the last rule of each; none is left out."""

@@ -7,6 +7,7 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.model.components import Joint, Link, Part
 from checker.model.robot import Robot
+from checker.model.ros2_control.controllers import Controller
 from checker.physics.trial.trial import Leg, Trial
 
 
@@ -30,8 +31,8 @@ class RobotTrial(Record, eq=False, dict=True):
         return part or self.robot
 
     @cached_property
-    def drive(self) -> Part:
-        """Where findings about its motion point: the plugin that moves it, else the robot."""
+    def drive(self) -> Part | Controller:
+        """Where findings about its motion point: what drives it, else the robot."""
         locomotion = self.robot.locomotion
         plugins = [
             *(drive.plugin for drive in locomotion.wheel_drives),
@@ -41,6 +42,22 @@ class RobotTrial(Record, eq=False, dict=True):
             *(rotor.plugin for rotor in locomotion.rotors),
         ]
         return plugins[0] if plugins else self.robot
+
+    @property
+    def rigid_steering(self) -> str:
+        """Name of a steered link that touches the ground and cannot roll; empty if there is none.
+
+        Such a robot is drawn in RViz alone: in a simulator its wheels drag.
+        """
+        rolling = {tie.parent for tie in self.robot.tree.ties if tie.joint.type.value != "fixed"}
+        steered = {
+            joint for drive in self.robot.locomotion.wheel_drives for joint, _ in drive.steering
+        }
+        for tie in self.robot.tree.ties:
+            link = self.robot.links_by_name.get(tie.child)
+            if tie.joint in steered and tie.child not in rolling and link and link.collisions:
+                return link.name.value
+        return ""
 
     @property
     def unlike(self) -> str:
