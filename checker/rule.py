@@ -129,6 +129,11 @@ class Context(Record):
         """Whether every model is a robot of SubT that drives by itself."""
         return self.release == "dome"
 
+    @property
+    def of_gazebo_sim(self) -> bool:
+        """Whether the target is a release of Gazebo later than the one of SubT."""
+        return self.release in ("fortress", "harmonic", "ionic", "jetty")
+
 
 Check = Callable[..., Findings]
 

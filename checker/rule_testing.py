@@ -11,6 +11,8 @@ with `@` mean:
 - `@links`: symbolic links, each with its target.
 - `@urdf`: a URDF package instead: an arm of one joint, its controller and its launch files. The
   text takes the place of the arm's transmission and plugin; True leaves these as they are.
+- `@ros2`: a ROS 2 package instead: an arm in xacro, a YAML file, and `launch/arm.launch.py`, whose
+  launch description holds the text; True starts the arm alone.
 - `@with`: ids of rules that run along.
 - `@profile`: the profile that judges it instead of the first one that has the rule.
 - `@reported`: what must be reported where no marker can stand.
@@ -180,6 +182,58 @@ URDF_MINIMAL: Mapping[str, str] = {
 }
 
 
+ROS2_NAME = "acme_arm_bringup"
+
+_ROS2_ARM = _ARM.replace("@\n", "").replace(
+    '<robot name="arm">', '<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">'
+)
+_ROS2_LAUNCH = f"""import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, IncludeLaunchDescription
+from launch.conditions import IfCondition, UnlessCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+
+def in_package(*parts):
+    return PathJoinSubstitution([FindPackageShare('{ROS2_NAME}'), *parts])
+
+
+def generate_launch_description():
+    robot = Command(['xacro ', in_package('urdf', 'arm.urdf.xacro')])
+    return LaunchDescription([
+@
+    ])
+"""
+_ROS2_STATE = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{'robot_description': ParameterValue(robot, value_type=str)}]),"""
+
+ROS2_MINIMAL: Mapping[str, str] = {
+    "package.xml": f"""<package format="3">
+  <name>{ROS2_NAME}</name>
+  <version>1.0.0</version>
+  <description>An arm</description>
+  <maintainer email="a@example.org">A</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+""",
+    "CMakeLists.txt": f"""cmake_minimum_required(VERSION 3.8)
+project({ROS2_NAME})
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY config launch urdf DESTINATION share/${{PROJECT_NAME}})
+ament_package()
+""",
+    "urdf/arm.urdf.xacro": _ROS2_ARM,
+    "config/arm.yaml": "arm:\n  ros__parameters: {rate: 10}\n",
+}
+
+
 def model_with(fragment: str) -> str:
     """Return a model.sdf that holds a fragment where its first element belongs."""
     first = re.search(r"<([A-Za-z_][\w:.-]*)", fragment)
@@ -201,13 +255,18 @@ def judge_of(rule: Rule, example: Example = "") -> Profile:
 def write_example(example: Example, workspace: Path) -> Path:
     """Write the package of an example below a folder and return its own folder."""
     changes: dict[str, Any] = {"@fragment": example} if isinstance(example, str) else dict(example)
-    urdf = changes.pop("@urdf", None)
-    package: Path = workspace / changes.pop("@name", NAME if urdf is None else URDF_NAME)
+    urdf, ros2 = changes.pop("@urdf", None), changes.pop("@ros2", None)
+    usual = URDF_NAME if urdf is not None else ROS2_NAME if ros2 is not None else NAME
+    package: Path = workspace / changes.pop("@name", usual)
     links: Mapping[str, str] = changes.pop("@links", {})
     contents: dict[str, str | bytes | None] = {**MINIMAL, "model.sdf": model_with("")}
     if urdf is not None:
         inside = _ARM_CONTROL if urdf is True else urdf
         contents = {**URDF_MINIMAL, "urdf/arm.urdf": _ARM.replace("@", inside)}
+    if ros2 is not None:
+        entities = _ROS2_STATE if ros2 is True else ros2.strip("\n")
+        launch = {"launch/arm.launch.py": _ROS2_LAUNCH.replace("@", entities)}
+        contents = {**ROS2_MINIMAL, **launch}
     for path, text in changes.items():
         if path == "@fragment":
             contents["model.sdf"] = model_with(text)
@@ -271,8 +330,9 @@ def check_example(rule: Rule, kind: str, example: Example, folder: Path) -> None
     """
     package = write_example(example, folder)
     with open_input(package) as opened:
-        subject = Subject(opened.packages[0], Cache(cache_folder()))
         settings = find_settings([package]).overridden(thorough=True)
+        cache = Cache(cache_folder())
+        subject = Subject(opened.packages[0], cache, xacro_args=settings.xacro_args)
         rules = [rule, *_companions(example)]
         outcome = run_and_set_aside(rules, subject, judge_of(rule, example), settings)
         subject.close()

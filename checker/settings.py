@@ -22,9 +22,9 @@ from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
 from checker.package.package import Package
-from checker.package.target import usual_profile
+from checker.package.target import MODEL, ROS_2, usual_profile
 from checker.rule import Rule
-from checker.rulebook.profiles import distro_names, profile_names
+from checker.rulebook.profiles import distro_names, gazebo_profile, profile_names
 from checker.rulebook.suppression.baseline import Baseline, read_baseline
 from checker.rulebook.suppression.entries import SettingsEntry, entries_of
 from checker.source.text_file import read_text
@@ -57,6 +57,7 @@ class Settings(Record):
         devices: Sensor devices of the user's, each in the form of `devices.json`.
         display: Whether the report shall hold the robot in 3D.
         package_path: Folders in which further packages are found.
+        xacro_args: Arguments for xacro files, before those that launch files give.
         suppress: Findings that shall not count.
         baseline: Findings that were there before, which do not count either.
         distro: ROS 2 distribution to judge for; empty for the profile's default.
@@ -76,6 +77,7 @@ class Settings(Record):
     devices: tuple[Mapping[str, Any], ...] = ()
     display: bool = False
     package_path: tuple[Path, ...] = ()
+    xacro_args: Mapping[str, str] = field(default_factory=dict)
     suppress: tuple[SettingsEntry, ...] = ()
     baseline: Baseline = field(default_factory=Baseline)
     distro: str = ""
@@ -91,9 +93,15 @@ class Settings(Record):
         return replace(self, profile_chosen=self.profile_chosen or "profile" in wanted, **wanted)
 
     def suiting(self, package: Package) -> Settings:
-        """Return the settings for what is checked: without a choice, its usual profile counts."""
-        is_default = self.profile == DEFAULT_PROFILE and not self.profile_chosen
-        return replace(self, profile=usual_profile(package)) if is_default else self
+        """Return the settings for what is checked: without a choice, its usual profile counts.
+
+        Models and worlds in a ROS 2 package are judged for the Gazebo of its distribution.
+        """
+        usual = usual_profile(package)
+        is_chosen = self.profile_chosen or self.profile != DEFAULT_PROFILE
+        if is_chosen and not (self.profile == ROS_2 and usual == MODEL):
+            return self
+        return replace(self, profile=gazebo_profile(self.distro) if usual == MODEL else usual)
 
     @property
     def description(self) -> str:
@@ -107,6 +115,7 @@ class Settings(Record):
         changes += [f"severity of {', '.join(self.severity)}"] if self.severity else []
         changes += [f"options of {', '.join(self.options)}"] if self.options else []
         changes += [f"own devices: {len(self.devices)}"] if self.devices else []
+        changes += [f"xacro arguments: {', '.join(self.xacro_args)}"] if self.xacro_args else []
         changes += [f"{len(self.suppress)} suppressed with reasons"] if self.suppress else []
         changes += [f"baseline {self.baseline.path.name}"] if self.baseline.path else []
         changes += [] if self.trial else ["without trial"]
@@ -194,6 +203,7 @@ _KEYS = {
     "thorough": "thorough",
     "devices": "devices",
     "package-path": "package_path",
+    "xacro-args": "xacro_args",
     "suppress": "suppress",
     "baseline": "baseline",
 }
@@ -246,7 +256,7 @@ def _convert(key: str, value: Any, path: Path) -> Any:
             if not isinstance(value, bool):
                 raise InvalidSettings(path, f"{key} is {value!r}, expected true or false")
             return value
-        case "devices" | "suppress" | "baseline" | "package-path":
+        case "devices" | "suppress" | "baseline" | "package-path" | "xacro-args":
             return _READERS[key](value, path)
         case _:
             return _by_rule(key, value, path)
@@ -299,6 +309,16 @@ def _package_path(value: Any, path: Path) -> tuple[Path, ...]:
     return folders
 
 
+def _xacro_arguments(value: Any, path: Path) -> dict[str, str]:
+    """Read a table of arguments; TOML's own numbers and truth values stand for their texts."""
+    arguments: dict[str, str] = {}
+    for name, given in _table("xacro-args", value, path).items():
+        if not isinstance(given, str | int | float):
+            raise InvalidSettings(path, f"xacro-args.{name} is no text, number or truth value")
+        arguments[name] = str(given).lower() if isinstance(given, bool) else str(given)
+    return arguments
+
+
 def _inside(key: str, value: Any, path: Path, kind: str) -> Path:
     """Return the path that settings name: a stranger's may not name what lies elsewhere."""
     inside = normal_path(value) if isinstance(value, str) else None
@@ -313,6 +333,7 @@ _READERS: Mapping[str, Callable[[Any, Path], Any]] = {
     "suppress": _suppressed,
     "baseline": _baseline,
     "package-path": _package_path,
+    "xacro-args": _xacro_arguments,
 }
 
 

@@ -61,6 +61,14 @@ def ids(text: str) -> tuple[str, ...]:
     return tuple(word.strip() for word in text.split(",") if word.strip())
 
 
+def xacro_argument(text: str) -> tuple[str, str]:
+    """Read an argument for xacro files."""
+    name, assigned, value = text.partition(":=")
+    if not assigned or not name.strip():
+        raise argparse.ArgumentTypeError(f"{text!r} is not of the form name:=value")
+    return name.strip(), value
+
+
 def positive(text: str) -> int:
     """Return a number of processes, 1 or more."""
     if not text.isdecimal() or int(text) < 1:

@@ -21,7 +21,15 @@ from checker.base.output import (
     write,
 )
 from checker.base.words import plain, shortened
-from checker.cli.arguments import DISTROS, FORMAT_NAMES, PROFILES, add_exit_codes, ids, positive
+from checker.cli.arguments import (
+    DISTROS,
+    FORMAT_NAMES,
+    PROFILES,
+    add_exit_codes,
+    ids,
+    positive,
+    xacro_argument,
+)
 from checker.cli.baseline import baseline_to_renew, write_baseline
 from checker.cli.exit_code import exit_code
 from checker.finding import Safety, Severity
@@ -79,6 +87,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="also find packages in this folder, or this package; may be repeated",
     )
     parser.add_argument(
+        "--xacro-arg",
+        metavar="NAME:=VALUE",
+        action="append",
+        type=xacro_argument,
+        help="give xacro files this argument; may be repeated",
+    )
+    parser.add_argument(
         "--fail-on",
         choices=("error", "warning"),
         help="lowest severity that fails (default: error)",
@@ -125,6 +140,7 @@ def run(options: argparse.Namespace) -> int:
         "select": options.select,
         "ignore": options.ignore,
         "package_path": tuple(options.package_path) if options.package_path else None,
+        "xacro_args": dict(options.xacro_arg) if options.xacro_arg else None,
         "fail_on": Severity(options.fail_on) if options.fail_on else None,
         "trial": False if options.no_trial else None,
         "thorough": True if options.thorough else None,

@@ -104,7 +104,7 @@ def judged(
     settings = settings.suiting(package)
     stages = Stages(lambda words: say(f"{package.name}: {words}"))
     devices = known_devices(settings.devices)
-    subject = Subject(package, cache, stages, devices, processes)
+    subject = Subject(package, cache, stages, devices, processes, settings.xacro_args)
     try:
         if not settings.select:
             # Whatever the rules are, some ask for the meshes: these are read while those load.
@@ -123,7 +123,8 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
         InvalidSettings: The settings name a rule or option that does not exist.
     """
     settings = settings.suiting(package)
-    subject = Subject(package, cache, devices=known_devices(settings.devices))
+    devices = known_devices(settings.devices)
+    subject = Subject(package, cache, devices=devices, xacro_args=settings.xacro_args)
     try:
         check_against_rules(settings, all_rules())
         judge = profile(settings.profile, settings.distro)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -48,6 +48,7 @@ from checker.model.sdf.expanded import SUFFIX, expanded_model
 from checker.model.sdf.includes import ModelIncludes, included_model
 from checker.model.sdf.links import read_plugin
 from checker.model.sdf.reader import read_sdf
+from checker.model.sdf.world import World, read_worlds
 from checker.model.sensing.view import SensorViews
 from checker.model.specification.sheet import Specification, read_specification
 from checker.model.urdf.description import UrdfDescription
@@ -90,6 +91,7 @@ class Subject(Record, eq=False, dict=True):
         stages: Told of what takes long.
         devices: Sensor devices of which figures are known.
         processes: Processes that wait for something to do.
+        xacro_args: Arguments for xacro, before those that launch files give.
     """
 
     package: Package
@@ -97,6 +99,7 @@ class Subject(Record, eq=False, dict=True):
     stages: Stages = field(default_factory=Stages)
     devices: KnownDevices = field(default_factory=known_devices)
     processes: StartedProcesses = NO_PROCESSES
+    xacro_args: Mapping[str, str] = field(default_factory=dict)
     _provided: dict[type, Sequence[object]] = field(default_factory=dict)
 
     def part(self, kind: type) -> Sequence[object] | NotAvailable:
@@ -184,7 +187,9 @@ class Subject(Record, eq=False, dict=True):
     @cached_property
     def package_descriptions(self) -> PackageDescriptions:
         """The URDF files that stand for a robot, as they are being expanded."""
-        return PackageDescriptions(self.package, self.cache)
+        launch = self.ros2_launch
+        ros2 = None if isinstance(launch, NotAvailable) else launch
+        return PackageDescriptions(self.package, self.cache, args=self.xacro_args, ros2=ros2)
 
     @property
     def urdf_files(self) -> UrdfFiles | NotAvailable:
@@ -223,6 +228,14 @@ class Subject(Record, eq=False, dict=True):
         if self.model.root.tag == "robot":
             return NotAvailable("the model is a URDF file", applicable=False)
         return SdfDocument(self.model, (self.model.root.get("version") or "").strip())
+
+    @cached_property
+    def worlds(self) -> tuple[World, ...] | NotAvailable:
+        """The worlds of the model file."""
+        if isinstance(self.sdf, NotAvailable):
+            return NotAvailable(self.sdf.reason, applicable=self.package.kind is PackageKind.WORLD)
+        worlds = read_worlds(self.sdf.document, ModelIncludes(self.package))
+        return worlds or NotAvailable("the file contains no world", applicable=False)
 
     @cached_property
     def robots(self) -> tuple[Robot, ...] | NotAvailable:
@@ -482,6 +495,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     Package: lambda subject: subject.package,
     Paperwork: lambda subject: subject.paperwork,
     SdfDocument: lambda subject: subject.sdf,
+    World: lambda subject: subject.worlds,
     Robot: lambda subject: subject.robots,
     FirstConfiguration: lambda subject: subject.first_configuration,
     MassProperties: lambda subject: subject.masses,

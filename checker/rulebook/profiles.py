@@ -77,6 +77,11 @@ def distro_names() -> tuple[str, ...]:
     return tuple(entry["distro"] for entry in table("gazebo_releases")["ros"])
 
 
+def gazebo_profile(distro: str) -> str:
+    """Return the profile of the Gazebo release that goes with a distribution, or the usual one."""
+    return f"gazebo-{profile('ros2', distro).context.release}"
+
+
 def _for_distro(context: Context, distro: str) -> Context:
     """Return the context with the Gazebo release that a distribution comes with."""
     releases = {entry["distro"]: entry["gazebo"] for entry in table("gazebo_releases")["ros"]}

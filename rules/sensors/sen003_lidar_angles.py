@@ -2,9 +2,9 @@
 
 A full turn from -3.1459 to 3.1459 is 0.5 degrees too large: the last rays see what the first ones
 saw, and every point of the cloud is slightly wrong. In the challenge a full turn goes from -π to π,
-as on all other robots, and not from 0 to 2π; elsewhere that is information, since many devices do
-so. If the first angle is not below the last, all rays
-point in one direction or the scan is mirrored.
+as on all other robots, and not from 0 to 2π; for later releases of Gazebo that is information,
+since many devices do so. If the first angle is not below the last, all rays point in one direction
+or the scan is mirrored.
 
 Fix: write -3.141592653589793 and 3.141592653589793 for a full turn, and the smaller angle first.
 Source: reviews of SubT models, which had 3.1459 and 0 … 6.283 corrected to ±3.14159.
@@ -39,7 +39,7 @@ def check(
         if lidar is None or not sensor.kind.is_lidar:
             continue
         name = f"lidar {sensor.name.value!r}"
-        usual = None if context.of_submissions else Severity.INFO
+        usual = Severity.INFO if context.of_gazebo_sim else None
         yield from _one_way(f"{name} scans", lidar.horizontal, tolerance, near, usual)
         yield from _one_way(f"{name} scans vertically", lidar.vertical, tolerance, near, usual)
 

@@ -1,7 +1,8 @@
 """A friction or contact stiffness in a `gazebo` tag that is not a positive number.
 
 A negative friction accelerates a sliding part, and a contact without stiffness lets the part sink
-into the ground. Zero friction is right for a caster that slides.
+into the ground. Zero friction is right for a part that slides, so nothing is said of a caster by
+its name, or by its spherical collision.
 
 Fix: write a positive number: friction has no unit, kp is in N/m and kd in N·s/m.
 Source: Gazebo Classic, "Using a URDF in Gazebo": mu1, mu2, kp, kd; Open Dynamics Engine, contacts.
@@ -33,11 +34,21 @@ def check(description: UrdfDescription) -> Findings:
                 yield finding(text, f"{where} is {text.value[:40]!r}, expected a number")
             elif value <= 0:
                 harmless = value == 0 and child.tag in MAY_BE_ZERO
+                if harmless and _slides(description, tag.reference.value):
+                    continue
                 yield finding(
                     text,
                     f"{where} is {value:g}{UNITS[child.tag]}, expected a positive number",
                     severity=Severity.INFO if harmless else None,
                 )
+
+
+def _slides(description: UrdfDescription, name: str) -> bool:
+    """Whether a link is a caster: by its name, or since it stands on a sphere."""
+    link = description.robot.links_by_name.get(name)
+    shapes = [collision.geometry for collision in link.collisions] if link else []
+    is_ball = bool(shapes) and all(shape.shape == "sphere" for shape in shapes)
+    return "caster" in name.lower() or is_ball
 
 
 def _tag(value: str) -> dict[str, str]:
@@ -48,6 +59,16 @@ _MARK = "  <!-- ^ URD011 -->"
 GOOD = [
     _tag("<mu1>1.1</mu1><mu2>0.9</mu2><kp>1e6</kp><kd>100.0</kd>"),
     _tag("<material>Gazebo/Red</material>"),
+    {
+        "@urdf": """
+<link name="caster_wheel"/>
+<joint name="caster_joint" type="fixed">
+  <parent link="upper_arm"/>
+  <child link="caster_wheel"/>
+</joint>
+<gazebo reference="caster_wheel"><mu1>0</mu1><mu2>0</mu2></gazebo>
+"""
+    },
     _tag('<mu1 value="1.0"/><kp value="10000000.0"/>'),
 ]
 BAD = [

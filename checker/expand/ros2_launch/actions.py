@@ -14,7 +14,7 @@ from checker.expand.ros2_launch.graph import (
     Argument,
     Component,
     Condition,
-    Environment,
+    EnvironmentChange,
     FileUse,
     Include,
     LaunchFault,
@@ -28,7 +28,7 @@ from checker.expand.ros2_launch.graph import (
     is_known,
     shown,
 )
-from checker.expand.ros2_launch.node_parameters import UNKNOWN, read_parameters
+from checker.expand.ros2_launch.node_parameters import MOVEIT, UNKNOWN, read_parameters
 from checker.expand.ros2_launch.substitutions import perform, truth_of
 from checker.expand.ros2_launch.values import (
     Choice,
@@ -44,6 +44,8 @@ from checker.source.text import Located, Span
 
 _DEFERRED = ("on_exit", "on_start", "on_completion", "on_shutdown", "entities", "on_stdout")
 _DEFERRED_TOO = ("on_stderr", "on_stdin", "on_complete")
+_OLD_KEYWORDS = frozenset({"node_name", "node_executable", "node_namespace"})
+"""Of `Node` until Foxy."""
 _NODES: Mapping[str, NodeKind] = MappingProxyType(
     {
         "Node": NodeKind.NODE,
@@ -62,7 +64,7 @@ class Gathered:
     components: list[LoadedComponents] = field(default_factory=list)
     processes: list[Process] = field(default_factory=list)
     includes: list[Include] = field(default_factory=list)
-    environment: list[Environment] = field(default_factory=list)
+    environment: list[EnvironmentChange] = field(default_factory=list)
     files: list[FileUse] = field(default_factory=list)
     faults: list[LaunchFault] = field(default_factory=list)
     unread: list[Unread] = field(default_factory=list)
@@ -236,12 +238,16 @@ class Visitor:
                 span=made.span,
             )
         )
-        self.found.unread += unread
+        self.found.unread += (item for item in unread if item.reason != MOVEIT)
         self._keywords(made, context)
         self._events(made, context)
 
     def _keywords(self, made: Made, context: Context) -> None:
-        if "executable" not in made.values:
+        for name in _OLD_KEYWORDS.intersection(made.values):
+            where = made.keywords.get(name, made.span)
+            message = f"{made.name} takes no keyword {name!r}"
+            context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
+        if "executable" not in made.values and "node_executable" not in made.values:
             message = f"{made.name} has no executable"
             context.fault(LaunchFaultKind.ATTRIBUTE, made.span, message, "executable")
 
@@ -278,7 +284,7 @@ class Visitor:
         self.found.processes.append(
             Process(
                 words=words,
-                shell=chosen(made.values.get("shell")) in (True, "true", "True"),
+                in_shell=chosen(made.values.get("shell")) in (True, "true", "True"),
                 conditions=context.conditions,
                 after=context.after,
                 span=made.span,
@@ -397,7 +403,7 @@ class Visitor:
         elif mode == "unset":
             context.state.environment.pop(str(name), None)
         self.found.environment.append(
-            Environment(
+            EnvironmentChange(
                 name=str(name),
                 value=_located(value, made.span),
                 mode=mode,

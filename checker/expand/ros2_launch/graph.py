@@ -298,11 +298,11 @@ class Process(Started, eq=False, kw_only=True):
 
     Attributes:
         words: The command line, taken apart as a shell does; a word may hold `$(`.
-        shell: Whether a shell runs it.
+        in_shell: Whether a shell runs it.
     """
 
     words: tuple[Located[str], ...]
-    shell: bool = False
+    in_shell: bool = False
 
 
 class Include(Started, eq=False, kw_only=True):
@@ -324,7 +324,7 @@ class Include(Started, eq=False, kw_only=True):
     reason: str = ""
 
 
-class Environment(Started, eq=False, kw_only=True):
+class EnvironmentChange(Started, eq=False, kw_only=True):
     """An environment variable that is set for what starts after it.
 
     Attributes:
@@ -374,7 +374,7 @@ class LaunchGraph(Record, eq=False, dict=True):
     components: tuple[LoadedComponents, ...] = ()
     processes: tuple[Process, ...] = ()
     includes: tuple[Include, ...] = ()
-    environment: tuple[Environment, ...] = ()
+    environment: tuple[EnvironmentChange, ...] = ()
     files: tuple[FileUse, ...] = ()
     faults: tuple[LaunchFault, ...] = ()
     unread: tuple[Unread, ...] = ()

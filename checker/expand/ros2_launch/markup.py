@@ -11,7 +11,7 @@ from checker.base.record import Record
 from checker.expand.ros2_launch.actions import Gathered
 from checker.expand.ros2_launch.context import Context
 from checker.expand.ros2_launch.graph import LaunchFault, LaunchFaultKind, Unread
-from checker.expand.ros2_launch.substitution_text import Template, split_words
+from checker.expand.ros2_launch.substitution_text import AttributeText, split_words
 from checker.expand.ros2_launch.values import Made, Unknown, Value
 from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
@@ -150,7 +150,7 @@ class Markup:
         written = entity.get(name)
         if written is None:
             return None
-        return Template(written, self._context.allowance, self._report).value()
+        return AttributeText(written, self._context.allowance, self._report).value()
 
     def words(self, entity: Entity, name: str) -> list[Value] | None:
         """Return the words of an attribute that is a command line."""

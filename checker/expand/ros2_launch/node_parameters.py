@@ -12,6 +12,7 @@ from checker.expand.ros2_launch.values import (
     Guarded,
     Made,
     PlacedText,
+    Symbol,
     Unknown,
     Value,
     chosen,
@@ -21,6 +22,9 @@ from checker.source.text import Span
 
 UNKNOWN = "$(unknown)"
 """Stands for a text that this reader cannot tell."""
+
+MOVEIT = "MoveItConfigsBuilder makes parameters of its files"
+"""Why some parameters of a node are not here; they concern no other part of the robot."""
 
 Item = Parameter | ParameterFile | Unread
 
@@ -100,7 +104,7 @@ def _parameter(name: str, value: Value, context: Context, span: Span) -> Paramet
     as_text = False
     if isinstance(value, Made) and value.name == "ParameterValue":
         kind = chosen(value.values.get("value_type"))
-        as_text = getattr(kind, "last", kind) == "str"
+        as_text = (kind.last if isinstance(kind, Symbol) else kind) == "str"
         span = value.span
         value = chosen(value.values.get("value"))
     substituted = _is_substitution(value)

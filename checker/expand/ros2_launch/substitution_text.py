@@ -18,7 +18,7 @@ _OPENING = re.compile(r"\$\(\s{0,20}([\w-]{1,80})")
 _LEVELS = 20
 
 
-class Template:
+class AttributeText:
     """The text of one attribute, and where each character of it stands."""
 
     def __init__(self, text: Located[str], allowance: Allowance, report: Report) -> None:
@@ -150,7 +150,7 @@ def split_words(text: Located[str], allowance: Allowance, report: Report) -> lis
             span = Span(span.source, span.start + start, span.start + end, span.holder)
         if len(written) > 1 and written[0] == written[-1] and written[0] in "'\"":
             written = written[1:-1]
-        words.append(Template(Located(written, span), allowance, report).value())
+        words.append(AttributeText(Located(written, span), allowance, report).value())
     return words
 
 

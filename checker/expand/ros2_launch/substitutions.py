@@ -22,6 +22,7 @@ from checker.expand.ros2_launch.values import (
 from checker.expand.xacro.files import ROOT
 from checker.source.text import Span
 
+NOT_DECLARED = "is not declared"
 Text = PlacedText | Unknown
 _TRUTH = MappingProxyType({"true": True, "1": True, "false": False, "0": False})
 
@@ -96,7 +97,9 @@ def _plain(name: str) -> Callable[[Made, Context], Text]:
 def _wrapped(form: str, name: str) -> Callable[[Made, Context], Text]:
     def work(made: Made, context: Context) -> Text:
         text = _value(made, name, context)
-        return text if isinstance(text, Unknown) else PlacedText(form.format(text), made.span)
+        return (
+            text if isinstance(text, Unknown) else PlacedText(form.replace("{}", text), made.span)
+        )
 
     return work
 
@@ -113,7 +116,7 @@ def _configuration(made: Made, context: Context) -> Text:
     if is_known(name):
         message = f"argument {str(name)!r} is used and nothing declares it"
         context.fault(LaunchFaultKind.UNDECLARED_ARGUMENT, made.span, message, str(name))
-    return Unknown(f"argument {str(name)!r} is not declared", made.span)
+    return Unknown(f"argument {str(name)!r} {NOT_DECLARED}", made.span)
 
 
 def _path(made: Made, context: Context) -> Text:

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-import posixpath
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 
-from msgspec import field
 from msgspec.structs import replace
 
 from checker.base.cache import Cache
 from checker.base.files import NotReadable
-from checker.base.record import Record
 from checker.expand.launch.expansion import expand_launch
 from checker.expand.launch.launch_file import Load, loads
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
+from checker.expand.ros2_launch.descriptions import loaded_descriptions
+from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.xacro.expansion import Expansions, Outcome, Unread, Wanted
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
-from checker.expand.xacro.files import local_path
+from checker.model.urdf.candidates import (
+    Candidate,
+    StartedLoad,
+    candidates,
+    may_hold_description,
+    unread_models,
+)
 from checker.model.urdf.description import read_description
 from checker.model.urdf.files import UrdfFiles
 from checker.package.kind import PackageKind
@@ -27,94 +32,6 @@ from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
-
-# Which files of a package are its URDF descriptions.
-
-
-_SUFFIXES = (".urdf", ".xacro")
-FOLDER_BESIDE_SDF = "urdf/"
-CANDIDATES_LIMIT = 50
-
-
-class Candidate(Record):
-    """A file that ought to hold a robot.
-
-    Attributes:
-        path: As the package lists it.
-        args: Arguments for xacro.
-        loaded: Whether a launch file loads it.
-        by_xacro: Whether xacro reads it, whatever it holds.
-    """
-
-    path: str
-    args: Mapping[str, str] = field(default_factory=dict)
-    loaded: bool = False
-    by_xacro: bool = False
-
-
-def may_hold_description(package: Package) -> bool:
-    """Say whether a package holds a file that could be a URDF description."""
-    return bool(_files(package))
-
-
-def candidates(package: Package, loads: Iterable[Load]) -> list[Candidate]:
-    """Return the files that launch files load; without any, those that stand for a robot.
-
-    Args:
-        package: To look into.
-        loads: What its launch files load.
-    """
-    if package.only:
-        return [Candidate(package.only)]
-    chosen: dict[str, Candidate] = {}
-    for load in loads:
-        path = local_path(package, load.path)
-        # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
-        if path is not None and not path.startswith("../") and package.exists(path):
-            chosen.setdefault(path, Candidate(path, load.args, True, load.by_xacro))
-    files = [*chosen.values()] or [Candidate(path) for path in _outermost(package)]
-    return files[:CANDIDATES_LIMIT]
-
-
-def _files(package: Package) -> list[str]:
-    if package.only:
-        return [package.only] if package.only.lower().endswith((*_SUFFIXES, ".xml")) else []
-    paths = (file.path for file in package.index.with_suffix(*_SUFFIXES))
-    if package.kind is PackageKind.URDF_DESCRIPTION:
-        return [*paths]
-    return [path for path in paths if path.startswith(FOLDER_BESIDE_SDF)]
-
-
-def _outermost(package: Package) -> Iterator[str]:
-    """Yield the files that call themselves a robot and that no other file includes."""
-    paths = [path for path in _files(package) if not _is_empty(package, path)]
-    documents = {path: package.xml(path) for path in paths}
-    roots = {
-        path: document.root
-        for path, document in documents.items()
-        if isinstance(document, XmlDocument)
-    }
-    included = {
-        posixpath.basename(descendant.get("filename") or "")
-        for path, root in roots.items()
-        for descendant in root.descendants("xacro:include")
-        if posixpath.basename(descendant.get("filename") or "") != posixpath.basename(path)
-    }
-    outermost = [path for path in paths if posixpath.basename(path) not in included]
-    # Files that include one another in a circle leave none.
-    for path in outermost or paths:
-        document, root = documents[path], roots.get(path)
-        named = root is not None and root.tag == "robot" and root.get("name")
-        alone = len(paths) == 1 and (root is None or root.tag == "robot")
-        if named or (alone and isinstance(document, XmlDocument | XmlFault)):
-            yield path
-
-
-def _is_empty(package: Package, path: str) -> bool:
-    """Say whether a file holds nothing; one that nobody loads is only a leftover."""
-    source = package.read(path)
-    return isinstance(source, SourceText) and not source.text.strip()
-
 
 _URDF_KINDS = (PackageKind.URDF_DESCRIPTION, PackageKind.SINGLE_FILE)
 _LAUNCH_SUFFIXES = (".launch", ".launch.xml")
@@ -133,6 +50,7 @@ class PackageDescriptions:
         *,
         only: str = "",
         args: Mapping[str, str] = MappingProxyType({}),
+        ros2: Ros2Launch | None = None,
     ) -> None:
         """Choose the files and begin to expand those that need it.
 
@@ -141,8 +59,11 @@ class PackageDescriptions:
             cache: Where expansions are kept.
             only: The one file to read, whatever launch files load; empty to choose.
             args: Arguments for xacro, before those that launch files give.
+            ros2: What the ROS 2 launch files of the package start, if it has any.
         """
         self._package = package
+        self._args = args
+        self._ros2 = ros2
         self._cache = cache
         self._for_rviz = package.kind not in _URDF_KINDS
         self._candidates: Sequence[Candidate] = ()
@@ -159,8 +80,8 @@ class PackageDescriptions:
 
     @property
     def applicable(self) -> bool:
-        """Whether there is a file that ought to hold a robot."""
-        return bool(self._candidates)
+        """Whether there is a file that ought to hold a robot, or may."""
+        return bool(self._candidates) or may_hold_description(self._package)
 
     @cached_property
     def files(self) -> UrdfFiles:
@@ -176,19 +97,40 @@ class PackageDescriptions:
                     read = read_description(outcome, candidate.path, for_rviz=self._for_rviz)
                     descriptions.append(read)
             elif isinstance(outcome, Unread):
-                unread.append((candidate, outcome.reason))
-            elif outcome.kind is XacroFaultKind.ARGUMENT and not candidate.loaded:
-                # What starts it may well give the argument.
-                unread.append((candidate, f"{candidate.path} is not expanded: {outcome.message}"))
+                unread.append((candidate, self._unread(candidate, outcome.reason)))
+            elif outcome.kind is XacroFaultKind.ARGUMENT and self._may_be_given(candidate):
+                reason = f"{candidate.path} is not expanded: {outcome.message}"
+                unread.append((candidate, self._unread(candidate, reason)))
             else:
                 faults.append(replace(outcome, loaded=candidate.loaded))
+        reasons = [reason for file, reason in unread if file.loaded or not self._for_rviz]
+        if not self._for_rviz:
+            reasons += unread_models(self._package, self._seen)
         return UrdfFiles(
             tuple(descriptions),
             tuple(faults),
-            tuple(reason for file, reason in unread if file.loaded or not self._for_rviz),
+            tuple(reasons),
             tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
             old,
         )
+
+    @property
+    def _seen(self) -> frozenset[str]:
+        """Files that were read, for themselves or as a part of another."""
+        included = self._expansions.files if self._expansions is not None else ()
+        return frozenset((*(candidate.path for candidate in self._candidates), *included))
+
+    def _may_be_given(self, candidate: Candidate) -> bool:
+        """Say whether what starts a file may well give the argument that it lacks."""
+        return not candidate.loaded or bool(candidate.missing.keys() - self._args.keys())
+
+    def _unread(self, candidate: Candidate, reason: str) -> str:
+        """Return a reason; it says which arguments a launch file leaves to whoever starts it."""
+        missing = [name for name in candidate.missing if name not in self._args]
+        if not missing:
+            return reason
+        file, given = candidate.missing[missing[0]], " ".join(f"{name}:=…" for name in missing)
+        return f"{reason}; {file} leaves {given} to who starts it, --xacro-arg gives it here"
 
     def _is_alone(self, document: XmlDocument, candidate: Candidate) -> bool:
         """Say whether a file that holds nothing is the one to check, and no xacro of macros."""
@@ -223,7 +165,14 @@ class PackageDescriptions:
         if self._expansions is not None:
             self._expansions.stop()
 
-    def _loads(self) -> list[Load]:
+    def _loads(self) -> Iterator[StartedLoad]:
+        for graph in self._ros2.entries if self._ros2 is not None else ():
+            for described in loaded_descriptions(self._package, graph):
+                missing = dict.fromkeys(described.unknown, described.node.file)
+                yield described.load, missing
+        yield from ((load, {}) for load in self._classic_loads())
+
+    def _classic_loads(self) -> list[Load]:
         launch_files = self._package.index.with_suffix(*_LAUNCH_SUFFIXES)[:_LAUNCH_LIMIT]
         paths = [file.path for file in launch_files if self._loads_something(file.path)]
         files, documents = LaunchFiles(self._package), map(self._package.xml, paths)

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 PATHS = ("PathSubstitution", "PathJoinSubstitution")
 """Substitutions that `/` goes on."""
 _ITEMS_LIMIT = 5_000
+_DATA_LIMIT = 20_000
+_LEVELS_LIMIT = 40
 
 
 def plain(value: Value) -> Any:
@@ -39,20 +41,39 @@ def plain(value: Value) -> Any:
 
     Raises:
         RefusedExpression: It is none, or it is not known before the launch.
+        ExpressionLimit: It holds too much.
     """
-    value = chosen(value)
+    return _Plain().of(value, 0)
+
+
+class _Plain:
+    """The making of plain data; lists that hold one list twice are counted in full."""
+
+    def __init__(self) -> None:
+        self._left = _DATA_LIMIT
+
+    def of(self, value: Value, level: int) -> Any:
+        self._left -= 1
+        if self._left < 0 or level > _LEVELS_LIMIT:
+            raise ExpressionLimit("works on too much, or too deeply nested data")
+        value = chosen(value)
+        if value is None or type(value) in (int, float, bool, range):
+            return value
+        if type(value) in (list, tuple, set, frozenset):
+            return type(value)([self.of(item, level + 1) for item in value])
+        if type(value) is dict:
+            pairs = value.items()
+            return {self.of(k, level + 1): self.of(item, level + 1) for k, item in pairs}
+        if isinstance(value, FilePath):
+            return self.of(value.text, level)
+        return _plain_text(value)
+
+
+def _plain_text(value: Value) -> str:
     if isinstance(value, str):
         if not is_known(value):
             raise RefusedExpression(f"{str(value)[:60]}, which is not known before the launch")
         return str(value)
-    if value is None or type(value) in (int, float, bool, range):
-        return value
-    if type(value) in (list, tuple, set, frozenset):
-        return type(value)(plain(item) for item in value)
-    if type(value) is dict:
-        return {plain(key): plain(item) for key, item in value.items()}
-    if isinstance(value, FilePath):
-        return plain(value.text)
     if isinstance(value, Unknown):
         raise RefusedExpression(value.reason)
     raise RefusedExpression("a value that is only known when it is launched")

@@ -348,7 +348,8 @@ class Interpreter:
             return self.unknown(node, "the call raises an error")
         if scope.returned:
             if flow is not Flow.RAISE and value is not RETURNED:
-                scope.returned.append(Guarded(value, ()))
+                value = value if isinstance(value, Guarded) else Guarded(value, ())
+                scope.returned.append(value)
             return Choice(tuple(scope.returned))
         return value
 

@@ -87,6 +87,16 @@ def _join(run: Interpreter, node: ast.AST, arguments: list[Value], _: dict[str, 
     return PlacedText(posixpath.join(*map(str, parts)), run.span(node))
 
 
+_PATH_WORKS: Mapping[str, Callable[[str], str | tuple[str, str]]] = MappingProxyType(
+    {
+        "dirname": posixpath.dirname,
+        "basename": posixpath.basename,
+        "splitext": posixpath.splitext,
+        "split": posixpath.split,
+    }
+)
+
+
 def _path_work(name: str) -> Work:
     def work(
         run: Interpreter, node: ast.AST, arguments: list[Value], named: dict[str, Value]
@@ -94,9 +104,7 @@ def _path_work(name: str) -> Work:
         text = text_of(run, first(arguments, named, "path", "filename"), node)
         if isinstance(text, Unknown):
             return text
-        if str(text) == "__file__":
-            return run.unknown(node, "is no path")
-        result = getattr(posixpath, name)(str(text))
+        result = _PATH_WORKS[name](str(text))
         if isinstance(result, tuple):
             return tuple(PlacedText(part, run.span(node)) for part in result)
         return PlacedText(result, run.span(node))
@@ -456,7 +464,7 @@ FUNCTIONS: Mapping[str, Work] = MappingProxyType(
         "moveit_configs_utils.MoveItConfigsBuilder": moveit.builder,
         "moveit_configs_utils.moveit_configs_builder.MoveItConfigsBuilder": moveit.builder,
     }
-    | {f"os.path.{name}": _path_work(name) for name in ("dirname", "basename", "splitext", "split")}
+    | {f"os.path.{name}": _path_work(name) for name in _PATH_WORKS}
     | {f"os.path.{name}": _exists for name in ("exists", "isfile", "isdir")}
     | {f"yaml.{name}": _load_yaml for name in ("safe_load", "load", "full_load")}
     | {f"{module}.get_package_share_directory": _share for module in _AMENT}

@@ -96,7 +96,8 @@ def _as_load(node: ast.expr) -> ast.expr:
 
 def _return(run: Interpreter, node: ast.Return, scope: Scope) -> tuple[Flow, Value]:
     value = evaluate(run, node.value, scope) if node.value is not None else None
-    return Flow.RETURN, value
+    conditions = tuple(run.guards[scope.guards :])
+    return Flow.RETURN, Guarded(value, conditions) if conditions else value
 
 
 def _raise(*_: Any) -> tuple[Flow, Value]:
@@ -138,10 +139,9 @@ def _either(run: Interpreter, first: Branch, second: Branch, scope: Scope) -> tu
         flow, value = run_block(run, body, scope)
         run.guards.pop()
         ends.append((flow, value, Guarded(scope.values, (condition,))))
-    for flow, value, guarded in ends:
+    for flow, value, _ in ends:
         if flow is Flow.RETURN and value is not RETURNED:
-            conditions = (*run.guards[scope.guards :], *guarded.conditions)
-            scope.returned.append(Guarded(value, conditions))
+            scope.returned.append(value)
     stays = [(flow, after) for flow, _, after in ends if flow not in (Flow.RETURN, Flow.RAISE)]
     returns = any(flow is Flow.RETURN for flow, _, _ in ends)
     if not stays:
@@ -209,11 +209,8 @@ def _with(run: Interpreter, node: ast.With, scope: Scope) -> tuple[Flow, Value]:
 
 
 def _try(run: Interpreter, node: ast.Try, scope: Scope) -> tuple[Flow, Value]:
-    """Run the body; what stands in it may fail on purpose, and the handlers are passed over."""
-    text = Located("try", run.span(node.body[0]))
-    run.guards.append(Condition(text, wanted=True, holds=None))
+    """Run the body; the handlers are passed over."""
     flow, value = run_block(run, node.body, scope)
-    run.guards.pop()
     if flow is Flow.ON:
         flow, value = run_block(run, node.orelse, scope)
     end, last = run_block(run, node.finalbody, scope)

@@ -1,0 +1,91 @@
+"""Which robots ROS 2 launch files load: the files, and the arguments that xacro is given."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+from itertools import pairwise
+
+from msgspec.structs import replace
+
+from checker.base.record import Record
+from checker.expand.launch.launch_file import Load, read_command
+from checker.expand.ros2_launch.graph import LaunchGraph, Node, Parameter, is_known
+from checker.expand.ros2_launch.package_files import local_file
+from checker.expand.xacro.files import ROOT, path_of
+from checker.package.package import Package
+from checker.source.text import Span
+
+_COMMAND, _CONTENT = "$(command ", "$(file-content "
+_SUFFIXES = (".urdf", ".xacro", ".xml", ".sdf")
+
+
+class LoadedDescription(Record, eq=False):
+    """A robot that a node is given.
+
+    Attributes:
+        load: The file, and the arguments that are known.
+        unknown: Names of arguments whose values are only known at launch.
+        node: That is given it.
+        parameter: By which it is given; None where it stands among the arguments.
+        span: Where the file is named.
+    """
+
+    load: Load
+    unknown: tuple[str, ...]
+    node: Node
+    parameter: Parameter | None
+    span: Span
+
+
+def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[LoadedDescription]:
+    """Yield the robots that a launch file loads, those that start by default first.
+
+    Args:
+        package: That is checked.
+        graph: Of its launch file.
+    """
+    for node in sorted(graph.nodes, key=lambda node: _RANKS[node.starts]):
+        for parameter in node.parameters:
+            if isinstance(parameter, Parameter) and isinstance(parameter.value, str):
+                for load, unknown in _described(package, parameter.value):
+                    yield LoadedDescription(load, unknown, node, parameter, parameter.span)
+        for option, word in pairwise(node.arguments):
+            text = f"{_CONTENT}{word.value})" if option.value == "-file" else word.value
+            for load, unknown in _described(package, text):
+                yield LoadedDescription(load, unknown, node, None, word.span)
+
+
+_RANKS = {True: 0, None: 1, False: 2}
+
+
+def _described(package: Package, text: str) -> Iterator[tuple[Load, tuple[str, ...]]]:
+    """Yield the file that a text comes from, and the arguments that are not known."""
+    if text.startswith(_COMMAND) and text.endswith(")"):
+        command = text.removeprefix(_COMMAND)[:-1]
+        for load in read_command(command):
+            path = _as_listed(package, load.path)
+            if path is not None:
+                yield replace(load, path=path), tuple(_unknown(command))
+    elif text.startswith(_CONTENT) and text.endswith(")"):
+        path = _as_listed(package, text.removeprefix(_CONTENT)[:-1])
+        if path is not None and path.lower().endswith(_SUFFIXES):
+            yield Load(path, {}, by_xacro=False), ()
+
+
+def _as_listed(package: Package, path: str) -> str | None:
+    """Return how xacro sees a file that is installed at a path; None when it is not at hand."""
+    local = local_file(package, path) if path.startswith(f"{ROOT}/") else None
+    return None if local is None else path_of(package, local)
+
+
+def _unknown(command: str) -> Iterator[str]:
+    """Yield the names of arguments whose values hold substitutions."""
+    try:
+        words = shlex.split(command)
+    except ValueError:  # a quotation mark that nothing closes
+        return
+    for word in words:
+        name, assigned, value = word.partition(":=")
+        if assigned and not is_known(value):
+            yield name

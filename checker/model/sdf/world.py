@@ -1,0 +1,101 @@
+"""Worlds of an SDF file: the systems they load, and the models in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from checker.base.record import Record
+from checker.base.resources import table
+from checker.model.components import Plugin, Sensor
+from checker.model.plugin_library import library_stem
+from checker.model.robot import Robot
+from checker.model.sdf.includes import IncludeReader, included_model
+from checker.model.sdf.links import read_plugin
+from checker.model.sdf.reader import read_robot
+from checker.source.text import Located, Span
+from checker.source.xml import Element, XmlDocument
+
+_INCLUDES_LIMIT = 100
+_POLICIES = ("gz:policies", "ignition:policies")
+
+
+class World(Record, eq=False, dict=True):
+    """A `<world>`.
+
+    Attributes:
+        element: The world.
+        plugins: Its own, those of windows left out.
+        models: Models in it, and those that it includes and that are available.
+        unknown: Includes whose model is not available.
+    """
+
+    element: Element
+    plugins: tuple[Plugin, ...]
+    models: tuple[Robot, ...]
+    unknown: tuple[Located[str], ...]
+
+    @property
+    def name(self) -> str:
+        """Its name; empty when it states none."""
+        return (self.element.get("name") or "").strip()
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.element.span
+
+    @cached_property
+    def systems(self) -> frozenset[str]:
+        """What its plugins, and those of its models, load: `sensors`, `physics`, `imu`."""
+        plugins = (*self.plugins, *(plugin for model in self.models for plugin in model.plugins))
+        return frozenset(name for plugin in plugins for name in systems_of(plugin))
+
+    @property
+    def takes_server_plugins(self) -> bool:
+        """Whether it asks for the server's own plugins beside its own."""
+        policies = (self.element.child(name) for name in _POLICIES)
+        said = (it.child("include_server_config_plugins") for it in policies if it is not None)
+        return any(it is not None and it.text.value.lower() in ("1", "true") for it in said)
+
+    def sensors(self) -> Iterator[tuple[Robot, Sensor]]:
+        """Yield the sensors of its models."""
+        for model in self.models:
+            for sensor in model.sensors:
+                yield model, sensor
+
+
+def systems_of(plugin: Plugin) -> Iterator[str]:
+    """Yield the names of Gazebo's systems that a plugin may be: by its library, by its class."""
+    stem = library_stem(plugin.filename.value)
+    for prefix in ("gz-sim", "ignition-gazebo"):
+        if stem.startswith(prefix) and stem.endswith("-system"):
+            yield stem.removeprefix(prefix).lstrip("0123456789").strip("-").removesuffix("-system")
+    if "::systems::" in plugin.name.value:
+        yield plugin.class_name.lower()
+
+
+def sensor_system(release: str, sensor: Sensor) -> str:
+    """Return the system that a sensor needs in a release; empty for none, or an unknown one."""
+    types = table("gazebo_sensors")["releases"].get(release, {"types": ()})["types"]
+    wanted = sensor.type.value
+    fitting = (entry for entry in types if wanted in entry["spellings"] and entry["simulated"])
+    return next((entry["system"] or "" for entry in fitting), "")
+
+
+def read_worlds(document: XmlDocument, include: IncludeReader) -> tuple[World, ...]:
+    """Read the worlds of a file."""
+    return tuple(_read_world(world, include) for world in document.root.all("world"))
+
+
+def _read_world(world: Element, include: IncludeReader) -> World:
+    models = [read_robot(model, include) for model in world.all("model")]
+    unknown = []
+    for placed in list(world.all("include"))[:_INCLUDES_LIMIT]:
+        model = included_model(placed, include)
+        if isinstance(model, Element):
+            models.append(read_robot(model, include, placed))
+        elif (uri := placed.child("uri")) is not None:
+            unknown.append(uri.text)
+    plugins = tuple(read_plugin(plugin) for plugin in world.all("plugin"))
+    return World(world, plugins, tuple(models), tuple(unknown))

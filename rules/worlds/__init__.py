@@ -1,0 +1,1 @@
+"""WLD: the systems that a world loads, and what its models need."""

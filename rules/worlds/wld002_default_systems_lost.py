@@ -1,0 +1,72 @@
+"""A world with plugins of its own that leaves out those which Gazebo loads by itself.
+
+As soon as a world names one plugin, Gazebo does not load physics, user commands and the scene
+broadcaster any more: nothing moves, nothing can be spawned, or the window stays empty. From Ionic
+on, a world can ask for both with `<gz:policies>`.
+
+Fix: name the missing plugin as well.
+Source: gz-sim, `SimulationRunner::LoadServerPlugins` and server.config.
+"""
+
+from checker.model.sdf.world import World
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
+
+_DEFAULTS = {
+    "physics": "nothing moves",
+    "user-commands": "no robot can be spawned",
+    "scene-broadcaster": "windows and visualizers show nothing",
+}
+_LESS = {"scene-broadcaster": Severity.INFO}
+"""What a server without windows does without."""
+_WITH_POLICIES = ("ionic", "jetty")
+
+
+@rule("WLD002", "default-systems-lost", Severity.WARNING, Concern.INTERFACE)
+def check(world: World, context: Context) -> Findings:
+    """Report the usual systems that a list of plugins leaves out."""
+    if not world.plugins:
+        return
+    if context.release in _WITH_POLICIES and world.takes_server_plugins:
+        return
+    for system, without in _DEFAULTS.items():
+        if system in world.systems or system.replace("-", "") in world.systems:
+            continue
+        severe = system == "physics" and any(not model.is_static for model in world.models)
+        yield finding(
+            world,
+            f"world {world.name!r} names plugins, but not {system}, so Gazebo does not load it: "
+            f"{without}",
+            severity=Severity.ERROR if severe else _LESS.get(system),
+            key=f"{world.name} {system}",
+            related=[(world.plugins[0], "from this plugin on, only those named here are loaded")],
+        )
+
+
+def _world(plugins: str, mark: str = "") -> str:
+    return f"""
+<sdf version="1.9">
+  <world name="hall">{mark}
+    {plugins}
+    <model name="box"><link name="body"/></model>
+  </world>
+</sdf>
+"""
+
+
+def _plugin(system: str, name: str) -> str:
+    return f'<plugin filename="gz-sim-{system}-system" name="gz::sim::systems::{name}"/>'
+
+
+_PHYSICS = _plugin("physics", "Physics")
+_OTHERS = _plugin("user-commands", "UserCommands") + _plugin(
+    "scene-broadcaster", "SceneBroadcaster"
+)
+GOOD = [
+    _world(""),
+    _world(_PHYSICS + _OTHERS),
+    _world('<gui><plugin filename="MinimalScene" name="3D View"/></gui>'),
+]
+BAD = [
+    _world(_OTHERS, "  <!-- ^ WLD002 -->"),
+    _world(_PHYSICS, "  <!-- ^ WLD002 -->"),
+]

@@ -1,0 +1,308 @@
+"""What launch files in Python start."""
+
+from __future__ import annotations
+
+import pytest
+
+from checker.expand.ros2_launch.graph import (
+    LaunchFaultKind,
+    LaunchGraph,
+    Parameter,
+    ParameterFile,
+    shown,
+)
+from tests.ros2_launch.conftest import NAME, Read, python
+
+
+def words(graph: LaunchGraph, number: int = 0) -> list[str]:
+    return [shown(word.value) for word in graph.nodes[number].arguments]
+
+
+def test_a_node_with_all_its_parts(read: Read) -> None:
+    graph = read(
+        f"""
+        share = get_package_share_directory('{NAME}')
+        return LaunchDescription([
+            Node(package='rviz2', executable='rviz2', name='view', namespace='r1',
+                 arguments=['-d', os.path.join(share, 'config', 'view.rviz')],
+                 parameters=[{{'use_sim_time': True, 'a': {{'b': 2.5}}}}, share + '/config/p.yaml'],
+                 remappings=[('/tf', 'tf')]),
+        ])
+        """
+    )
+    (node,) = graph.nodes
+    assert (node.package.value, node.executable.value) == ("rviz2", "rviz2")
+    assert node.name is not None
+    assert node.name.value == "view"
+    assert node.namespace == "/r1"
+    assert words(graph) == ["-d", f"$(find-pkg-share {NAME})/config/view.rviz"]
+    values = {p.name: p.value for p in node.parameters if isinstance(p, Parameter)}
+    assert values == {"use_sim_time": True, "a.b": 2.5}
+    (file,) = (p for p in node.parameters if isinstance(p, ParameterFile))
+    assert shown(file.path) == f"$(find-pkg-share {NAME})/config/p.yaml"
+    assert [(remap.source, remap.target) for remap in node.remaps] == [("/tf", "tf")]
+    assert node.starts is True
+    assert not graph.unread
+    assert not graph.faults
+
+
+def test_places_are_those_of_the_literals(read: Read) -> None:
+    graph = read(
+        """
+        flag = '-d'
+        return LaunchDescription([Node(package='é', executable='b', arguments=[flag, 'c' + 'd'])])
+        """
+    )
+    flag, joined = graph.nodes[0].arguments
+    assert (flag.span.text, joined.span.text) == ("'-d'", "'c' + 'd'")
+    assert graph.nodes[0].span.text.startswith("Node(")
+    assert graph.nodes[0].package.span.text == "'é'"
+
+
+@pytest.mark.parametrize(
+    ("statements", "expected"),
+    [
+        ("x = [f'{a}_{b}' for a in ('l', 'r') for b in range(2) if b]", ["l_1", "r_1"]),
+        ("x = []\nfor n in ['a', 'b']:\n    x += [n.upper()]", ["A", "B"]),
+        ("x = ['0'] * 2 + [*map(str, (1, 2))]", ["0", "0", "1", "2"]),
+        ("d = dict(a='1', **{'b': '2'})\nx = [k + v for k, v in d.items()]", ["a1", "b2"]),
+        ("def f(*a, k='z', **n):\n    return [*a, k, *n]\nx = f('p', q=1)", ["p", "z", "q"]),
+        ("x = [(lambda v: v + '!')('a')]", ["a!"]),
+        ("a, *b = 'one two three'.split()\nx = b", ["two", "three"]),
+        ("x = ['%s-%d' % ('a', 3), '{}'.format(4)]", ["a-3", "4"]),
+        ("x = ['a']\nx.extend(['b'])\nx.insert(0, 'c')", ["c", "a", "b"]),
+        (
+            "from pathlib import Path\nx = [str(Path('/a') / 'b' / 'c.txt'), Path('/a/b').name]",
+            ["/a/b/c.txt", "b"],
+        ),
+        (
+            "i = 0\nx = []\nwhile i < 3:\n    i += 1\n    if i == 2:\n        continue\n"
+            "    x.append(str(i))",
+            ["1", "3"],
+        ),
+        ("x = ['a' if 2 > 1 else 'b']", ["a"]),
+        ("x = [str(v) for v in sorted({3, 1})]", ["1", "3"]),
+        (
+            "def f(v):\n    if v == 'a':\n        return 'A'\n    return 'B'\nx = [f('a'), f('b')]",
+            ["A", "B"],
+        ),
+    ],
+)
+def test_python_is_evaluated(read: Read, statements: str, expected: list[str]) -> None:
+    node = "return LaunchDescription([Node(package='p', executable='e', arguments=x)])"
+    graph = read(f"{statements}\n{node}")
+    assert words(graph) == expected
+    assert not graph.unread
+
+
+def test_arguments_have_their_defaults_unless_they_are_given(read: Read) -> None:
+    text = """
+        return LaunchDescription([
+            DeclareLaunchArgument('gui', default_value='true', choices=['true', 'false']),
+            DeclareLaunchArgument('name', description='which'),
+            Node(package='p', executable='e', arguments=['-n', LaunchConfiguration('name')],
+                 condition=IfCondition(LaunchConfiguration('gui'))),
+            Node(package='p', executable='f',
+                 condition=UnlessCondition(LaunchConfiguration('gui'))),
+        ])
+        """
+    graph = read(text)
+    assert [node.starts for node in graph.nodes] == [True, False]
+    assert words(graph) == ["-n", "$(var name)"]
+    assert [argument.name for argument in graph.arguments] == ["gui", "name"]
+    given = read(text, gui="false", name="r2")
+    assert [node.starts for node in given.nodes] == [False, True]
+    assert words(given) == ["-n", "r2"]
+
+
+def test_both_branches_are_taken_where_an_argument_decides(read: Read) -> None:
+    graph = read(
+        """
+        def generate_launch_description():
+            return LaunchDescription([
+                DeclareLaunchArgument('sim', default_value='true'),
+                OpaqueFunction(function=setup, args=['x'])])
+
+        def setup(context, word):
+            sim = LaunchConfiguration('sim').perform(context) == 'true'
+            nodes = []
+            if sim:
+                nodes.append(Node(package='p', executable='simulated', arguments=[word]))
+            else:
+                nodes.append(Node(package='p', executable='real'))
+            if os.environ['ROBOT'] == 'a':
+                nodes.append(Node(package='p', executable='maybe'))
+            return nodes
+        """
+    )
+    starts = {node.executable.value: node.starts for node in graph.nodes}
+    assert starts == {"simulated": True, "real": False, "maybe": None}
+    assert words(graph) == ["x"]
+    assert not graph.unread
+
+
+def test_what_is_chosen_by_an_unknown_test_is_not_known(read: Read) -> None:
+    graph = read(
+        """
+        robot = os.environ['ROBOT']
+        name = 'one' if robot == 'a' else 'two'
+        common = Node(package='p', executable='common')
+        if robot == 'b':
+            return LaunchDescription([common, Node(package='p', executable='b')])
+        return LaunchDescription([common, Node(package='p', executable='c', arguments=[name])])
+        """
+    )
+    starts = {node.executable.value: node.starts for node in graph.nodes}
+    assert starts == {"common": True, "b": None, "c": None}
+    assert [unread.reason for unread in graph.unread] == ["depends on \"robot == 'a'\""]
+
+
+def test_scopes_includes_and_events(read: Read) -> None:
+    other = python(
+        """
+        return LaunchDescription([
+            DeclareLaunchArgument('robot', default_value='none'),
+            Node(package='p', executable='inner', arguments=[LaunchConfiguration('robot')])])
+        """
+    )
+    graph = read(
+        f"""
+        first = Node(package='p', executable='first', condition=IfCondition('true'))
+        path = PathJoinSubstitution([FindPackageShare('{NAME}'), 'launch', 'other.launch.py'])
+        return LaunchDescription([
+            SetEnvironmentVariable('GZ_SIM_RESOURCE_PATH', '/a'),
+            GroupAction([
+                PushRosNamespace('r1'), SetRemap('/tf', 'tf'), SetParameter('use_sim_time', True),
+                first,
+                IncludeLaunchDescription(PythonLaunchDescriptionSource([path]),
+                                         launch_arguments={{'robot': 'r1', 'extra': ''}}.items())]),
+            RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[
+                Node(package='p', executable='then')])),
+            TimerAction(period=5.0, actions=[ExecuteProcess(cmd=['ros2', 'topic', 'list'])]),
+            Node(package='p', executable='outside'),
+        ])
+        """,
+        others={"launch/other.launch.py": other},
+    )
+    placed = {n.executable.value: (n.namespace, n.after, len(n.remaps)) for n in graph.nodes}
+    assert placed == {
+        "first": ("/r1", False, 1),
+        "inner": ("/r1", False, 1),
+        "outside": ("/", False, 0),
+        "then": ("/", True, 0),
+    }
+    assert words(graph, 1) == ["r1"]
+    (include,) = graph.includes
+    assert include.path == "launch/other.launch.py"
+    assert include.accepts == frozenset({"robot"})
+    assert set(include.arguments) == {"robot", "extra"}
+    assert [word.value for word in graph.processes[0].words] == ["ros2", "topic", "list"]
+    assert graph.processes[0].after
+    assert [(e.name, e.value.value) for e in graph.environment] == [("GZ_SIM_RESOURCE_PATH", "/a")]
+
+
+def test_components_and_parameter_values(read: Read) -> None:
+    graph = read(
+        """
+        part = ComposableNode(package='image_proc', plugin='image_proc::RectifyNode', name='r')
+        text = ParameterValue(Command(['xacro ', 'a.xacro']), value_type=str)
+        return LaunchDescription([
+            ComposableNodeContainer(package='rclcpp_components', executable='component_container',
+                name='box', namespace='', composable_node_descriptions=[part]),
+            LoadComposableNodes(target_container='box', composable_node_descriptions=[part]),
+            Node(package='p', executable='e', parameters=[{'robot_description': text},
+                ParameterFile('x.yaml', allow_substs=True)]),
+        ])
+        """
+    )
+    (component,) = graph.nodes[0].components
+    assert component.plugin.value == "image_proc::RectifyNode"
+    assert graph.components[0].container == "/box"
+    parameter = graph.nodes[1].parameter("robot_description")
+    assert parameter is not None
+    assert parameter.as_text
+    assert parameter.substituted
+    assert parameter.value == "$(command xacro a.xacro)"
+    assert graph.nodes[1].parameter_files[0].substitutes
+
+
+@pytest.mark.parametrize(
+    ("expression", "holds"),
+    [
+        ("'true'", True),
+        (
+            "PythonExpression(['\\'', LaunchConfiguration('x'), '\\' == \\'a\\' and not False'])",
+            True,
+        ),
+        ("PythonExpression([LaunchConfiguration('n'), ' > 4'])", False),
+        ("EnvironmentVariable('GUI')", None),
+        ("PythonExpression(['unknown(1)'])", None),
+    ],
+)
+def test_conditions(read: Read, expression: str, holds: bool | None) -> None:
+    graph = read(
+        f"""
+        return LaunchDescription([
+            DeclareLaunchArgument('x', default_value='a'),
+            DeclareLaunchArgument('n', default_value='3'),
+            Node(package='p', executable='e', condition=IfCondition({expression}))])
+        """
+    )
+    assert graph.nodes[0].starts is holds
+
+
+@pytest.mark.parametrize(
+    ("entities", "kind", "name"),
+    [
+        ("Node(package='p', executable=LaunchConfiguration('x'))", "UNDECLARED_ARGUMENT", "x"),
+        (
+            "Node(package='p', executable=LaunchConfiguration('x')), "
+            "DeclareLaunchArgument('x', default_value='a')",
+            "LATE_ARGUMENT",
+            "x",
+        ),
+        ("Node(package='p', node_executable='e')", "ATTRIBUTE", "node_executable"),
+        ("Node(package='p')", "ATTRIBUTE", "executable"),
+        ("Node(package='p', executable='e', condition=IfCondition('yes'))", "CONDITION", "yes"),
+        ("DeclareLaunchArgument('x', default_value='c', choices=['a'])", "UNKNOWN_CHOICE", "x"),
+    ],
+)
+def test_faults(read: Read, entities: str, kind: str, name: str) -> None:
+    graph = read(f"return LaunchDescription([{entities}])")
+    assert [(fault.kind, fault.name) for fault in graph.faults] == [(LaunchFaultKind[kind], name)]
+
+
+@pytest.mark.parametrize(
+    ("statements", "reason"),
+    [
+        ("import foo\nx = foo.make()", "foo.make is not evaluated"),
+        ("x = open('/etc/passwd').readline()", "readline() is not evaluated"),
+        ("x = [v for v in undefined]", "undefined is not defined"),
+        ("x = ['a'.encode('rot13')]", "encode"),
+        ("x = [eval('1')]", "eval is not defined"),
+        ("class A:\n    pass\nx = A()", "class A is not evaluated"),
+        ("x = [1 / 0]", "the expression raises ZeroDivisionError"),
+        ("x = ['' + LaunchConfiguration('a')]", "a value that is only known when it is launched"),
+    ],
+)
+def test_what_is_not_evaluated_is_told(read: Read, statements: str, reason: str) -> None:
+    node = "return LaunchDescription([Node(package='p', executable='e', arguments=x)])"
+    graph = read(f"{statements}\n{node}")
+    assert len(graph.nodes) == 1
+    assert any(reason in unread.reason for unread in graph.unread)
+    assert graph.nodes[0].unread
+
+
+def test_modules_of_packages_at_hand_are_followed(read: Read) -> None:
+    graph = read(
+        f"""
+        def generate_launch_description():
+            from {NAME}.helpers import make
+            return LaunchDescription([make('a')])
+        """,
+        others={
+            f"{NAME}/helpers.py": "from launch_ros.actions import Node\n"
+            "def make(name):\n    return Node(package=name, executable='e')\n"
+        },
+    )
+    assert [node.package.value for node in graph.nodes] == ["a"]

@@ -1,0 +1,85 @@
+"""What xacro is given by the ROS 2 launch files that load its files, and by the user."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.pipeline import check_package
+from checker.report.report import PackageReport
+from checker.settings import find_settings
+
+PACKAGE = """<package format="3">
+  <name>acme_description</name><version>1.0.0</version><description>A</description>
+  <maintainer email="a@example.org">A</maintainer><license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+XACRO = """<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:arg name="wide" default="false"/>
+  <xacro:property name="size" value="${xacro.load_yaml('sizes.yaml')['$(arg kind)']}"/>
+  <link name="$(arg base)"/>
+  <xacro:if value="$(arg wide)"><link name="wing_${size}"/></xacro:if>
+</robot>
+"""
+LAUNCH = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+
+def generate_launch_description():
+    file = PathJoinSubstitution([FindPackageShare('acme_description'), 'urdf', 'r.urdf.xacro'])
+    return LaunchDescription([
+        DeclareLaunchArgument('base', default_value='base_link'),
+        DeclareLaunchArgument('kind'@),
+        Node(package='robot_state_publisher', executable='robot_state_publisher', parameters=[
+            {'robot_description': Command(['xacro ', file, ' wide:=true kind:=',
+                LaunchConfiguration('kind'), ' base:=', LaunchConfiguration('base')])}]),
+    ])
+"""
+
+
+def package_with(folder: Path, default: str = "") -> Path:
+    package = folder / "acme_description"
+    files = {
+        "package.xml": PACKAGE,
+        "urdf/r.urdf.xacro": XACRO,
+        "urdf/sizes.yaml": "small: 3\nlarge: 7\n",
+        "launch/view.launch.py": LAUNCH.replace("@", default),
+    }
+    for path, text in files.items():
+        (package / path).parent.mkdir(parents=True, exist_ok=True)
+        (package / path).write_text(text)
+    return package
+
+
+def judged(package: Path) -> PackageReport:
+    settings = find_settings([package]).overridden(trial=False, cache=False)
+    (report,) = check_package(package, settings).packages
+    return report
+
+
+def test_arguments_of_launch_files_have_their_declared_defaults(tmp_path: Path) -> None:
+    package = package_with(tmp_path, ", default_value='small'")
+    assert judged(package).facts["links"] == 2
+
+
+def test_a_missing_argument_names_the_launch_file_that_asks_for_it(tmp_path: Path) -> None:
+    report = judged(package_with(tmp_path))
+    reasons = {skipped.reason for skipped in report.not_checked}
+    told = [reason for reason in reasons if "launch/view.launch.py leaves kind:=…" in reason]
+    assert len(told) == 1
+    assert not [f for f in report.findings if f.rule == "URD001"]
+
+
+@pytest.mark.parametrize("value", ['"small"', "true"])
+def test_settings_give_arguments(tmp_path: Path, value: str) -> None:
+    package = package_with(tmp_path)
+    text = (package / "urdf/sizes.yaml").read_text() + "'true': 9\n"
+    (package / "urdf/sizes.yaml").write_text(text)
+    (package / "subt-check.toml").write_text(f"[xacro-args]\nkind = {value}\n")
+    assert judged(package).facts["links"] == 2
