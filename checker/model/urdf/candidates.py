@@ -132,7 +132,7 @@ def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
     left = [path for path in _files(package) if path not in seen and _holds_parts(package, path)]
     if not left:
         return
-    elsewhere = frozenset(_included_elsewhere(package))
+    elsewhere = _with_their_parts(package, left, set(_included_elsewhere(package)))
     for path in left:
         if posixpath.basename(path) not in elsewhere:
             yield f"{path} is not read: no file that stands for a robot includes it"
@@ -145,6 +145,27 @@ def _holds_parts(package: Package, path: str) -> bool:
     return any(next(document.root.descendants(tag), None) is not None for tag in _PARTS)
 
 
+def _with_their_parts(package: Package, paths: list[str], names: set[str]) -> set[str]:
+    """Return names of files with those that such files of the package include, and so on."""
+    included = {path: _INCLUDED.findall(_text(package, path)) for path in paths}
+    for _ in paths:
+        found = {
+            name
+            for path, parts in included.items()
+            if posixpath.basename(path) in names
+            for name in parts
+        }
+        if found <= names:
+            break
+        names |= found
+    return names
+
+
+def _text(package: Package, path: str) -> str:
+    source = package.read(path)
+    return source.text if isinstance(source, SourceText) else ""
+
+
 def _included_elsewhere(package: Package) -> Iterator[str]:
     """Yield the names of the files that the xacro files of other packages include."""
     files = (
@@ -154,6 +175,4 @@ def _included_elsewhere(package: Package) -> Iterator[str]:
         for file in other.index.with_suffix(".xacro")
     )
     for other, path in islice(files, _INCLUDING_LIMIT):
-        source = other.read(path)
-        if isinstance(source, SourceText):
-            yield from _INCLUDED.findall(source.text)
+        yield from _INCLUDED.findall(_text(other, path))
