@@ -1,8 +1,8 @@
 """An argument of a launch file that is used, and that nothing declares before.
 
 The launch ends with "launch configuration 'x' does not exist", unless whoever starts it gives
-`x:=…`. Actions are visited in order: a declaration counts for what follows it. Files that another
-package at hand names may get the argument from there and are not judged.
+`x:=…`. Actions are visited in order: a declaration counts for what follows it. What an included
+file that is not at hand may declare is not judged, nor are files that another one at hand names.
 
 Fix: add `DeclareLaunchArgument('x', default_value=…)` before its use.
 Source: launch, `LaunchConfiguration.perform`: without a default, a missing one raises an error.
@@ -54,6 +54,12 @@ GOOD = [
         "@ros2": _USE,
         "launch/all.launch.xml": '<launch><let name="view" value="a"/>'
         '<include file="$(dirname)/arm.launch.py"/></launch>',
+    },
+    {
+        "@ros2": """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
+            [FindPackageShare('nav2_bringup'), '/launch/x.launch.py'])),
+"""
+        + _USE
     },
 ]
 BAD = [

@@ -247,7 +247,9 @@ class Visitor:
             where = made.keywords.get(name, made.span)
             message = f"{made.name} takes no keyword {name!r}"
             context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
-        if "executable" not in made.values and "node_executable" not in made.values:
+        # Containers have a usual program in newer releases.
+        stated = {"executable", "node_executable"}.intersection(made.values)
+        if not stated and made.name != "ComposableNodeContainer":
             message = f"{made.name} has no executable"
             context.fault(LaunchFaultKind.ATTRIBUTE, made.span, message, "executable")
 
@@ -309,6 +311,8 @@ class Visitor:
         for name, value in arguments.items():
             context.state.configurations[name] = PlacedText(value.value, value.span)
         became = self._files.include(target, context)
+        if became.reason:
+            context.state.beyond = True
         self.found.includes.append(
             Include(
                 target=_located(target, made.span),

@@ -113,6 +113,8 @@ def _configuration(made: Made, context: Context) -> Text:
         return perform(context.state.configurations[str(name)], context, made.span)
     if made.values.get("default") is not None:
         return perform(made.values["default"], context, made.span)
+    if context.state.beyond:
+        return PlacedText(f"$(var {name})", made.span)
     if is_known(name):
         message = f"argument {str(name)!r} is used and nothing declares it"
         context.fault(LaunchFaultKind.UNDECLARED_ARGUMENT, made.span, message, str(name))

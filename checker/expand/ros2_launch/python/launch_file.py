@@ -37,6 +37,9 @@ def parsed(source: SourceText) -> ast.Module | str:
 def read_python(source: SourceText, allowance: Allowance, world: World, found: Gathered) -> Value:
     """Return the launch description of a file."""
     tree = parsed(source)
+    if isinstance(tree, str) and "f-string" in tree:
+        # Newer releases of Python read f-strings that this one does not.
+        return Unknown(f"the file is not read: {tree}", source.whole())
     if isinstance(tree, str):
         message = f"the launch file is no Python that can be read: {tree}"
         found.faults.append(LaunchFault(LaunchFaultKind.SYNTAX, _line(source, tree), message))
