@@ -108,6 +108,15 @@ def is_missing(package: Package, path: SharePath) -> bool:
     return not there and not _may_be_made(holder, path.path)
 
 
+def lies_elsewhere(package: Package, path: SharePath) -> str:
+    """Return where a package has a file of that name, if it has just one; else nothing."""
+    holder = holder_of(package, path.package)
+    name = posixpath.basename(path.path)
+    files = holder.index.files if holder is not None else ()
+    found = [file.path for file in files if posixpath.basename(file.path) == name]
+    return found[0] if len(found) == 1 else ""
+
+
 def is_left_out(package: Package, path: SharePath) -> bool:
     """Whether a package at hand has a file, and certainly does not install it there."""
     holder = holder_of(package, path.package)
