@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Mapping
-from textwrap import wrap
+from textwrap import dedent, wrap
 from typing import Any
 
 from checker.base.errors import CheckerError

@@ -79,7 +79,14 @@ _GENERATED = "This page is generated from the rules: `make golden`."
 _SHORT = 16
 """Lines of an example that is shown."""
 _CODE = re.compile(r"(?<!`)(`+)(?!`).*?(?<!`)\1(?!`)", re.DOTALL)
-_LANGUAGES = {".rb": "ruby", ".md": "markdown", ".yaml": "yaml", ".yml": "yaml", ".txt": "cmake"}
+_LANGUAGES = {
+    ".rb": "ruby",
+    ".md": "markdown",
+    ".yaml": "yaml",
+    ".yml": "yaml",
+    ".txt": "cmake",
+    ".py": "python",
+}
 """By the suffix of a file; the others hold XML."""
 
 
