@@ -11,7 +11,7 @@ ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
 """
 
 from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.ros2_launch.named_paths import is_missing, named_paths
+from checker.expand.ros2_launch.named_paths import is_missing, lies_elsewhere, named_paths
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -23,9 +23,11 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
         for named in named_paths(graph):
             if is_missing(package, named.path):
                 what = "the included file" if named.include else "the file"
+                found = lies_elsewhere(package, named.path)
+                hint = f": {found} is not installed there" if found else ""
                 yield finding(
                     named,
-                    f"{what} {named.path} does not exist",
+                    f"{what} {named.path} does not exist{hint}",
                     severity=None if named.needed else Severity.WARNING,
                 )
 

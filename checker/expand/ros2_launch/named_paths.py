@@ -16,13 +16,14 @@ from checker.expand.ros2_launch.graph import (
     share_path,
 )
 from checker.expand.ros2_launch.package_files import holder_of, own_names
-from checker.expand.xacro.files import ROOT
 from checker.package.installed import source_of
 from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
 
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
-_INSIDE = re.compile(rf"{ROOT}/[\w./+-]{{1,400}}")
+_WORD = re.compile(r"[\w-]+")
+_INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
+"""A path below `ROOT`."""
 _GENERATES = re.compile(
     r"\b(?:add_custom_command|configure_file|xacro_\w{1,40}|file\s{0,8}\(\s{0,8}(?:GENERATE|DOWNLOAD)"
     r"|ExternalProject_Add|FetchContent_\w{1,40}|execute_process)\b",
@@ -107,6 +108,15 @@ def is_missing(package: Package, path: SharePath) -> bool:
     return not there and not _may_be_made(holder, path.path)
 
 
+def lies_elsewhere(package: Package, path: SharePath) -> str:
+    """Return where a package has a file of that name, if it has just one; else nothing."""
+    holder = holder_of(package, path.package)
+    name = posixpath.basename(path.path)
+    files = holder.index.files if holder is not None else ()
+    found = [file.path for file in files if posixpath.basename(file.path) == name]
+    return found[0] if len(found) == 1 else ""
+
+
 def is_left_out(package: Package, path: SharePath) -> bool:
     """Whether a package at hand has a file, and certainly does not install it there."""
     holder = holder_of(package, path.package)
@@ -138,7 +148,7 @@ def _may_be_made(holder: Package, path: str) -> bool:
         source = holder.read(file)
         if not isinstance(source, SourceText):
             continue
-        if _GENERATES.search(source.text) or re.search(rf"\b{re.escape(stem)}\b", source.text):
+        if _GENERATES.search(source.text) or stem in _WORD.findall(source.text):
             return True
     return False
 
