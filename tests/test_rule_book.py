@@ -24,7 +24,7 @@ BOOK = {
     "BRD": 3,
     "ROS": 15,
     "DOC": 9,
-    "URD": 19,
+    "URD": 20,
     "CTL": 8,
     "LCH": 11,
     "WLD": 3,

@@ -359,17 +359,21 @@ class Subject(Record, eq=False, dict=True):
 
     @property
     def settled(self) -> tuple[SettledTrial, ...] | NotAvailable:
-        """The same, if the robots come to rest before they drive."""
+        """Those of them that come to rest before they drive."""
         # Whoever asks for these has the figures shown, too.
         self.part(RobotTrial)
         driven = self.driven
         if isinstance(driven, NotAvailable):
             return driven
-        for robot_trial in driven:
-            unfit = robot_trial.unlike or robot_trial.robot.stuck_wheel
-            if reason := unfit or unrest_of(robot_trial.trial):
-                return NotAvailable(reason)
-        return tuple(SettledTrial(each.robot, each.trial) for each in driven)
+        reasons = [
+            each.unlike or each.robot.stuck_wheel or unrest_of(each.trial) for each in driven
+        ]
+        fit = [each for each, reason in zip(driven, reasons, strict=True) if not reason]
+        unfit = next(filter(None, reasons), "")
+        if not fit:
+            return NotAvailable(unfit)
+        first, *others = (SettledTrial(each.robot, each.trial) for each in fit)
+        return (replace(first, others=unfit), *others)
 
     @property
     def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAvailable:

@@ -29,6 +29,8 @@ def check(
     """
     if driven.robot.unread_plugins and driven.trial.drive == DriveKind.NONE:
         yield unchecked(driven.robot.unread_plugins)
+    if driven.others:
+        yield unchecked(driven.others)
     if driven.trial.not_driven:
         yield unchecked(f"the robot was not driven: {driven.trial.not_driven}")
     ratio, leg = driven.trial.value("speed_ratio"), driven.leg("drive")

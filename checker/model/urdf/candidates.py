@@ -73,6 +73,8 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
     if not chosen or package.kind is PackageKind.URDF_DESCRIPTION:
         others = [path for path in _outermost(package) if path not in chosen]
         chosen |= {path: Candidate(path) for path in others}
+    if not chosen and package.kind is PackageKind.URDF_DESCRIPTION:
+        chosen = {path: Candidate(path) for path in _made_of(package)}
     return [*chosen.values()][:CANDIDATES_LIMIT]
 
 
@@ -138,6 +140,18 @@ def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
             yield f"{path} is not read: no file that stands for a robot includes it"
 
 
+def _made_of(package: Package) -> Iterator[str]:
+    """Yield the robots of sibling packages that include files of a package of macros alone."""
+    own = {posixpath.basename(path) for path in _files(package) if _holds_parts(package, path)}
+    for other, path in _xacro_elsewhere(package) if own else ():
+        text = _text(other, path)
+        if package.root.name in text and not own.isdisjoint(_INCLUDED.findall(text)):
+            document = other.xml(path)
+            root = document.root if isinstance(document, XmlDocument) else None
+            if root is not None and root.tag == "robot" and root.get("name"):
+                yield f"../{other.name}/{path}"
+
+
 def _holds_parts(package: Package, path: str) -> bool:
     document = package.xml(path)
     if not isinstance(document, XmlDocument) or document.root.tag != "robot":
@@ -168,11 +182,15 @@ def _text(package: Package, path: str) -> str:
 
 def _included_elsewhere(package: Package) -> Iterator[str]:
     """Yield the names of the files that the xacro files of other packages include."""
+    for other, path in _xacro_elsewhere(package):
+        yield from _INCLUDED.findall(_text(other, path))
+
+
+def _xacro_elsewhere(package: Package) -> Iterator[tuple[Package, str]]:
     files = (
         (other, file.path)
         for other in package.workspace.packages.values()
         if other is not package
         for file in other.index.with_suffix(".xacro")
     )
-    for other, path in islice(files, _INCLUDING_LIMIT):
-        yield from _INCLUDED.findall(_text(other, path))
+    return islice(files, _INCLUDING_LIMIT)

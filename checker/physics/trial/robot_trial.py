@@ -12,10 +12,15 @@ from checker.physics.trial.trial import Leg, Trial
 
 
 class RobotTrial(Record, eq=False, dict=True):
-    """A robot that was driven, and what was measured."""
+    """A robot that was driven, and what was measured.
+
+    Attributes:
+        others: Why other robots of the package are not among those; of the first robot only.
+    """
 
     robot: Robot
     trial: Trial
+    others: str = ""
 
     def link(self, name: str) -> Link | Robot:
         """Return the link of a scoped name; the robot if there is none."""
@@ -96,7 +101,7 @@ class SettledTrial(RobotTrial):
     """A robot that came to rest before it was driven: figures of its drive mean something."""
 
 
-class RepeatedTrial(RobotTrial):
+class RepeatedTrial(RobotTrial, kw_only=True):
     """A robot that was driven twice.
 
     Attributes:
