@@ -21,15 +21,15 @@ export PYTHONDONTWRITEBYTECODE :=
 
 demo: .venv/installed $(VIEWER)
 	@mkdir -p demo
-	@echo "== good robots: on wheels, on steered wheels, on tracks, and in the air"
-	@$(BIN)/subt-check samples/husky_migration_sensor_config_1 samples/subtcheck_*_sensor_config_1 \
+	@echo "== good robots: of ROS 2 on two wheels; of SubT on wheels, on tracks, and in the air"
+	@$(BIN)/subt-check samples/acme_scout samples/husky_migration_sensor_config_1 samples/subtcheck_*_sensor_config_1 \
 	  | tee demo/good.txt
-	@echo "== a robot with faults (the first lines; everything is in demo/broken.txt)"
-	@$(BIN)/subt-check samples/broken_rover_sensor_config_1 --report demo > demo/broken.txt; \
-	  test $$? -eq 1
+	@echo "== a robot of ROS 2 with faults (the first lines; everything is in demo/broken.txt)"
+	@$(BIN)/subt-check samples/broken_acme_scout samples/broken_rover_sensor_config_1 --report demo \
+	  > demo/broken.txt; test $$? -eq 1
 	@head -n 40 demo/broken.txt
 	@tail -n 1 demo/broken.txt
-	@echo "== results: demo/report.html (open it in a browser), demo/broken.txt, demo/good.txt"
+	@echo "== results: demo/index.html (open it in a browser), demo/broken.txt, demo/good.txt"
 
 # The environment of the first tier, of lint and of types.
 dev: .venv/dev

@@ -11,9 +11,11 @@ with `@` mean:
 - `@links`: symbolic links, each with its target.
 - `@urdf`: a URDF package instead: an arm of one joint, its controller and its launch files. The
   text takes the place of the arm's transmission and plugin; True leaves these as they are.
-- `@ros2`: a ROS 2 package instead: a rover with a lidar, the launch file that starts Gazebo, spawns
-  it and bridges its topics, and `config/bridge.yaml`, whose place the text takes; True leaves it.
-- `@launch`: a mapping of texts in the launch file of a ROS 2 package to what takes their place.
+- `@ros2`: a ROS 2 package instead: an arm in xacro, a YAML file, and `launch/arm.launch.py`, whose
+  launch description holds the text; True starts the arm alone.
+- `@bridge`: a ROS 2 package instead: a rover with a lidar, the launch file that starts Gazebo,
+  spawns it and bridges its topics, and `config/bridge.yaml`, whose place the text takes.
+- `@launch`: a mapping of texts in the launch file of that package to what takes their place.
 - `@with`: ids of rules that run along.
 - `@profile`: the profile that judges it instead of the first one that has the rule.
 - `@reported`: what must be reported where no marker can stand.
@@ -182,12 +184,12 @@ URDF_MINIMAL: Mapping[str, str] = {
 """,
 }
 
-ROS2_NAME = "acme_rover_bringup"
+BRIDGE_NAME = "acme_rover_bringup"
 _LAUNCHED = "launch/rover.launch.py"
 
-ROS2_MINIMAL: Mapping[str, str] = {
+BRIDGE_MINIMAL: Mapping[str, str] = {
     "package.xml": f"""<package format="3">
-  <name>{ROS2_NAME}</name>
+  <name>{BRIDGE_NAME}</name>
   <version>1.0.0</version>
   <description>A rover in Gazebo</description>
   <maintainer email="a@example.org">A</maintainer>
@@ -197,7 +199,7 @@ ROS2_MINIMAL: Mapping[str, str] = {
 </package>
 """,
     "CMakeLists.txt": f"""cmake_minimum_required(VERSION 3.8)
-project({ROS2_NAME})
+project({BRIDGE_NAME})
 find_package(ament_cmake REQUIRED)
 install(DIRECTORY config launch urdf DESTINATION share/${{PROJECT_NAME}})
 ament_package()
@@ -222,7 +224,7 @@ from launch import LaunchDescription
 from launch.actions import IncludeLaunchDescription
 from launch_ros.actions import Node
 
-HERE = get_package_share_directory("{ROS2_NAME}")
+HERE = get_package_share_directory("{BRIDGE_NAME}")
 URDF = os.path.join(HERE, "urdf", "rover.urdf")
 
 
@@ -264,6 +266,58 @@ def generate_launch_description():
 }
 
 
+ROS2_NAME = "acme_arm_bringup"
+
+_ROS2_ARM = _ARM.replace("@\n", "").replace(
+    '<robot name="arm">', '<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">'
+)
+_ROS2_LAUNCH = f"""import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, IncludeLaunchDescription
+from launch.conditions import IfCondition, UnlessCondition
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+
+def in_package(*parts):
+    return PathJoinSubstitution([FindPackageShare('{ROS2_NAME}'), *parts])
+
+
+def generate_launch_description():
+    robot = Command(['xacro ', in_package('urdf', 'arm.urdf.xacro')])
+    return LaunchDescription([
+@
+    ])
+"""
+_ROS2_STATE = """        Node(package='robot_state_publisher', executable='robot_state_publisher',
+             parameters=[{'robot_description': ParameterValue(robot, value_type=str)}]),"""
+
+ROS2_MINIMAL: Mapping[str, str] = {
+    "package.xml": f"""<package format="3">
+  <name>{ROS2_NAME}</name>
+  <version>1.0.0</version>
+  <description>An arm</description>
+  <maintainer email="a@example.org">A</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+""",
+    "CMakeLists.txt": f"""cmake_minimum_required(VERSION 3.8)
+project({ROS2_NAME})
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY config launch urdf DESTINATION share/${{PROJECT_NAME}})
+ament_package()
+""",
+    "urdf/arm.urdf.xacro": _ROS2_ARM,
+    "config/arm.yaml": "arm:\n  ros__parameters: {rate: 10}\n",
+}
+
+
 def model_with(fragment: str) -> str:
     """Return a model.sdf that holds a fragment where its first element belongs."""
     first = re.search(r"<([A-Za-z_][\w:.-]*)", fragment)
@@ -286,10 +340,18 @@ def write_example(example: Example, workspace: Path) -> Path:
     """Write the package of an example below a folder and return its own folder."""
     changes: dict[str, Any] = {"@fragment": example} if isinstance(example, str) else dict(example)
     urdf, ros2 = changes.pop("@urdf", None), changes.pop("@ros2", None)
-    usual = NAME if urdf is None else URDF_NAME
-    package: Path = workspace / changes.pop("@name", usual if ros2 is None else ROS2_NAME)
+    bridge = changes.pop("@bridge", None)
+    usual = next(
+        (
+            name
+            for given, name in ((urdf, URDF_NAME), (ros2, ROS2_NAME), (bridge, BRIDGE_NAME))
+            if given is not None
+        ),
+        NAME,
+    )
+    package: Path = workspace / changes.pop("@name", usual)
     links: Mapping[str, str] = changes.pop("@links", {})
-    contents = _base(urdf, ros2, changes.pop("@launch", {}))
+    contents = _base(urdf, ros2, bridge, changes.pop("@launch", {}))
     for path, text in changes.items():
         if path == "@fragment":
             contents["model.sdf"] = model_with(text)
@@ -308,12 +370,17 @@ def write_example(example: Example, workspace: Path) -> Path:
     return package
 
 
-def _base(urdf: Any, ros2: Any, launch: Mapping[str, str]) -> dict[str, str | bytes | None]:
+def _base(
+    urdf: Any, ros2: Any, bridge: Any, launch: Mapping[str, str]
+) -> dict[str, str | bytes | None]:
     """Return the package that an example changes."""
+    if bridge is not None:
+        own = {} if bridge is True else {"config/bridge.yaml": bridge}
+        launched = _changed(BRIDGE_MINIMAL[_LAUNCHED], launch)
+        return {**BRIDGE_MINIMAL, **own, _LAUNCHED: launched}
     if ros2 is not None:
-        own = {} if ros2 is True else {"config/bridge.yaml": ros2}
-        launched = _changed(ROS2_MINIMAL[_LAUNCHED], launch)
-        return {**ROS2_MINIMAL, **own, _LAUNCHED: launched}
+        entities = _ROS2_STATE if ros2 is True else ros2.strip("\n")
+        return {**ROS2_MINIMAL, "launch/arm.launch.py": _ROS2_LAUNCH.replace("@", entities)}
     if urdf is not None:
         inside = _ARM_CONTROL if urdf is True else urdf
         return {**URDF_MINIMAL, "urdf/arm.urdf": _ARM.replace("@", inside)}

@@ -24,10 +24,12 @@ BOOK = {
     "BRD": 3,
     "ROS": 15,
     "DOC": 9,
-    "URD": 19,
+    "URD": 20,
     "CTL": 8,
     "BRG": 9,
+    "LCH": 11,
     "WLD": 3,
+    "R2C": 13,
     "TRI": 18,
 }
 """The groups of the book, and the number of the last rule of each; none is left out."""

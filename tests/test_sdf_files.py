@@ -26,7 +26,7 @@ VALID = sorted((FILES / "valid").glob("*.sdf"))
 INVALID = sorted((FILES / "invalid").glob("*.sdf"))
 TOLERATED = sorted((FILES / "tolerated").glob("*.sdf"))
 
-_MARKER = re.compile(r"\^ ([A-Z]{3}\d{3})")
+_MARKER = re.compile(r"\^ ([A-Z][A-Z0-9]{2}\d{3})")
 
 
 def checked(file: Path) -> Report:

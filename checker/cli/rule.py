@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Mapping
-from textwrap import wrap
+from textwrap import dedent, wrap
 from typing import Any
 
 from checker.base.errors import CheckerError
@@ -54,11 +54,15 @@ def _example(example: object) -> str:
 def _lines(path: str, text: Any) -> Iterator[str]:
     """Show one entry of an example (see `checker.rule_testing`)."""
     match path, text:
-        case "@reported" | "@with", _:
+        case "@reported" | "@with" | "@profile", _:
             pass
         case (("@fragment" | "@urdf"), str()):
             file = "model.sdf" if path == "@fragment" else "urdf/arm.urdf"
             yield f"{file}:\n{_indented(text.strip())}"
+        case "@ros2", str():
+            yield f"launch/arm.launch.py starts:\n{_indented(dedent(text).strip())}"
+        case "@ros2", _:
+            yield "launch/arm.launch.py starts an arm that urdf/arm.urdf.xacro describes"
         case "@urdf", _:
             yield "urdf/arm.urdf contains an arm with a transmission for its joint"
         case "@robot", _:

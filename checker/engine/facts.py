@@ -146,7 +146,15 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
         return ()
     weighed, driven = subject.provided(MassProperties), subject.provided(RobotTrial)
     facts = [
-        dict(_finite(_facts(robot, _at(weighed, number), _at(driven, number))))
+        dict(
+            _finite(
+                _facts(
+                    robot,
+                    _at(weighed, number),
+                    next((each for each in driven if each.robot is robot), None),
+                )
+            )
+        )
         for number, robot in enumerate(robots[:ROBOTS_LIMIT])
     ]
     if len(robots) > 1:

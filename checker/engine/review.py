@@ -187,8 +187,9 @@ def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotCh
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
     if isinstance(subject.display, NotAvailable):
         return None, ()
-    driven = subject.provided(RobotTrial)
+    first = subject.display.robots[0]
+    trials = (each.trial for each in subject.provided(RobotTrial) if each.robot is first)
     try:
-        return subject.display.made(driven[0].trial if driven else None), ()
+        return subject.display.made(next(trials, None)), ()
     except Exception as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
         return None, (crashed("display", error),)

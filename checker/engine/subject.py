@@ -34,6 +34,16 @@ from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
 from checker.model.robot import Robot
 from checker.model.ros.simulation import Simulations, simulations
+from checker.model.ros2_control.launched import (
+    LaunchedControl,
+    launched_controls,
+    launched_files,
+)
+from checker.model.ros2_control.robot_control import (
+    ControlReader,
+    RobotControl,
+    may_be_controlled,
+)
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.expanded import SUFFIX, expanded_model
 from checker.model.sdf.includes import ModelIncludes, included_model
@@ -254,7 +264,7 @@ class Subject(Record, eq=False, dict=True):
             return (
                 descriptions
                 if isinstance(descriptions, NotAvailable)
-                else tuple(description.robot for description in descriptions)
+                else tuple(map(self._controlled, descriptions))
             )
         robots = read_sdf(self.model, ModelIncludes(self.package))
         if self.package.kind is PackageKind.WORLD:
@@ -270,6 +280,43 @@ class Subject(Record, eq=False, dict=True):
                 reason = missing if isinstance(missing, str) else reason
             return NotAvailable(reason, applicable=not nothing_to_see)
         return (self._with_spawned_plugins(robots[0]), *robots[1:])
+
+    def _controlled(self, description: UrdfDescription) -> Robot:
+        """Return the robot of a description with its controllers."""
+        control = self.controls_by_file.get(description.file)
+        robot = description.robot
+        return robot if control is None else replace(robot, controllers=control.controllers)
+
+    @cached_property
+    def controls_by_file(self) -> dict[str, RobotControl]:
+        """ros2_control of the robots that have it, by the file of their description."""
+        descriptions = self.descriptions
+        known = () if isinstance(descriptions, NotAvailable) else descriptions
+        if not any(may_be_controlled(description) for description in known):
+            return {}
+        graphs = () if isinstance(self.ros2_launch, NotAvailable) else self.ros2_launch.entries
+        reader = ControlReader(self.package, launched_files(self.package, graphs))
+        controls = ((description.file, reader.control(description)) for description in known)
+        return {file: control for file, control in controls if control is not None}
+
+    @property
+    def launched_controls(self) -> tuple[LaunchedControl, ...] | NotAvailable:
+        """What each launch file of ROS 2 does for ros2_control."""
+        if isinstance(self.ros2_launch, NotAvailable):
+            return self.ros2_launch
+        controls = () if isinstance(self.descriptions, NotAvailable) else self.robot_controls
+        known = () if isinstance(controls, NotAvailable) else controls
+        found = tuple(launched_controls(self.package, self.ros2_launch.entries, known))
+        return found or NotAvailable("no launch file spawns a controller", applicable=False)
+
+    @property
+    def robot_controls(self) -> tuple[RobotControl, ...] | NotAvailable:
+        """ros2_control of each robot that has it."""
+        if isinstance(self.descriptions, NotAvailable):
+            return self.descriptions
+        if not self.controls_by_file:
+            return NotAvailable("no robot is controlled by ros2_control", applicable=False)
+        return tuple(self.controls_by_file.values())
 
     def _with_spawned_plugins(self, robot: Robot) -> Robot:
         if isinstance(self.spawned, NotAvailable):
@@ -313,17 +360,21 @@ class Subject(Record, eq=False, dict=True):
 
     @property
     def settled(self) -> tuple[SettledTrial, ...] | NotAvailable:
-        """The same, if the robots come to rest before they drive."""
+        """Those of them that come to rest before they drive."""
         # Whoever asks for these has the figures shown, too.
         self.part(RobotTrial)
         driven = self.driven
         if isinstance(driven, NotAvailable):
             return driven
-        for robot_trial in driven:
-            unfit = robot_trial.unlike or robot_trial.robot.stuck_wheel
-            if reason := unfit or unrest_of(robot_trial.trial):
-                return NotAvailable(reason)
-        return tuple(SettledTrial(each.robot, each.trial) for each in driven)
+        reasons = [
+            each.unlike or each.robot.stuck_wheel or unrest_of(each.trial) for each in driven
+        ]
+        fit = [each for each, reason in zip(driven, reasons, strict=True) if not reason]
+        unfit = next(filter(None, reasons), "")
+        if not fit:
+            return NotAvailable(unfit)
+        first, *others = (SettledTrial(each.robot, each.trial) for each in fit)
+        return (replace(first, others=unfit), *others)
 
     @property
     def driven_twice(self) -> tuple[RepeatedTrial, ...] | NotAvailable:
@@ -475,6 +526,8 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     Ros2Launch: lambda subject: subject.ros2_launch,
     Simulations: lambda subject: subject.simulations,
     ControlSystem: lambda subject: subject.control,
+    RobotControl: lambda subject: subject.robot_controls,
+    LaunchedControl: lambda subject: subject.launched_controls,
     Specification: lambda subject: subject.specification,
     UrdfDescription: lambda subject: subject.descriptions,
     UrdfFiles: lambda subject: subject.urdf_files,

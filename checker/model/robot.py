@@ -32,6 +32,7 @@ from checker.model.locomotion.drive import WING_CLASSES, driven_joints, find_whe
 from checker.model.locomotion.locomotion import DriveKind, Locomotion
 from checker.model.locomotion.reader import read_locomotion
 from checker.model.mesh import Mesh, Meshes, MeshFault, MeshUse, NoMeshes, mesh_of
+from checker.model.ros2_control.controllers import Controller
 from checker.model.tree import LinkTree, link_tree
 from checker.model.unknowns import (
     LooseParts,
@@ -59,6 +60,7 @@ class Robot(Part, dict=True):
         merges_unknown: Whether such a model would have given its parts to the one around it.
         unread_plugins: Why plugins that the spawner adds are not among these; else empty.
         meshes: What its mesh files hold.
+        controllers: Of ros2_control, that move its joints.
     """
 
     document: XmlDocument
@@ -76,6 +78,7 @@ class Robot(Part, dict=True):
     merges_unknown: bool = False
     unread_plugins: str = ""
     meshes: Meshes = NoMeshes()
+    controllers: tuple[Controller, ...] = ()
 
     @cached_property
     def links_by_name(self) -> dict[str, Link]:

@@ -21,6 +21,8 @@ _PATTERN_LIMIT = 200
 def source_of(package: Package, path: str) -> str | None:
     """Return the path in the source of what is installed at a path; None when nothing is.
 
+    Without a build file, the only file whose path ends so is taken for it.
+
     Args:
         package: That installs it.
         path: Below the installed package's folder, such as `urdf/arm.urdf`.
@@ -32,7 +34,13 @@ def source_of(package: Package, path: str) -> str | None:
             found = posixpath.normpath(posixpath.join(origin, posixpath.relpath(path, target)))
             if package.exists(found):
                 return found
-    return None
+    return _only_one(package, path) if package.build is None and package.setup is None else None
+
+
+def _only_one(package: Package, path: str) -> str | None:
+    """Return the one file whose path ends so, where nothing tells how files are installed."""
+    found = [file.path for file in package.index.files if file.path.endswith(f"/{path}")]
+    return found[0] if len(found) == 1 else None
 
 
 def installed_items(build: CMakeFile) -> Iterator[tuple[str, str]]:

@@ -21,7 +21,7 @@ _END = r"$(?!\n)"
 """The end of a text: Python's `$` alone also matches in front of a line's end."""
 Word = Annotated[str, Meta(pattern=rf"^[A-Za-z0-9_-]{{1,100}}{_END}")]
 """An id or a name of the checker's own."""
-RuleId = Annotated[str, Meta(pattern=rf"^[A-Z]+[0-9]+{_END}", max_length=100)]
+RuleId = Annotated[str, Meta(pattern=rf"^[A-Z][A-Z0-9]*[0-9]{_END}", max_length=100)]
 Fingerprint = Annotated[str, Meta(pattern=rf"^[0-9a-f]{{16}}{_END}")]
 Count = Annotated[int, Meta(ge=1, lt=10**9)]
 """A line or a column."""

@@ -79,7 +79,14 @@ _GENERATED = "This page is generated from the rules: `make golden`."
 _SHORT = 16
 """Lines of an example that is shown."""
 _CODE = re.compile(r"(?<!`)(`+)(?!`).*?(?<!`)\1(?!`)", re.DOTALL)
-_LANGUAGES = {".rb": "ruby", ".md": "markdown", ".yaml": "yaml", ".yml": "yaml", ".txt": "cmake"}
+_LANGUAGES = {
+    ".rb": "ruby",
+    ".md": "markdown",
+    ".yaml": "yaml",
+    ".yml": "yaml",
+    ".txt": "cmake",
+    ".py": "python",
+}
 """By the suffix of a file; the others hold XML."""
 
 
@@ -175,6 +182,8 @@ def _example(example: object) -> str:
 
 
 def _shown(path: str, text: Any) -> str:
+    if path == "@ros2" and isinstance(text, str):
+        return _fenced(dedent(text), "arm.launch.py")
     if not isinstance(text, str) or (path.startswith("@") and path not in ("@fragment", "@urdf")):
         return ""
     block = _fenced(text, "model.sdf" if path.startswith("@") else path)

@@ -112,6 +112,16 @@ def read_yaml(source: SourceText) -> YamlDocument:
     return YamlDocument(source, root, tuple(builder.faults))
 
 
+def is_yaml(text: str) -> bool:
+    """Whether a text is YAML to its end; `read_yaml` reads no further than its first value."""
+    try:
+        for _ in parse(text, Loader=CSafeLoader):
+            pass
+    except YAMLError:
+        return False
+    return True
+
+
 @dataclass(eq=False)
 class _Open:
     """A sequence or mapping whose end has not come yet."""

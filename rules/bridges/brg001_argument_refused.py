@@ -23,12 +23,12 @@ def check(simulations: Simulations) -> Findings:
 
 
 def _bridge(argument: str, mark: str = "") -> dict[str, object]:
-    return {"@ros2": True, "@launch": {"arguments=[]": f'arguments=["{argument}"]{mark}'}}
+    return {"@bridge": True, "@launch": {"arguments=[]": f'arguments=["{argument}"]{mark}'}}
 
 
 _MARK = ",  # ^ BRG001\n#"
 GOOD = [
-    {"@ros2": True},
+    {"@bridge": True},
     _bridge("/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan"),
     _bridge("/scan@sensor_msgs/msg/LaserScan@gz.msgs.LaserScan"),
     _bridge("/world/w/control@ros_gz_interfaces/srv/ControlWorld"),

@@ -73,12 +73,14 @@ def _unknown_message(gz: Located[str], ros: str) -> Finding:
 def _entry(ros: str, gz: str, mark: str = "") -> dict[str, object]:
     lines = ("- topic_name: a", f"  ros_type_name: {ros}", f"  gz_type_name: {gz}")
     return {
-        "@ros2": "\n".join(lines).replace(mark, f"{mark}  # ^ BRG002") if mark else "\n".join(lines)
+        "@bridge": "\n".join(lines).replace(mark, f"{mark}  # ^ BRG002")
+        if mark
+        else "\n".join(lines)
     }
 
 
 GOOD = [
-    {"@ros2": True},
+    {"@bridge": True},
     _entry("sensor_msgs/msg/Imu", "gz.msgs.IMU"),
     _entry("sensor_msgs/msg/Imu", "ignition.msgs.IMU"),
     _entry("geometry_msgs/msg/TwistStamped", "gz.msgs.Twist"),
@@ -92,7 +94,7 @@ BAD = [
     _entry("acme_msgs/msg/Pulse", "gz.msgs.Odometry", "acme_msgs/msg/Pulse"),
     _entry("acme_msgs/msg/Pulse", "acme.msgs.Pulse", "acme.msgs.Pulse"),
     {
-        "@ros2": True,
+        "@bridge": True,
         "@launch": {
             "arguments=[]": 'arguments=["/a@sensor_msgs/Imu[gz.msgs.IMU"],  # ^ BRG002\n#',
         },

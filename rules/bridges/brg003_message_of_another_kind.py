@@ -37,12 +37,14 @@ def check(simulations: Simulations) -> Findings:
 
 
 def _entry(topic: str, ros: str, gz: str, mark: str = "") -> dict[str, object]:
-    return {"@ros2": f"- topic_name: {topic}\n  ros_type_name: {ros}\n  gz_type_name: {gz}{mark}\n"}
+    return {
+        "@bridge": f"- topic_name: {topic}\n  ros_type_name: {ros}\n  gz_type_name: {gz}{mark}\n"
+    }
 
 
 _MARK = "  # ^ BRG003"
 GOOD = [
-    {"@ros2": True},
+    {"@bridge": True},
     _entry("scan/points", "sensor_msgs/msg/PointCloud2", "gz.msgs.PointCloudPacked"),
     _entry("scan", "sensor_msgs/msg/LaserScan", "gz.msgs.Laserscan"),
     _entry("elsewhere", "sensor_msgs/msg/PointCloud2", "gz.msgs.PointCloudPacked"),
@@ -51,7 +53,7 @@ BAD = [
     _entry("scan", "sensor_msgs/msg/PointCloud2", "gz.msgs.PointCloudPacked", _MARK),
     _entry("/model/rover/odometry", "tf2_msgs/msg/TFMessage", "gz.msgs.Pose_V", _MARK),
     {
-        "@ros2": True,
+        "@bridge": True,
         "@launch": {
             'executable="parameter_bridge", arguments=[],': 'executable="parameter_bridge", '
             'arguments=["/scan/points@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan"],  # ^ BRG003'

@@ -90,7 +90,7 @@ def _difference(
 
 def _entry(topic: str, ros: str, gz: str, mark: str = "") -> dict[str, object]:
     return {
-        "@ros2": f"- topic_name: {topic}{mark}\n  ros_type_name: {ros}\n  gz_type_name: {gz}\n"
+        "@bridge": f"- topic_name: {topic}{mark}\n  ros_type_name: {ros}\n  gz_type_name: {gz}\n"
         "  direction: GZ_TO_ROS\n"
     }
 
@@ -99,7 +99,7 @@ _SCAN = ("sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
 _ODOMETRY = ("nav_msgs/msg/Odometry", "gz.msgs.Odometry")
 _MARK = "  # ^ BRG004"
 GOOD = [
-    {"@ros2": True},
+    {"@bridge": True},
     _entry("/model/rover/odometry", *_ODOMETRY),
     {
         **_entry("/lidar", *_SCAN),

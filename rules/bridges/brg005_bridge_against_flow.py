@@ -55,7 +55,7 @@ def _also_bridged(simulation: Simulation, entry: BridgeEntry, way: Direction) ->
 
 def _entry(topic: str, ros: str, gz: str, way: str, mark: str = "") -> dict[str, object]:
     return {
-        "@ros2": f"- topic_name: {topic}\n  ros_type_name: {ros}\n  gz_type_name: {gz}\n"
+        "@bridge": f"- topic_name: {topic}\n  ros_type_name: {ros}\n  gz_type_name: {gz}\n"
         f"  direction: {way}{mark}\n"
     }
 
@@ -65,7 +65,7 @@ _SCAN = ("scan", "sensor_msgs/msg/LaserScan", "gz.msgs.LaserScan")
 _TWIST = ("/model/rover/cmd_vel", "geometry_msgs/msg/Twist", "gz.msgs.Twist")
 _CLOCK = ("/clock", "rosgraph_msgs/msg/Clock", "gz.msgs.Clock")
 GOOD = [
-    {"@ros2": True},
+    {"@bridge": True},
     _entry(*_TWIST, "BIDIRECTIONAL"),
     _entry("other", *_SCAN[1:], "ROS_TO_GZ"),
 ]

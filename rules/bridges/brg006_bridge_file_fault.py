@@ -39,18 +39,18 @@ def _changed(*changes: str) -> dict[str, object]:
     text = _ENTRY
     for old, new in zip(changes[::2], changes[1::2], strict=True):
         text = text.replace(old, new, 1)
-    return {"@ros2": text}
+    return {"@bridge": text}
 
 
 _MARK = "  # ^ BRG006\n"
 _FIRST = "topic_name: scan\n"
 _PARAMETERS = "bridge:\n  ros__parameters:\n    config_file: ''\n"
 GOOD = [
-    {"@ros2": True},
-    {"@ros2": _ENTRY},
+    {"@bridge": True},
+    {"@bridge": _ENTRY},
     _changed("  direction: GZ_TO_ROS\n", "  lazy: true\n  publisher_queue: 5\n"),
     _changed("  gz_topic_name: scan\n", ""),
-    {"@ros2": True, "config/bridge_parameters.yaml": _PARAMETERS},
+    {"@bridge": True, "config/bridge_parameters.yaml": _PARAMETERS},
 ]
 BAD = [
     _changed("- ", "  ", _FIRST, f"topic_name: scan{_MARK}"),
@@ -58,5 +58,5 @@ BAD = [
     _changed("  gz_type_name: gz.msgs.LaserScan\n", "", _FIRST, f"topic_name: scan{_MARK}"),
     _changed("  gz_topic_name: scan\n", f"  topic_name: scan{_MARK}"),
     _changed("  direction", f"  queue_size: 5{_MARK}  direction"),
-    {"@ros2": True, "config/other_bridge.yaml": _ENTRY.replace("GZ_TO_ROS\n", f"NONE{_MARK}")},
+    {"@bridge": True, "config/other_bridge.yaml": _ENTRY.replace("GZ_TO_ROS\n", f"NONE{_MARK}")},
 ]

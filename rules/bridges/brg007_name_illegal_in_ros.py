@@ -41,7 +41,7 @@ def _reason(name: str) -> str:
 
 def _entry(key: str, topic: str, mark: str = "") -> dict[str, object]:
     return {
-        "@ros2": f"- {key}: {topic}{mark}\n  ros_type_name: std_msgs/msg/Float64\n"
+        "@bridge": f"- {key}: {topic}{mark}\n  ros_type_name: std_msgs/msg/Float64\n"
         "  gz_type_name: gz.msgs.Double\n  direction: ROS_TO_GZ\n"
     }
 
@@ -49,7 +49,7 @@ def _entry(key: str, topic: str, mark: str = "") -> dict[str, object]:
 _MARK = "  # ^ BRG007"
 _TOPIC = "/model/rover/joint/mast/0/cmd_pos"
 GOOD = [
-    {"@ros2": True},
+    {"@bridge": True},
     _entry("topic_name", "mast/cmd_pos"),
     _entry(f"gz_topic_name: {_TOPIC}\n  ros_topic_name", "/mast_2/cmd_pos"),
 ]

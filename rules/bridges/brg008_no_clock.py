@@ -80,15 +80,15 @@ _CLOCK_ENTRY = (
 )
 _TIME = '{"use_sim_time": True}]'
 GOOD = [
-    {"@ros2": True},
-    {"@ros2": _SCAN, "@launch": {_TIME: "]"}},
-    {"@ros2": _SCAN, "@launch": {"LaunchDescription([\n": "LaunchDescription([other(),\n"}},
-    {"@ros2": _SCAN, "config/clock_bridge.yaml": _CLOCK_ENTRY.format("/clock")},
+    {"@bridge": True},
+    {"@bridge": _SCAN, "@launch": {_TIME: "]"}},
+    {"@bridge": _SCAN, "@launch": {"LaunchDescription([\n": "LaunchDescription([other(),\n"}},
+    {"@bridge": _SCAN, "config/clock_bridge.yaml": _CLOCK_ENTRY.format("/clock")},
 ]
 BAD = [
-    {"@ros2": _SCAN, "@launch": {f"{_TIME}),": f"{_TIME}),  # ^ BRG008"}},
+    {"@bridge": _SCAN, "@launch": {f"{_TIME}),": f"{_TIME}),  # ^ BRG008"}},
     {
-        "@ros2": _SCAN + _CLOCK_ENTRY.format("/rover/clock"),
+        "@bridge": _SCAN + _CLOCK_ENTRY.format("/rover/clock"),
         "@launch": {f"{_TIME}),": f"{_TIME}),  # ^ BRG008"},
     },
 ]

@@ -107,11 +107,11 @@ _SENSOR = '<sensor name="lidar" type="gpu_lidar">'
 
 
 def _rover(frame: str, mark: str = "") -> dict[str, object]:
-    text = ROS2_URDF.replace(_FRAME, frame)
-    return {"@ros2": True, "urdf/rover.urdf": text.replace(_SENSOR, _SENSOR + mark)}
+    text = _ROVER.replace(_FRAME, frame)
+    return {"@bridge": True, "urdf/rover.urdf": text.replace(_SENSOR, _SENSOR + mark)}
 
 
-ROS2_URDF = f"""<robot name="rover">
+_ROVER = f"""<robot name="rover">
   <link name="base_link"/>
   <link name="lidar_link"/>
   <joint name="lidar_joint" type="fixed">
@@ -129,11 +129,11 @@ _PUBLISHED = """Node(package="tf2_ros", executable="static_transform_publisher",
   arguments=["0", "0", "0", "0", "0", "0", "lidar_link", "rover/base_link/lidar"]),
 """
 GOOD = [
-    {"@ros2": True},
+    {"@bridge": True},
     _rover(_FRAME),
     {**_rover(""), "@launch": {"LaunchDescription([\n": f"LaunchDescription([{_PUBLISHED}"}},
     {**_rover(""), "@launch": {'executable="robot_state_publisher"': 'executable="other"'}},
-    {**_rover(""), "@ros2": "[]\n"},
+    {**_rover(""), "@bridge": "[]\n"},
 ]
 BAD = [
     _rover("", " <!-- ^ BRG009 -->"),

@@ -14,6 +14,7 @@ m·g/n.
 import math
 from collections.abc import Iterator, Sequence
 
+from checker.model.components import Plugin
 from checker.model.locomotion.friction import SlippingWheel, slipping_wheels
 from checker.model.locomotion.rotors import GRAVITY
 from checker.model.locomotion.wheels import stands_askew
@@ -101,6 +102,7 @@ def _driven(robot: Robot) -> int:
     names = [
         name.value
         for drive in robot.locomotion.wheel_drives
+        if isinstance(drive.plugin, Plugin)
         for name in drive.plugin.values("left_joint", "right_joint")
     ]
     return len(set(names))

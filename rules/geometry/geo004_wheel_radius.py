@@ -49,7 +49,7 @@ def _worst(
         return
     count = sum(other[0] > warning_above for other in off)
     length, times = ("diameter", 2) if drive.diameter_tag else ("radius", 1)
-    tag = drive.diameter_tag or "wheel_radius"
+    tag = drive.diameter_tag or drive.radius_tag
     says = f"has {tag}" if stated.stated else f"states no {tag}; its default is"
     yield finding(
         stated,

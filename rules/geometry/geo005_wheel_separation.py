@@ -24,19 +24,21 @@ def check(
 ) -> Findings:
     """Report distances less than `least` or more than `most` times the true ones.
 
-    Steering depends on the geometry only: it has a limit of its own.
+    Steering depends on the geometry only, and so does the turning of a robot whose controller
+    drives one wheel on each side: these have a limit of their own.
 
     Options:
         least: Smallest ratio of a distance in the plugin to the true distance; less is reported.
         most: Greatest ratio of the plugin's separation of wheels or tracks to the true distance;
             more is reported.
-        most_of_steering: Greatest ratio of the plugin's wheel base or kingpin width to the true
-            distance; more is reported.
+        most_of_steering: Greatest ratio of the plugin's wheel base or kingpin width, and of a
+            separation of wheels that do not slip, to the true distance; more is reported.
     """
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     for counted in counted_distances(robot):
-        highest = most_of_steering if counted.steers else most
+        exact = counted.steers or not counted.slips
+        highest = most_of_steering if exact else most
         if not least * counted.true <= counted.stated.value <= highest * counted.true:
             yield finding(counted.stated, _message(counted, least, highest))
 

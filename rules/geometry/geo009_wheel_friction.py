@@ -50,11 +50,14 @@ class _Across(enum.Enum):
     """Greatest `mu2` of a track, which must not slip sideways: Gazebo's own examples have 150."""
 
 
+_ON_ROLLERS = ("MecanumDrive", "MecanumDriveController", "OmniWheelDriveController")
+
+
 def _across(robot: Robot) -> dict[str, _Across]:
     """Return the special meaning of `mu2` for the link, judged by its name."""
     known = {track.link.scoped_name: _Across.HELD for track in robot.locomotion.tracks}
     for drive in robot.locomotion.wheel_drives:
-        if drive.plugin.class_name == "MecanumDrive":
+        if drive.plugin.class_name in _ON_ROLLERS:
             links = (link for wheel in drive.wheels for link in wheel.body)
             known.update((link.scoped_name, _Across.FREE) for link in links)
     return known

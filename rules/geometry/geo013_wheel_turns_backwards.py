@@ -71,7 +71,7 @@ def _steering(robot: Robot, drive: WheelDrive, least_cosine: float) -> Iterator[
                 drive.plugin,
                 f"{drive.plugin.called} lists steering joint {name!r} as {side}, but it is on "
                 f"the {is_on}",
-                key=f"{drive.plugin.element.path} steering",
+                key=f"{drive.path} steering",
                 related=[(joint, "the joint")],
             )
 
@@ -151,7 +151,7 @@ def _swapped(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Fi
                 wheel.name,
                 f"{drive.plugin.called} {how}, but its wheel is {abs(at - middle):.3g} m {side} of "
                 "the middle",
-                key=f"{drive.plugin.element.path} {wheel.side}",
+                key=f"{drive.path} {wheel.side}",
                 related=[(wheel.joint, "the joint")],
             )
 

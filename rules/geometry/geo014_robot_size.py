@@ -52,7 +52,7 @@ def check(
             )
     if robot.unweighed:
         yield unchecked(robot.unweighed)
-    elif box is not None and not lightest <= robot.mass <= heaviest:
+    elif box is not None and robot.mass and not lightest <= robot.mass <= heaviest:
         yield finding(
             robot,
             f"the robot weighs {robot.mass:.3g} kg, expected {lightest:g} to {heaviest:g} kg",

@@ -1,6 +1,7 @@
 """An effort or velocity limit that no motor has, or a driven joint without limits.
 
-A limit of zero holds a driven joint: the plugin may use no force, or reach no speed.
+A limit of zero holds a driven joint: the plugin may use no force, or reach no speed. The limiter of
+ros2_control, which is on from Kilted, does the same to joints with a command interface.
 
 With 1e9 N·m a wheel never stalls on any slope, and one collision throws the robot away. Without a
 limit nobody can check whether the motor is strong enough. The thrust of rotors has its own limits
@@ -15,7 +16,9 @@ from collections.abc import Iterator
 
 from checker.model.components import Axis, Joint, Plugin
 from checker.model.robot import Robot
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.model.ros2_control.distributions import distribution_of, is_from, is_of_gazebo
+from checker.model.ros2_control.hardware import Hardware, read_hardware
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 
 _MOTORS = (
     *("DiffDrive", "AckermannSteering", "MecanumDrive"),
@@ -26,10 +29,18 @@ _ROTORS = ("MulticopterMotorModel", "MulticopterVelocityControl", "Thruster")
 
 
 @rule("KIN007", "implausible-joint-limit", Severity.WARNING, Concern.ROBOT)
-def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float = 1e3) -> Findings:
+def check(
+    robot: Robot,
+    context: Context,
+    *,
+    highest_effort: float = 1e5,
+    highest_velocity: float = 1e3,
+) -> Findings:
     """Report finite limits of effort and velocity that no motor has.
 
-    A missing limit of a driven joint is information, one of zero is an error.
+    A missing limit of a driven joint is information, one of zero is an error; of a joint of
+    ros2_control it is a warning before Kilted, unless Gazebo moves it, and of any joint of a URDF
+    that may use an effort.
 
     Options:
         highest_effort: Effort in N·m (sliding joints: N); a finite limit above it is a warning.
@@ -39,6 +50,8 @@ def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float 
     if robot.unread_plugins:
         yield unchecked(robot.unread_plugins)
     highest = {"effort": highest_effort, "velocity": highest_velocity}
+    commanded = _commanded(robot)
+    limited = is_from(distribution_of(context), "kilted")
     for joint in robot.joints:
         driver = robot.driven_joints.get(joint.scoped_name)
         for axis in joint.axes:
@@ -46,6 +59,11 @@ def check(robot: Robot, *, highest_effort: float = 1e5, highest_velocity: float 
             if driver is not None and driver.class_name not in _ROTORS:
                 yield from _missing(joint, axis)
                 yield from _zero(joint, axis, driver)
+            elif (hardware := commanded.get(joint.scoped_name)) is not None:
+                yield from _missing(joint, axis)
+                yield from _held(joint, axis, hardware, limited=limited)
+            elif driver is None and robot.format == "urdf":
+                yield from _strong_but_still(joint, axis)
 
 
 def _too_high(joint: Joint, axis: Axis, highest: dict[str, float]) -> Iterator[Finding]:
@@ -68,6 +86,44 @@ def _zero(joint: Joint, axis: Axis, driver: Plugin) -> Iterator[Finding]:
                 severity=Severity.ERROR,
                 key="zero",
             )
+
+
+def _commanded(robot: Robot) -> dict[str, Hardware]:
+    """Return the joints that ros2_control commands, each with its hardware."""
+    return {
+        joint.name.value: hardware
+        for hardware in (read_hardware(robot.element) if robot.format == "urdf" else ())
+        for joint in hardware.joints
+        if joint.commands
+    }
+
+
+def _held(joint: Joint, axis: Axis, hardware: Hardware, *, limited: bool) -> Iterator[Finding]:
+    simulated = is_of_gazebo(hardware.plugin.value)
+    certain = simulated or limited
+    commands = hardware.joints_by_name[joint.name.value].commands
+    by_effort = simulated or any(command.name.value == "effort" for command in commands)
+    for kind, limit in (("effort", axis.effort), ("velocity", axis.velocity)):
+        if limit.stated and limit.value == 0.0 and (kind == "velocity" or by_effort):
+            yield finding(
+                limit,
+                f"joint {joint.name.value!r} has the {kind} limit 0, but <ros2_control> "
+                f"{hardware.name.value!r} commands it",
+                severity=Severity.ERROR if certain else None,
+                key="zero",
+            )
+
+
+def _strong_but_still(joint: Joint, axis: Axis) -> Iterator[Finding]:
+    """Report a joint that has a motor by its effort limit, and may not turn."""
+    if axis.velocity.stated and axis.velocity.value == 0.0 < axis.effort.value < math.inf:
+        yield finding(
+            axis.velocity,
+            f"joint {joint.name.value!r} has the effort limit {axis.effort.value:g} "
+            f"{_unit(joint)['effort']}, but the velocity limit 0: whatever keeps to it does not "
+            "move the joint",
+            key="zero",
+        )
 
 
 def _missing(joint: Joint, axis: Axis) -> Iterator[Finding]:
@@ -106,14 +162,40 @@ def _driven(limit: str, plugin: str = "JointController") -> str:
 """
 
 
+def _controlled(
+    limit: str, hardware: str = "mock_components/GenericSystem", joint: str = "wrist"
+) -> dict[str, str]:
+    return {
+        "@urdf": f"""
+<link name="hand"/>
+<joint name="wrist" type="revolute">
+  <parent link="upper_arm"/>
+  <child link="hand"/>
+  {limit}
+</joint>
+<ros2_control name="arm" type="system">
+  <hardware><plugin>{hardware}</plugin></hardware>
+  <joint name="{joint}"><command_interface name="position"/></joint>
+</ros2_control>
+"""
+    }
+
+
+_STEADY = '<limit lower="-1" upper="1" effort="5" velocity="1"/>'
+_HELD = '<limit lower="-1" upper="1" effort="5" velocity="0"/>'
 GOOD = [
     _driven("<limit><effort>20</effort><velocity>3</velocity></limit>"),
     _driven("", "JointStatePublisher"),
     _driven("<limit><effort>0</effort><velocity>0</velocity></limit>", "JointStatePublisher"),
+    _controlled(_STEADY),
+    _controlled('<limit lower="-1" upper="1" effort="0" velocity="1"/>'),
 ]
 BAD = [
     _driven("<limit><effort>1e9</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>20</effort><velocity>50000</velocity></limit>  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>-1</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
     _driven("<limit><effort>0</effort><velocity>3</velocity></limit>  <!-- ^ KIN007 -->"),
+    _controlled(f"{_HELD}  <!-- ^ KIN007 -->"),
+    _controlled(f"{_HELD}  <!-- ^ KIN007 -->", joint="shoulder"),
+    _controlled(f"{_HELD}  <!-- ^ KIN007 -->", "gz_ros2_control/GazeboSimSystem"),
 ]

@@ -1,9 +1,10 @@
 """A joint that mimics an unknown joint, itself, or one that mimics it in turn.
 
 The joint has no leader to follow: parsers refuse the model, or the finger of a gripper does not
-move. None of the accepted packages that we checked shows this.
+move. With a multiplier of 0 it follows by nothing, which is a warning. None of the accepted
+packages that we checked shows this.
 
-Fix: write the exact name of the leading joint.
+Fix: write the exact name of the leading joint, and the share of its motion as multiplier.
 Source: URDF, joint/mimic; SDFormat 1.11, axis/mimic.
 """
 
@@ -12,6 +13,7 @@ from collections.abc import Iterator
 from checker.base.words import Suggestions
 from checker.model.components import Joint
 from checker.model.robot import Robot
+from checker.model.values import parse_number
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 
@@ -29,7 +31,23 @@ def check(robot: Robot) -> Findings:
                 yield finding(leader, f"joint {joint.name.value!r} {phrase}")
             else:
                 leaders.setdefault(joint.scoped_name, (joint, leader))
+        yield from _held(joint)
     yield from _circles(leaders)
+
+
+def _held(joint: Joint) -> Iterator[Finding]:
+    """Report a multiplier of zero: an attribute in URDF, an element in SDF."""
+    holders = (joint.element, *joint.element.all("axis"), *joint.element.all("axis2"))
+    for mimic in (mimic for holder in holders for mimic in holder.all("mimic")):
+        element = mimic.child("multiplier")
+        written = element.text if element is not None else mimic.attribute("multiplier")
+        if written is not None and parse_number(written.value) == 0.0:
+            yield finding(
+                written,
+                f"joint {joint.name.value!r} mimics {mimic.get('joint')!r} with the multiplier 0: "
+                "it does not move",
+                severity=Severity.WARNING,
+            )
 
 
 def _circles(leaders: dict[str, tuple[Joint, Located[str]]]) -> Iterator[Finding]:
@@ -77,4 +95,5 @@ BAD = [
     _fingers(_mimic("right_finger") + _MARK),
     _fingers(_mimic("left_joint") + _MARK),
     _fingers(_mimic("right_joint") + _MARK, _mimic("left_joint")),
+    _fingers(_mimic("right_joint").replace(">1<", ">0<") + _MARK),
 ]

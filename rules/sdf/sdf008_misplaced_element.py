@@ -1,9 +1,9 @@
 """A known element in a place where it has no meaning.
 
 Simulators look for an element only in its place, so here it is skipped: `<enable_orientation>`
-directly below `<sensor>` does not reach the IMU. If the right place is set, if it only changes the
-look of a part, or if the target does not read it in its place either, it is a warning. SDF003
-reports elements that are not known in any place.
+directly below `<sensor>` does not reach the IMU. If the right place is set, if it says what is the
+default there, if it only changes the look of a part, or if the target does not read it in its place
+either, it is a warning. SDF003 reports elements that are not known in any place.
 
 Fix: move it to the place that the message names.
 Source: SDFormat specification, the version that the file states.
@@ -15,6 +15,7 @@ from checker.finding import Fix
 from checker.model.sdf.document import SdfDocument
 from checker.model.sdf.schema import ElementType, all_tags, holders_of, parents_of
 from checker.model.sdf.unread import is_appearance, is_unread
+from checker.model.values import parse_number
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule
 from checker.source.xml import Element
 from checker.source.xml_insertion import append_to, indentation_of, newline_of, removal
@@ -61,6 +62,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         parent = element.parent
         if kind is not None or parent is None or element.tag not in all_tags(sdf.version):
             continue
+        if context.release and _is_recorded(element):
+            continue
         around = parent.parent.tag if parent.parent is not None else ""
         path = (around, parent.tag, element.tag)
         if path not in belonging:
@@ -70,9 +73,11 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
         named = (_named(sdf.version, tag, *path) for tag in listed)
         belongs = "; it belongs in " + " or ".join(named) if listed else ""
         is_set = len(listed) == 1 and _is_set(element, listed[0])
+        usual = len(listed) == 1 and not is_set and _is_usual(element, listed[0], kinds)
         belongs += ", where it is set" if is_set else ""
+        belongs += f", where {element.text.value} is the default" if usual else ""
         of_others = bool(places) and not listed
-        harmless = is_set or of_others or path[1:] in HARMLESS
+        harmless = is_set or usual or of_others or path[1:] in HARMLESS
         idle = is_unread(element.tag, context.release) or is_appearance(element)
         yield finding(
             element,
@@ -98,6 +103,26 @@ def _is_set(element: Element, place: str) -> bool:
         return False
     around = [parent.parent] if parent.parent is not None and parent.parent.tag == place else []
     return any(holder.child(element.tag) is not None for holder in (*around, *parent.all(place)))
+
+
+def _is_recorded(element: Element) -> bool:
+    """Whether it stands in the `<state>` of a world, a recording that Gazebo does not read."""
+    above = element.parent
+    while above is not None and above.tag != "state":
+        above = above.parent
+    return above is not None
+
+
+def _is_usual(element: Element, place: str, kinds: _Kinds) -> bool:
+    """Whether it says what counts anyway in the right place next to the wrong one."""
+    around = element.parent.parent if element.parent is not None else None
+    holder = kinds.get(around) if around is not None else None
+    right = holder.children.get(place) if holder is not None else None
+    meant = right.children.get(element.tag) if right is not None else None
+    if meant is None or meant.default is None:
+        return False
+    said, default = parse_number(element.text.value), parse_number(meant.default)
+    return said == default if said is not None else element.text.value == meant.default
 
 
 def _places(

@@ -28,7 +28,7 @@ _FIRST_GPU_LIDAR = (1, 6)
 
 
 @rule("SEN002", "older-sensor-spelling", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, package: Package, context: Context) -> Findings:
+def check(robot: Robot, context: Context, package: Package) -> Findings:
     """Report older spellings of lidars, and lidars that the target release does not simulate."""
     if context.release == _CLASSIC or (
         not context.release and sdf_version(robot.document) < _FIRST_GPU_LIDAR

@@ -13,7 +13,7 @@ import re
 
 from checker.model.mesh import Mesh
 from checker.physics.trial.robot_trial import RobotTrial
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 
 _REPORTED = re.compile(r"\b(mass|moments?|axis|limit|size|mesh that|no mesh)\b")
 """Repairs of values that other rules report in more detail."""
@@ -23,6 +23,8 @@ _REPORTED = re.compile(r"\b(mass|moments?|axis|limit|size|mesh that|no mesh)\b")
 def check(driven: RobotTrial) -> Findings:
     """Report why the model is refused, and each repair that the trial needed."""
     trial = driven.trial
+    if driven.others:
+        yield unchecked(driven.others)
     if trial.refused:
         yield finding(
             driven.part(trial.refused_part),

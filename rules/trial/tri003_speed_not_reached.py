@@ -19,6 +19,8 @@ def check(
 ) -> Findings:
     """Report a speed that differs too much from the command.
 
+    For a robot that is not written for Gazebo it is a warning: URDF alone knows no friction.
+
     Options:
         warning_beyond: Share of the commanded speed by which the robot may be slower or faster;
             more is a warning.
@@ -27,6 +29,8 @@ def check(
     """
     if driven.robot.unread_plugins and driven.trial.drive == DriveKind.NONE:
         yield unchecked(driven.robot.unread_plugins)
+    if driven.others:
+        yield unchecked(driven.others)
     if driven.trial.not_driven:
         yield unchecked(f"the robot was not driven: {driven.trial.not_driven}")
     ratio, leg = driven.trial.value("speed_ratio"), driven.leg("drive")
@@ -39,7 +43,7 @@ def check(
             key="speed_ratio",
         )
         return
-    off = abs(ratio - 1.0)
+    off, simulated = abs(ratio - 1.0), driven.robot.is_for_gazebo
     if off <= warning_beyond:
         return
     reached = round(ratio * leg.linear, 3) + 0.0
@@ -48,19 +52,21 @@ def check(
         f"commanded to drive at {leg.linear:.3g} m/s, the robot reaches {reached:g} m/s: a "
         f"difference of {off:.0%}, expected at most "
         f"{warning_beyond:.0%}{_cause(driven, ratio, warning_beyond)}",
-        severity=Severity.ERROR if off > error_beyond else Severity.WARNING,
+        severity=Severity.ERROR if simulated and off > error_beyond else Severity.WARNING,
         key="speed_ratio",
     )
 
 
 def _cause(driven: SettledTrial, ratio: float, tolerance: float) -> str:
-    """Return the cause if the plugin's wheel radius explains the speed."""
+    """Return the cause if the plugin's wheel radius or a wheel that cannot roll explains it."""
+    if dragged := driven.rigid_steering:
+        return f"; {dragged!r} is steered, but no joint lets it roll"
     for drive in driven.robot.locomotion.wheel_drives:
         stated = drive.wheel_radius.value
         for wheel in drive.wheels:
             if wheel.radius and stated > 0.0 and abs(wheel.radius / stated - ratio) <= tolerance:
                 radius = f"the wheels have a radius of {wheel.radius:.3g} m"
-                tag = f"half of {drive.diameter_tag}" if drive.diameter_tag else "wheel_radius"
+                tag = f"half of {drive.diameter_tag}" if drive.diameter_tag else drive.radius_tag
                 return f"; {tag} is {stated:g} m, but {radius}"
     return ""
 

@@ -32,10 +32,27 @@ def check(driven: SettledTrial) -> Findings:
     if symptoms:
         yield finding(
             driven.drive,
-            "; ".join(symptoms.values()) + _CAUSES[driven.drives_backwards, driven.turns_backwards],
+            "; ".join(symptoms.values()) + _cause(driven),
             key=" ".join(symptoms),
             related=_suspects(driven),
         )
+
+
+def _cause(driven: SettledTrial) -> str:
+    backwards = driven.drives_backwards
+    if not backwards and any(_points_down(driven, joint) for joint in _steering(driven)):
+        return ": the axes of the steering joints point down"
+    return _CAUSES[backwards, driven.turns_backwards]
+
+
+def _steering(driven: SettledTrial) -> Iterator[Joint]:
+    for drive in driven.robot.locomotion.wheel_drives:
+        yield from (joint for joint, _ in drive.steering)
+
+
+def _points_down(driven: SettledTrial, joint: Joint) -> bool:
+    axis = driven.robot.axis_in_model(joint, joint.axes[0]) if joint.axes else None
+    return axis is not None and axis[2] < 0.0
 
 
 _CAUSES = {
@@ -46,7 +63,10 @@ _CAUSES = {
 
 
 def _suspects(driven: SettledTrial) -> Iterator[tuple[Joint, str]]:
-    """Yield the wheels whose axis points to the right or whose stated side is wrong."""
+    """Yield joints whose axis points the wrong way, and wheels whose stated side is wrong."""
+    for joint in _steering(driven):
+        if _points_down(driven, joint):
+            yield joint, f"the axis of {joint.name.value!r} points down"
     for wheel in driven.robot.locomotion.wheels:
         if wheel.axis is not None and wheel.axis[1] < 0.0:
             yield wheel.joint, f"the axis of {wheel.name.value!r} points to the right"

@@ -62,7 +62,10 @@ GOOD = [
     {
         "@urdf": """
 <link name="caster_wheel"/>
-<joint name="caster_joint" type="fixed"><parent link="upper_arm"/><child link="caster_wheel"/></joint>
+<joint name="caster_joint" type="fixed">
+  <parent link="upper_arm"/>
+  <child link="caster_wheel"/>
+</joint>
 <gazebo reference="caster_wheel"><mu1>0</mu1><mu2>0</mu2></gazebo>
 """
     },

@@ -30,7 +30,7 @@ FILE = '"config_file": os.path.join(HERE, "config", "bridge.yaml")'
 
 def simulation(example: dict[str, object], folder: Path) -> Simulation:
     """Return what the launch file of an example simulates."""
-    package = write_example({"@ros2": ODOMETRY, **example}, folder)
+    package = write_example({"@bridge": ODOMETRY, **example}, folder)
     with open_input(package) as opened:
         subject = Subject(opened.packages[0])
         found = subject.simulations

@@ -38,7 +38,7 @@ def refused(done: subprocess.CompletedProcess[str], reason: str) -> bool:
 def reported(done: subprocess.CompletedProcess[str]) -> set[str]:
     """Return the rules that report an error."""
     assert done.returncode == 1, done
-    return set(re.findall(r" error ([A-Z]{3}\d{3}) ", done.stdout))
+    return set(re.findall(r" error ([A-Z][A-Z0-9]{2}\d{3}) ", done.stdout))
 
 
 def test_a_path_that_does_not_exist(run: Run) -> None:

@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-from inspect import signature
-from pathlib import Path
-
 import pytest
 
 from checker.finding import Edit, Severity
 from checker.model.sensing.kind import sensor_types
-from checker.package.package import Package
-from checker.package.workspace import Workspace
 from checker.rule import Context, Finding
 from checker.rulebook.discovery import all_rules
 from tests.model.robots import sdf
 
 RULES = {rule.id: rule for rule in all_rules()}
+NO_PACKAGE = None
+"""A robot of SDF is for one simulator, whatever its package."""
 LIDAR = '<sensor name="scan" type="{}"><ray><range><max>9</max></range></ray></sensor>'
 
 
 def said(rule: str, type: str, release: str, version: str = "1.6") -> list[Finding]:
     robot = sdf(f'<link name="body">{LIDAR.format(type)}</link>', version)
-    package = Package(Path("rover"), Workspace(()), only="model.sdf")
-    parts = {"robot": robot, "package": package, "context": Context(release=release)}
-    check = RULES[rule].check
-    found = check(**{name: parts[name] for name in signature(check).parameters})
+    rest = (NO_PACKAGE,) if rule == "SEN002" else ()
+    found = RULES[rule].check(robot, Context(release=release), *rest)
     return [each for each in found if isinstance(each, Finding)]
 
 

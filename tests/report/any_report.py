@@ -20,7 +20,7 @@ HOSTILE = ("</script>", "##[error]x", "::error::x", "@all #1", "a|b`c", "\x1b[31
 TEXT = st.one_of(
     st.sampled_from(HOSTILE), st.text(st.characters(exclude_categories=()), max_size=20)
 )
-RULE = st.from_regex(r"[A-Z]{3}[0-9]{3}", fullmatch=True)
+RULE = st.from_regex(r"[A-Z][A-Z0-9]{2}[0-9]{3}", fullmatch=True)
 FILES = st.one_of(st.sampled_from(["", "model.sdf", "a b/ü%.sdf", "../other/model.sdf"]), TEXT)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from checker.expand.ros2_launch.graph import (
@@ -11,7 +13,9 @@ from checker.expand.ros2_launch.graph import (
     ParameterFile,
     shown,
 )
-from tests.ros2_launch.conftest import NAME, Read, python
+from checker.expand.ros2_launch.package_launch import launch_files
+from checker.package.inputs import open_input
+from tests.ros2_launch.conftest import NAME, PACKAGE_XML, Read, python
 
 
 def words(graph: LaunchGraph, number: int = 0) -> list[str]:
@@ -261,7 +265,8 @@ def test_conditions(read: Read, expression: str, holds: bool | None) -> None:
             "LATE_ARGUMENT",
             "x",
         ),
-        ("Node(package='p', node_executable='e')", "ATTRIBUTE", "executable"),
+        ("Node(package='p', node_executable='e')", "ATTRIBUTE", "node_executable"),
+        ("Node(package='p')", "ATTRIBUTE", "executable"),
         ("Node(package='p', executable='e', condition=IfCondition('yes'))", "CONDITION", "yes"),
         ("DeclareLaunchArgument('x', default_value='c', choices=['a'])", "UNKNOWN_CHOICE", "x"),
     ],
@@ -305,3 +310,30 @@ def test_modules_of_packages_at_hand_are_followed(read: Read) -> None:
         },
     )
     assert [node.package.value for node in graph.nodes] == ["a"]
+
+
+def test_what_a_file_that_is_not_at_hand_declares_is_not_missed(read: Read) -> None:
+    graph = read(
+        """
+        source = PythonLaunchDescriptionSource([FindPackageShare('other'), '/launch/a.launch.py'])
+        return LaunchDescription([
+            IncludeLaunchDescription(source),
+            Node(package='p', executable='e', arguments=[LaunchConfiguration('x')])])
+        """
+    )
+    assert not graph.faults
+    assert words(graph) == ["$(var x)"]
+    assert graph.includes[0].reason == "package other is not at hand"
+
+
+def test_packages_of_both_generations_keep_the_files_of_both(tmp_path: Path) -> None:
+    files = {
+        "package.xml": PACKAGE_XML.replace("</license>", "</license><depend>catkin</depend>"),
+        "launch/one.launch": '<launch><arg name="a"/><include file="$(find p)/b"/></launch>',
+        "launch/two.launch": '<launch><node pkg="p" exec="e"/></launch>',
+    }
+    for path, text in files.items():
+        (tmp_path / path).parent.mkdir(exist_ok=True)
+        (tmp_path / path).write_text(text)
+    with open_input(tmp_path) as opened:
+        assert [*launch_files(opened.packages[0])] == ["launch/two.launch"]

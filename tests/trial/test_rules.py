@@ -205,7 +205,7 @@ def test_a_drive_that_may_stand_in_an_unread_spawner_is_not_passed() -> None:
 
 def test_a_figure_that_moves_with_the_time_step_is_named() -> None:
     once, again = trial_of(speed_ratio=1.0, turn_drift=0.1), trial_of(speed_ratio=0.8)
-    (found,) = RULES["TRI016"].check(RepeatedTrial(rover(), once, again))
+    (found,) = RULES["TRI016"].check(RepeatedTrial(rover(), once, again=again))
     assert not isinstance(found, Unchecked)
     assert "speed reached / commanded changes from 1 to 0.8" in found.message
-    assert not list(RULES["TRI016"].check(RepeatedTrial(rover(), once, once)))
+    assert not list(RULES["TRI016"].check(RepeatedTrial(rover(), once, again=once)))

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Protocol
 
-from checker.base.record import Record
 from checker.expand.launch.graph import Remap, resolve_name
+from checker.expand.ros2_launch.conditions import read_conditions
 from checker.expand.ros2_launch.context import Context
+from checker.expand.ros2_launch.gathered import Files, Gathered
 from checker.expand.ros2_launch.graph import (
     Argument,
     Component,
-    Condition,
     EnvironmentChange,
-    FileUse,
     Include,
-    LaunchFault,
     LaunchFaultKind,
     LoadedComponents,
     Node,
@@ -26,10 +22,9 @@ from checker.expand.ros2_launch.graph import (
     Process,
     Unread,
     is_known,
-    shown,
 )
-from checker.expand.ros2_launch.node_parameters import UNKNOWN, read_parameters
-from checker.expand.ros2_launch.substitutions import perform, truth_of
+from checker.expand.ros2_launch.node_parameters import MOVEIT, UNKNOWN, read_parameters
+from checker.expand.ros2_launch.substitutions import perform
 from checker.expand.ros2_launch.values import (
     Choice,
     Guarded,
@@ -44,6 +39,8 @@ from checker.source.text import Located, Span
 
 _DEFERRED = ("on_exit", "on_start", "on_completion", "on_shutdown", "entities", "on_stdout")
 _DEFERRED_TOO = ("on_stderr", "on_stdin", "on_complete")
+_OLD_KEYWORDS = frozenset({"node_name", "node_executable", "node_namespace"})
+"""Of `Node` until Foxy."""
 _NODES: Mapping[str, NodeKind] = MappingProxyType(
     {
         "Node": NodeKind.NODE,
@@ -51,39 +48,6 @@ _NODES: Mapping[str, NodeKind] = MappingProxyType(
         "ComposableNodeContainer": NodeKind.CONTAINER,
     }
 )
-
-
-@dataclass(eq=False)
-class Gathered:
-    """What has been found so far; see `LaunchGraph`."""
-
-    arguments: list[Argument] = field(default_factory=list)
-    nodes: list[Node] = field(default_factory=list)
-    components: list[LoadedComponents] = field(default_factory=list)
-    processes: list[Process] = field(default_factory=list)
-    includes: list[Include] = field(default_factory=list)
-    environment: list[EnvironmentChange] = field(default_factory=list)
-    files: list[FileUse] = field(default_factory=list)
-    faults: list[LaunchFault] = field(default_factory=list)
-    unread: list[Unread] = field(default_factory=list)
-
-
-class FileRead(Record, eq=False):
-    """What became of an included file; see `Include`."""
-
-    path: str = ""
-    accepts: frozenset[str] | None = None
-    reason: str = ""
-
-
-class Files(Protocol):
-    """Follows includes, and calls functions that launch files leave for later."""
-
-    def include(self, target: PlacedText, context: Context) -> FileRead:
-        """Visit an included file."""
-
-    def call(self, function: Value, positional: Sequence[Value], context: Context) -> Value:
-        """Return what a function of a launch file returns."""
 
 
 class Visitor:
@@ -236,12 +200,18 @@ class Visitor:
                 span=made.span,
             )
         )
-        self.found.unread += unread
+        self.found.unread += (item for item in unread if item.reason != MOVEIT)
         self._keywords(made, context)
         self._events(made, context)
 
     def _keywords(self, made: Made, context: Context) -> None:
-        if "executable" not in made.values:
+        for name in _OLD_KEYWORDS.intersection(made.values):
+            where = made.keywords.get(name, made.span)
+            message = f"{made.name} takes no keyword {name!r}"
+            context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
+        # Containers have a usual program in newer releases.
+        stated = {"executable", "node_executable"}.intersection(made.values)
+        if not stated and made.name != "ComposableNodeContainer":
             message = f"{made.name} has no executable"
             context.fault(LaunchFaultKind.ATTRIBUTE, made.span, message, "executable")
 
@@ -303,6 +273,8 @@ class Visitor:
         for name, value in arguments.items():
             context.state.configurations[name] = PlacedText(value.value, value.span)
         became = self._files.include(target, context)
+        if became.reason:
+            context.state.beyond = True
         self.found.includes.append(
             Include(
                 target=_located(target, made.span),
@@ -565,47 +537,6 @@ def _made_in(value: Value) -> Iterator[Value]:
 
 def _event_arguments(span: Span) -> list[Value]:
     return [Unknown("an event is only known when it happens", span) for _ in range(2)]
-
-
-def read_conditions(made: Made, context: Context) -> Iterator[Condition]:
-    """Yield the condition of an action, with the defaults of arguments."""
-    condition = chosen(made.values["condition"])
-    if isinstance(condition, Unknown):
-        yield Condition(Located(condition.reason, condition.span), wanted=True, holds=None)
-        return
-    if not isinstance(condition, Made):
-        span = span_of(condition, made.span)
-        yield Condition(Located("a condition", span), wanted=True, holds=None)
-        return
-    wanted = condition.name not in ("UnlessCondition", "LaunchConfigurationNotEquals")
-    if "predicate_expression" in condition.values:
-        value = condition.values["predicate_expression"]
-    else:
-        value = _comparison(condition)
-    text = perform(value, context, condition.span)
-    if isinstance(text, Unknown):
-        located = Located(text.reason, condition.span)
-        yield Condition(located, wanted, None)
-        return
-    truth = truth_of(text) if is_known(text) else None
-    written = isinstance(chosen(value), str)
-    if truth is None and is_known(text):
-        message = f"the condition is {shown(text)[:80]!r}: expected true, false, 1 or 0"
-        context.fault(LaunchFaultKind.CONDITION, condition.span, message, str(text)[:80])
-    holds = None if truth is None else truth is wanted
-    yield Condition(Located(str(text), condition.span), wanted, holds, written)
-
-
-def _comparison(condition: Made) -> Made:
-    """Return the comparison that an older condition makes."""
-    values = condition.values
-    left: Value = values.get("left")
-    right: Value = values.get("right")
-    if "launch_configuration_name" in values:
-        name = values["launch_configuration_name"]
-        left = Made("LaunchConfiguration", {"variable_name": name, "default": ""}, condition.span)
-        right = values.get("expected_value")
-    return Made("EqualsSubstitution", {"left": left, "right": right}, condition.span)
 
 
 def _located(value: Value, span: Span) -> Located[str]:

@@ -24,6 +24,7 @@ class State:
         namespace: Absolute.
         parameters: Of every node that follows.
         remaps: Of every node that follows; the last one counts.
+        beyond: Whether a file was included that is not at hand: it may declare arguments.
     """
 
     configurations: dict[str, Value] = field(default_factory=dict)
@@ -31,6 +32,7 @@ class State:
     namespace: str = "/"
     parameters: Parameters = ()
     remaps: tuple[Remap, ...] = ()
+    beyond: bool = False
 
     def copy(self) -> State:
         """Return the state that a scoped group begins with."""

@@ -23,6 +23,9 @@ from checker.source.text import Span
 UNKNOWN = "$(unknown)"
 """Stands for a text that this reader cannot tell."""
 
+MOVEIT = "MoveItConfigsBuilder makes parameters of its files"
+"""Why some parameters of a node are not here; they concern no other part of the robot."""
+
 Item = Parameter | ParameterFile | Unread
 
 

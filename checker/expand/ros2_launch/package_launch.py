@@ -16,6 +16,8 @@ FILES_LIMIT = 150
 _PYTHON = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
 _YAML = re.compile(r"^launch\s{0,8}:", re.MULTILINE)
 _ROS_1 = re.compile(r"""<node\b[^>]{0,1000}\stype\s{0,8}=""")
+_ROS_2 = re.compile(r"""\$\((?:find-pkg-share|var)\s|<node\b[^>]{0,1000}\sexec\s{0,8}=""")
+_CATKIN = re.compile(r"\bcatkin\b")
 _BUILT_BY_AMENT = re.compile(r"\bament_(?:cmake|python)\b|<build_type>\s{0,20}(?:ament_|cmake)")
 
 
@@ -82,7 +84,10 @@ def is_ros2_xml(package: Package, path: str) -> bool:
     document = package.xml(path)
     if isinstance(document, XmlDocument) and document.root.tag != "launch":
         return False
-    return not _ROS_1.search(source.text) and built_by_ament(package)
+    if _ROS_1.search(source.text) or not built_by_ament(package):
+        return False
+    # A package of both keeps the files of both.
+    return not _holds(package, "package.xml", _CATKIN) or _ROS_2.search(source.text) is not None
 
 
 def built_by_ament(package: Package) -> bool:

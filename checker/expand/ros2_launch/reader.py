@@ -9,8 +9,9 @@ from typing import TypeVar
 from msgspec.structs import replace
 
 from checker.expand.ros2_launch import package_files
-from checker.expand.ros2_launch.actions import FileRead, Gathered, Visitor
+from checker.expand.ros2_launch.actions import Visitor
 from checker.expand.ros2_launch.context import Context, State
+from checker.expand.ros2_launch.gathered import FileRead, Gathered
 from checker.expand.ros2_launch.graph import (
     FileUse,
     LaunchFault,
@@ -28,7 +29,7 @@ from checker.expand.ros2_launch.python.launch_file import (
     read_python,
 )
 from checker.expand.ros2_launch.python.scope import Scope
-from checker.expand.ros2_launch.substitutions import perform
+from checker.expand.ros2_launch.substitutions import NOT_DECLARED, perform
 from checker.expand.ros2_launch.values import (
     Allowance,
     LaunchLimit,
@@ -109,7 +110,8 @@ class LaunchReader:
             environment=tuple(found.environment),
             files=tuple(self._uses),
             faults=_each_once(faults),
-            unread=_each_once(found.unread),
+            # What nothing declares is a fault, and all that is not known of it follows from that.
+            unread=_each_once(u for u in found.unread if not u.reason.endswith(NOT_DECLARED)),
         )
 
     def _context_of(self, source: SourceText, state: State) -> Context:
@@ -161,12 +163,14 @@ class LaunchReader:
         inner = self._context_of(source, context.state)
         inner.conditions, inner.after = context.conditions, context.after
         inner.files = (*context.files, source.file)
-        unread = len(self._found.unread)
+        unread, includes = len(self._found.unread), len(self._found.includes)
         with self._allowance:
             self._visit_file(source, inner)
         context.used |= inner.used
         context.declared |= inner.declared
-        complete = len(self._found.unread) == unread
+        # A file that is not at hand may take arguments that are set around it.
+        beyond = any(include.reason for include in self._found.includes[includes:])
+        complete = len(self._found.unread) == unread and not beyond
         accepts = frozenset(inner.used | inner.declared) if complete else None
         return FileRead(path=source.file, accepts=accepts)
 

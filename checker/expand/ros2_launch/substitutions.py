@@ -22,6 +22,7 @@ from checker.expand.ros2_launch.values import (
 from checker.expand.xacro.files import ROOT
 from checker.source.text import Span
 
+NOT_DECLARED = "is not declared"
 Text = PlacedText | Unknown
 _TRUTH = MappingProxyType({"true": True, "1": True, "false": False, "0": False})
 
@@ -112,10 +113,12 @@ def _configuration(made: Made, context: Context) -> Text:
         return perform(context.state.configurations[str(name)], context, made.span)
     if made.values.get("default") is not None:
         return perform(made.values["default"], context, made.span)
+    if context.state.beyond:
+        return PlacedText(f"$(var {name})", made.span)
     if is_known(name):
         message = f"argument {str(name)!r} is used and nothing declares it"
         context.fault(LaunchFaultKind.UNDECLARED_ARGUMENT, made.span, message, str(name))
-    return Unknown(f"argument {str(name)!r} is not declared", made.span)
+    return Unknown(f"argument {str(name)!r} {NOT_DECLARED}", made.span)
 
 
 def _path(made: Made, context: Context) -> Text:

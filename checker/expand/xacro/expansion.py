@@ -115,6 +115,11 @@ class Expansions:
         results = self._begun.results()
         return [self._outcome(job["file"], results[self._key(job)]) for job in self._jobs]
 
+    @property
+    def files(self) -> frozenset[str]:
+        """Files of the package that were given to xacro."""
+        return frozenset(source.file for source in self._gathered.sources.values())
+
     def stop(self) -> None:
         """End the expansion, if nobody has waited for it."""
         self._begun.stop()

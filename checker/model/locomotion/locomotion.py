@@ -7,6 +7,7 @@ import enum
 from checker.base.record import Record
 from checker.model.components import Joint, Link, Plugin
 from checker.model.geometry.transform import Vector
+from checker.model.ros2_control.controllers import Controller
 from checker.source.text import Located, Span
 
 
@@ -17,6 +18,7 @@ class DriveKind(enum.StrEnum):
     SKID_STEER = "skid-steer drive"
     ACKERMANN = "Ackermann steering"
     MECANUM = "Mecanum drive"
+    OMNI = "omni-wheel drive"
     TRACKED = "tracks"
     MULTICOPTER = "multicopter"
     LEGGED = "legs"
@@ -90,7 +92,10 @@ class Wheel(Record, eq=False):
 class WheelDrive(Record, eq=False):
     """One DiffDrive, AckermannSteering or MecanumDrive plugin, or one of Gazebo Classic.
 
+    A controller of ros2_control that drives wheels is one as well.
+
     Attributes:
+        plugin: The plugin of Gazebo, or the controller.
         wheels: Those that the plugin drives, in its order; joints that do not exist are left out,
             one named for both sides stands there twice.
         wheel_separation: Metres; the plugin's default (`stated` false) where it says none.
@@ -99,12 +104,16 @@ class WheelDrive(Record, eq=False):
         kingpin_width: Metres, of Ackermann steering.
         steering_limit: Radians, of Ackermann steering.
         steering: Left and right steering joints of Ackermann steering, as the plugin names them.
-        separation_tag: Parameter that holds the separation.
+        separation_tag: Parameter that holds the separation; empty where there is none to compare.
         diameter_tag: Parameter that holds twice the radius; empty for one that holds the radius.
         swaps: Whether the plugin takes the wheels that it names as left for those on the right.
+        radius_tag: Parameter that holds the radius.
+        base_tag: Parameter that holds the wheel base.
+        kingpin_tag: Parameter that holds the kingpin width.
+        slips: Whether its wheels may slip sideways in a turn, so that the separation is raised.
     """
 
-    plugin: Plugin
+    plugin: Plugin | Controller
     wheels: tuple[Wheel, ...]
     wheel_separation: Located[float]
     wheel_radius: Located[float]
@@ -117,11 +126,15 @@ class WheelDrive(Record, eq=False):
     separation_tag: str = "wheel_separation"
     diameter_tag: str = ""
     swaps: bool = False
+    radius_tag: str = "wheel_radius"
+    base_tag: str = "wheel_base"
+    kingpin_tag: str = "kingpin_width"
+    slips: bool = True
 
     @property
-    def is_limited(self) -> bool:
-        """Whether its plugin has parameters for limits: those of Gazebo Classic have none."""
-        return not self.diameter_tag
+    def path(self) -> str:
+        """What tells its plugin from others of the robot."""
+        return self.plugin.path if isinstance(self.plugin, Controller) else self.plugin.element.path
 
     def on(self, side: Side) -> tuple[Wheel, ...]:
         """Return the wheels that the plugin says are on one side."""

@@ -109,12 +109,16 @@ class BoundedMotion(Record, eq=False):
 
 def bounded_motions(locomotion: Locomotion) -> Iterator[BoundedMotion]:
     """Yield what the drive plugins bound: x and the turn about z, of a multicopter all axes."""
-    limited = tuple(drive for drive in locomotion.wheel_drives if drive.is_limited)
-    drives: tuple[WheelDrive | TrackedDrive, ...] = (*limited, *locomotion.tracked_drives)
+    drives: tuple[WheelDrive | TrackedDrive, ...] = (
+        *(drive for drive in locomotion.wheel_drives if not drive.diameter_tag),
+        *locomotion.tracked_drives,
+    )
     for drive in drives:
-        both = _same(drive.linear.max_velocity, drive.angular.max_velocity)
-        yield BoundedMotion(drive.plugin, "linear", "x", drive.linear)
-        yield BoundedMotion(drive.plugin, "angular", "z", drive.angular, both)
+        # Those of Gazebo Classic have no limits, controllers of ros2_control have others.
+        if isinstance(drive.plugin, Plugin):
+            both = _same(drive.linear.max_velocity, drive.angular.max_velocity)
+            yield BoundedMotion(drive.plugin, "linear", "x", drive.linear)
+            yield BoundedMotion(drive.plugin, "angular", "z", drive.angular, both)
     for copter in locomotion.copters:
         for axis, limits in zip("xyz", copter.linear, strict=True):
             yield BoundedMotion(copter.plugin, "linear", axis, limits, flies=True)

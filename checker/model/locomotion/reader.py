@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from checker.model.components import Joint, Plugin
 from checker.model.locomotion.classic import classic_drive, classic_drives
+from checker.model.locomotion.controlled import STEERING_CLASSES, controlled_drives
 from checker.model.locomotion.drive import is_legged
 from checker.model.locomotion.locomotion import (
     DriveKind,
@@ -141,10 +142,12 @@ def read_locomotion(robot: Robot) -> Locomotion:
 
 def _wheeled_kind(drives: tuple[WheelDrive, ...]) -> DriveKind:
     classes = {drive.plugin.class_name for drive in drives}
-    if _ACKERMANN in classes:
+    if classes & STEERING_CLASSES or _ACKERMANN in classes:
         return DriveKind.ACKERMANN
-    if _MECANUM in classes:
+    if classes & {_MECANUM, "MecanumDriveController"}:
         return DriveKind.MECANUM
+    if "OmniWheelDriveController" in classes:
+        return DriveKind.OMNI
     several = len(drives) > 1 or any(len(drives[0].on(side)) > 1 for side in Side)
     return DriveKind.SKID_STEER if several else DriveKind.DIFFERENTIAL
 
@@ -161,6 +164,7 @@ def _wheel_drives(robot: Robot) -> Iterator[WheelDrive]:
     reader = WheelReader(robot)
     if robot.format == "urdf":
         yield from classic_drives(robot, reader)
+        yield from controlled_drives(robot, reader)
     for plugin in _of_class(robot, *_WHEEL_CLASSES):
         if classic_drive(plugin) is not None:
             continue

@@ -14,6 +14,7 @@ from checker.model.geometry.transform import Vector
 from checker.model.locomotion.locomotion import Side, TrackedDrive, WheelDrive
 from checker.model.locomotion.rolling_parts import RollingPart, rolling_parts
 from checker.model.locomotion.wheels import stands_askew
+from checker.model.ros2_control.controllers import Controller
 from checker.source.text import Located
 
 if TYPE_CHECKING:
@@ -150,14 +151,16 @@ class CountedDistance(Record, eq=False):
         true: Of the parts in the robot, metres.
         what: The parts, in words.
         steers: Whether steering angles come from it.
+        slips: Whether wheels may slip sideways in a turn, so that it is raised on purpose.
     """
 
-    plugin: Plugin
+    plugin: Plugin | Controller
     tag: str
     stated: Located[float]
     true: float
     what: str
     steers: bool = False
+    slips: bool = True
 
 
 def counted_distances(robot: Robot) -> Iterator[CountedDistance]:
@@ -173,10 +176,11 @@ def _of_wheels(drive: WheelDrive) -> Iterator[CountedDistance]:
     axis = next((wheel.axis for wheel in drive.wheels if wheel.axis is not None), None)
     left, right = ([wheel.centre for wheel in drive.on(side)] for side in Side)
     true = _apart(left, right, axis) if axis is not None else None
-    if true is not None:
+    if true is not None and drive.separation_tag:
+        what, slips = "left and right wheels", drive.slips
         separation = drive.wheel_separation
         yield CountedDistance(
-            drive.plugin, drive.separation_tag, separation, true, "left and right wheels"
+            drive.plugin, drive.separation_tag, separation, true, what, slips=slips
         )
 
 
@@ -191,12 +195,13 @@ def _of_steering(robot: Robot, drive: WheelDrive) -> Iterator[CountedDistance]:
     if width is not None and drive.kingpin_width is not None:
         what = "steering joints"
         yield CountedDistance(
-            drive.plugin, "kingpin_width", drive.kingpin_width, width, what, steers=True
+            drive.plugin, drive.kingpin_tag, drive.kingpin_width, width, what, steers=True
         )
     rear = [wheel.centre for wheel in drive.wheels if wheel.steering is None]
     base = _apart([*left, *right], rear, _FORWARD)
     if base is not None and drive.wheel_base is not None:
-        yield CountedDistance(drive.plugin, "wheel_base", drive.wheel_base, base, "axles", True)
+        stated = drive.wheel_base
+        yield CountedDistance(drive.plugin, drive.base_tag, stated, base, "axles", steers=True)
 
 
 def _of_tracks(robot: Robot, drive: TrackedDrive) -> Iterator[CountedDistance]:

@@ -97,10 +97,25 @@ class WheelReader:
             return None
         return self._wheel(joint, link, name, side, knuckles)
 
-    def below(self, joint: Joint, side: Side, knuckles: Mapping[str, Joint]) -> Wheel | None:
-        """Return the wheel below a joint that no plugin names; None when no link is below."""
+    def below(
+        self,
+        joint: Joint,
+        side: Side,
+        knuckles: Mapping[str, Joint],
+        name: Located[str] | None = None,
+    ) -> Wheel | None:
+        """Return the wheel below a joint that no plugin names; None when no link is below.
+
+        Args:
+            joint: Of the robot.
+            side: That it is on.
+            knuckles: Steering joints by the link that each of them turns.
+            name: What a controller calls it; the joint's own name when None.
+        """
         link = self.robot.links_by_name.get(self.child_of.get(joint, ""))
-        return None if link is None else self._wheel(joint, link, joint.name, side, knuckles)
+        if link is None:
+            return None
+        return self._wheel(joint, link, name or joint.name, side, knuckles)
 
     def _wheel(
         self,

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import posixpath
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 
-from msgspec import field
 from msgspec.structs import replace
 
 from checker.base.cache import Cache
 from checker.base.files import NotReadable
-from checker.base.record import Record
 from checker.expand.launch.expansion import expand_launch
 from checker.expand.launch.launch_file import Load, loads
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
@@ -21,7 +18,13 @@ from checker.expand.ros2_launch.descriptions import loaded_descriptions
 from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.xacro.expansion import Expansions, Outcome, Unread, Wanted
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
-from checker.expand.xacro.files import local_path
+from checker.model.urdf.candidates import (
+    Candidate,
+    StartedLoad,
+    candidates,
+    may_hold_description,
+    unread_models,
+)
 from checker.model.urdf.description import read_description
 from checker.model.urdf.files import UrdfFiles
 from checker.package.kind import PackageKind
@@ -29,103 +32,6 @@ from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
-
-# Which files of a package are its URDF descriptions.
-
-
-_SUFFIXES = (".urdf", ".xacro")
-FOLDER_BESIDE_SDF = "urdf/"
-CANDIDATES_LIMIT = 50
-
-
-class Candidate(Record):
-    """A file that ought to hold a robot.
-
-    Attributes:
-        path: As the package lists it.
-        args: Arguments for xacro.
-        loaded: Whether a launch file loads it.
-        by_xacro: Whether xacro reads it, whatever it holds.
-        missing: Arguments that whoever starts it must give, and the launch file that says so.
-    """
-
-    path: str
-    args: Mapping[str, str] = field(default_factory=dict)
-    loaded: bool = False
-    by_xacro: bool = False
-    missing: Mapping[str, str] = field(default_factory=dict)
-
-
-StartedLoad = tuple[Load, Mapping[str, str]]
-"""What a launch file loads, and the arguments that it leaves to whoever starts it."""
-
-
-def may_hold_description(package: Package) -> bool:
-    """Say whether a package holds a file that could be a URDF description."""
-    return bool(_files(package))
-
-
-def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate]:
-    """Return the files that launch files load; without any, those that stand for a robot.
-
-    Args:
-        package: To look into.
-        loads: What its launch files load.
-    """
-    if package.only:
-        return [Candidate(package.only)]
-    chosen: dict[str, Candidate] = {}
-    for load, missing in loads:
-        path = local_path(package, load.path)
-        # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
-        if path is not None and not path.startswith("../") and package.exists(path):
-            candidate = Candidate(path, load.args, True, load.by_xacro, missing)
-            before = chosen.get(path, candidate)
-            # Of several ways to start it, one that is known counts before one that is not.
-            chosen[path] = candidate if before.missing and not missing else before
-    files = [*chosen.values()] or [Candidate(path) for path in _outermost(package)]
-    return files[:CANDIDATES_LIMIT]
-
-
-def _files(package: Package) -> list[str]:
-    if package.only:
-        return [package.only] if package.only.lower().endswith((*_SUFFIXES, ".xml")) else []
-    paths = (file.path for file in package.index.with_suffix(*_SUFFIXES))
-    if package.kind is PackageKind.URDF_DESCRIPTION:
-        return [*paths]
-    return [path for path in paths if path.startswith(FOLDER_BESIDE_SDF)]
-
-
-def _outermost(package: Package) -> Iterator[str]:
-    """Yield the files that call themselves a robot and that no other file includes."""
-    paths = [path for path in _files(package) if not _is_empty(package, path)]
-    documents = {path: package.xml(path) for path in paths}
-    roots = {
-        path: document.root
-        for path, document in documents.items()
-        if isinstance(document, XmlDocument)
-    }
-    included = {
-        posixpath.basename(descendant.get("filename") or "")
-        for path, root in roots.items()
-        for descendant in root.descendants("xacro:include")
-        if posixpath.basename(descendant.get("filename") or "") != posixpath.basename(path)
-    }
-    outermost = [path for path in paths if posixpath.basename(path) not in included]
-    # Files that include one another in a circle leave none.
-    for path in outermost or paths:
-        document, root = documents[path], roots.get(path)
-        named = root is not None and root.tag == "robot" and root.get("name")
-        alone = len(paths) == 1 and (root is None or root.tag == "robot")
-        if named or (alone and isinstance(document, XmlDocument | XmlFault)):
-            yield path
-
-
-def _is_empty(package: Package, path: str) -> bool:
-    """Say whether a file holds nothing; one that nobody loads is only a leftover."""
-    source = package.read(path)
-    return isinstance(source, SourceText) and not source.text.strip()
-
 
 _URDF_KINDS = (PackageKind.URDF_DESCRIPTION, PackageKind.SINGLE_FILE)
 _LAUNCH_SUFFIXES = (".launch", ".launch.xml")
@@ -174,8 +80,8 @@ class PackageDescriptions:
 
     @property
     def applicable(self) -> bool:
-        """Whether there is a file that ought to hold a robot."""
-        return bool(self._candidates)
+        """Whether there is a file that ought to hold a robot, or may."""
+        return bool(self._candidates) or may_hold_description(self._package)
 
     @cached_property
     def files(self) -> UrdfFiles:
@@ -197,13 +103,22 @@ class PackageDescriptions:
                 unread.append((candidate, self._unread(candidate, reason)))
             else:
                 faults.append(replace(outcome, loaded=candidate.loaded))
+        reasons = [reason for file, reason in unread if file.loaded or not self._for_rviz]
+        if not self._for_rviz:
+            reasons += unread_models(self._package, self._seen)
         return UrdfFiles(
             tuple(descriptions),
             tuple(faults),
-            tuple(reason for file, reason in unread if file.loaded or not self._for_rviz),
+            tuple(reasons),
             tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
             old,
         )
+
+    @property
+    def _seen(self) -> frozenset[str]:
+        """Files that were read, for themselves or as a part of another."""
+        included = self._expansions.files if self._expansions is not None else ()
+        return frozenset((*(candidate.path for candidate in self._candidates), *included))
 
     def _may_be_given(self, candidate: Candidate) -> bool:
         """Say whether what starts a file may well give the argument that it lacks."""

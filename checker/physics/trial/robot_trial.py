@@ -7,14 +7,20 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.model.components import Joint, Link, Part
 from checker.model.robot import Robot
+from checker.model.ros2_control.controllers import Controller
 from checker.physics.trial.trial import Leg, Trial
 
 
 class RobotTrial(Record, eq=False, dict=True):
-    """A robot that was driven, and what was measured."""
+    """A robot that was driven, and what was measured.
+
+    Attributes:
+        others: Why other robots of the package are not among those; of the first robot only.
+    """
 
     robot: Robot
     trial: Trial
+    others: str = ""
 
     def link(self, name: str) -> Link | Robot:
         """Return the link of a scoped name; the robot if there is none."""
@@ -30,8 +36,8 @@ class RobotTrial(Record, eq=False, dict=True):
         return part or self.robot
 
     @cached_property
-    def drive(self) -> Part:
-        """Where findings about its motion point: the plugin that moves it, else the robot."""
+    def drive(self) -> Part | Controller:
+        """Where findings about its motion point: what drives it, else the robot."""
         locomotion = self.robot.locomotion
         plugins = [
             *(drive.plugin for drive in locomotion.wheel_drives),
@@ -41,6 +47,22 @@ class RobotTrial(Record, eq=False, dict=True):
             *(rotor.plugin for rotor in locomotion.rotors),
         ]
         return plugins[0] if plugins else self.robot
+
+    @property
+    def rigid_steering(self) -> str:
+        """Name of a steered link that touches the ground and cannot roll; empty if there is none.
+
+        Such a robot is drawn in RViz alone: in a simulator its wheels drag.
+        """
+        rolling = {tie.parent for tie in self.robot.tree.ties if tie.joint.type.value != "fixed"}
+        steered = {
+            joint for drive in self.robot.locomotion.wheel_drives for joint, _ in drive.steering
+        }
+        for tie in self.robot.tree.ties:
+            link = self.robot.links_by_name.get(tie.child)
+            if tie.joint in steered and tie.child not in rolling and link and link.collisions:
+                return link.name.value
+        return ""
 
     @property
     def unlike(self) -> str:
@@ -79,7 +101,7 @@ class SettledTrial(RobotTrial):
     """A robot that came to rest before it was driven: figures of its drive mean something."""
 
 
-class RepeatedTrial(RobotTrial):
+class RepeatedTrial(RobotTrial, kw_only=True):
     """A robot that was driven twice.
 
     Attributes:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from contextlib import suppress
 from functools import cached_property
+
+from msgspec.structs import replace
 
 from checker.base.background import Background, Work, work_key
 from checker.base.cache import Cache
@@ -52,7 +53,7 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Backgr
 
 
 ROBOTS_LIMIT = 8
-"""Of one file; a world with more of them is no submission, and each takes about a second."""
+"""Of one file or package; each takes about a second."""
 
 
 class RobotTrials(Record, eq=False, dict=True):
@@ -70,7 +71,7 @@ class RobotTrials(Record, eq=False, dict=True):
         """
         # What goes wrong is said when a rule asks for the trial.
         with suppress(Exception):
-            if self.obstacle is None:
+            if _obstacle(self.robots[0]) is None:
                 _ = self._first, twice and self._first_again
 
     def stop(self) -> None:
@@ -82,33 +83,39 @@ class RobotTrials(Record, eq=False, dict=True):
 
     @cached_property
     def once(self) -> tuple[RobotTrial, ...] | NotAvailable:
-        """The robots and what their trials measured."""
-        trials = self._collected(thorough=False)
-        if isinstance(trials, NotAvailable):
-            return trials
-        return tuple(map(RobotTrial, self.robots, trials))
+        """The robots that can be driven, and what their trials measured."""
+        driven = [
+            RobotTrial(robot, trial)
+            for robot, trial in zip(self.robots, self._collected, strict=False)
+            if isinstance(trial, Trial)
+        ]
+        missing = [trial for trial in self._collected if isinstance(trial, NotAvailable)]
+        if not driven:
+            return missing[0]
+        first, *others = driven
+        left_out = self._left_out or next((m.reason for m in missing if m.applicable), "")
+        return (replace(first, others=left_out), *others)
 
     @cached_property
     def twice(self) -> tuple[RepeatedTrial, ...] | NotAvailable:
         """The same with what was measured at half the time step."""
-        trials, again = self._collected(thorough=False), self._collected(thorough=True)
-        if isinstance(trials, NotAvailable):
-            return trials
-        if isinstance(again, NotAvailable):
-            return again
-        return tuple(map(RepeatedTrial, self.robots, trials, again))
+        if isinstance(self.once, NotAvailable):
+            return self.once
+        repeated = []
+        for driven in self.once:
+            again = self._trial(driven.robot, thorough=True)
+            if isinstance(again, NotAvailable):
+                return again
+            repeated.append(RepeatedTrial(driven.robot, driven.trial, again=again))
+        return tuple(repeated)
 
-    @cached_property
-    def obstacle(self) -> NotAvailable | None:
-        """Why these robots cannot be driven at all."""
-        if len(self.robots) > ROBOTS_LIMIT:
-            reason = (
-                f"the file contains {len(self.robots)} robots, but at most {ROBOTS_LIMIT} are "
-                "driven"
-            )
-            return NotAvailable(reason)
-        reasons = (_obstacle(robot) for robot in self.robots)
-        return next((reason for reason in reasons if reason is not None), None)
+    @property
+    def _left_out(self) -> str:
+        """Why not all robots are driven, as the end of a sentence; empty when they are."""
+        count = len(self.robots)
+        if count <= ROBOTS_LIMIT:
+            return ""
+        return f"only the first {ROBOTS_LIMIT} of {count} robots are driven"
 
     @cached_property
     def _first(self) -> Background[Trial] | str:
@@ -123,23 +130,30 @@ class RobotTrials(Record, eq=False, dict=True):
         with self.stages.stage("trial", f"driving the robot on its course in MuJoCo{twice}"):
             return start_trial(robot, self.cache, thorough=thorough)
 
-    def _collected(self, *, thorough: bool) -> Sequence[Trial] | NotAvailable:
-        if self.obstacle is not None:
-            return self.obstacle
-        trials: list[Trial] = []
-        for number, robot in enumerate(self.robots):
-            if number == 0:
-                begun = self._first_again if thorough else self._first
-            else:
-                begun = self._started(robot, thorough=thorough)
-            if isinstance(begun, str):
-                return NotAvailable(begun)
-            with self.stages.stage("trial"):
-                trial = begun.result()
-            if isinstance(trial, WorkerFailed):
-                return NotAvailable(f"the trial {trial.reason}")
-            trials.append(trial)
-        return trials
+    @cached_property
+    def _collected(self) -> tuple[Trial | NotAvailable, ...]:
+        """The trial of each robot, as many as are driven, or why it has none."""
+        return tuple(self._trial(robot, thorough=False) for robot in self.robots[:ROBOTS_LIMIT])
+
+    def _trial(self, robot: Robot, *, thorough: bool) -> Trial | NotAvailable:
+        obstacle = _obstacle(robot)
+        if obstacle is not None:
+            return obstacle
+        if robot is self.robots[0]:
+            begun = self._first_again if thorough else self._first
+        else:
+            begun = self._started(robot, thorough=thorough)
+        if isinstance(begun, str):
+            return NotAvailable(self._told(robot, begun))
+        with self.stages.stage("trial"):
+            trial = begun.result()
+        if isinstance(trial, WorkerFailed):
+            return NotAvailable(self._told(robot, f"the trial {trial.reason}"))
+        return trial
+
+    def _told(self, robot: Robot, reason: str) -> str:
+        """Return a reason; of several robots, with the name of the one that it is about."""
+        return reason if len(self.robots) == 1 else f"{robot.name.value!r} is not driven: {reason}"
 
 
 def _obstacle(robot: Robot) -> NotAvailable | None:

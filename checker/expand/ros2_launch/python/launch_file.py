@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from checker.expand.ros2_launch.actions import Gathered
+from checker.expand.ros2_launch.gathered import Gathered
 from checker.expand.ros2_launch.graph import LaunchFault, LaunchFaultKind, Unread
 from checker.expand.ros2_launch.package_files import holder_of
 from checker.expand.ros2_launch.python.expressions import evaluate
@@ -37,6 +37,9 @@ def parsed(source: SourceText) -> ast.Module | str:
 def read_python(source: SourceText, allowance: Allowance, world: World, found: Gathered) -> Value:
     """Return the launch description of a file."""
     tree = parsed(source)
+    if isinstance(tree, str) and "f-string" in tree:
+        # Newer releases of Python read f-strings that this one does not.
+        return Unknown(f"the file is not read: {tree}", source.whole())
     if isinstance(tree, str):
         message = f"the launch file is no Python that can be read: {tree}"
         found.faults.append(LaunchFault(LaunchFaultKind.SYNTAX, _line(source, tree), message))

@@ -7,6 +7,7 @@ import posixpath
 from typing import TYPE_CHECKING
 
 from checker.expand.ros2_launch.graph import is_known
+from checker.expand.ros2_launch.node_parameters import MOVEIT
 from checker.expand.ros2_launch.values import FileText, Made, Unknown, Value, chosen
 from checker.expand.xacro.files import ROOT
 from checker.source.yaml import read_yaml
@@ -73,7 +74,7 @@ def parameters(run: Interpreter, configs: Made, name: str, node: ast.AST) -> dic
 
 def _rest(configs: Made) -> dict[str, Value]:
     """Return what stands for the parameters that the builder reads from its other files."""
-    return {"moveit": Unknown("MoveItConfigsBuilder makes parameters of its files", configs.span)}
+    return {"moveit": Unknown(MOVEIT, configs.span)}
 
 
 def _command(path: str, mappings: Value, configs: Made) -> Value:

@@ -238,8 +238,9 @@ def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
     plan = plan_hold(robot, kind)
     if kind in (DriveKind.LEGGED, DriveKind.NONE):
         return plan
-    if kind is DriveKind.MECANUM:
-        return replace(plan, notes=("Mecanum wheels roll on rollers, which are not simulated.",))
+    if kind in (DriveKind.MECANUM, DriveKind.OMNI):
+        wheels = kind.value.partition("-")[0].partition(" ")[0].capitalize()
+        return replace(plan, notes=(f"{wheels} wheels roll on rollers, which are not simulated.",))
     what = "steer" if kind is DriveKind.ACKERMANN and locomotion.wheels else "drive"
     return replace(plan, not_driven=f"its plugins {what} no part of the model")
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from checker.model.locomotion.locomotion import Locomotion, Side, Wheel, WheelDrive
 from checker.model.robot import Robot
+from checker.model.ros2_control.controllers import Controller
 from checker.physics.trial.course import (
     TURN,
     angular_command,
@@ -192,9 +193,12 @@ def _speeds(drive: WheelDrive, ahead: Knots, curve: Knots) -> dict[str, Knots]:
     speeds: dict[str, Knots] = {}
     for wheel in drive.wheels:
         arm = _OUTWARDS[wheel.side] * drive.wheel_separation.value / 2
+        # A tricycle's wheel that drives and steers has the longer way.
+        turned = wheel.steering is not None and isinstance(drive.plugin, Controller)
+        base = _number(drive.wheel_base, 0.0) if turned else 0.0
 
-        def speed(v: float, k: float, arm: float = arm) -> float:
-            return v * (1.0 + arm * k) / radius if radius else 0.0
+        def speed(v: float, k: float, arm: float = arm, base: float = base) -> float:
+            return v * (1.0 + arm * k) * math.hypot(1.0, base * k) / radius if radius else 0.0
 
         speeds[wheel.joint.scoped_name] = mixed((ahead, curve), speed, _GRID)
     return speeds

@@ -1,0 +1,128 @@
+"""Controllers of ros2_control, as parameter files configure them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from checker.base.record import Record
+from checker.model.ros2_control.parameters import MANAGER, NodeBlock, Parameter
+from checker.source.text import Located, Span
+
+_TYPE = re.compile(r"\w{1,200}/\w{1,200}\Z")
+_LISTED = ".type"
+_EVERY = "**"
+
+
+class Controller(Record, eq=False):
+    """A controller that parameter files configure.
+
+    Attributes:
+        name: As its node is called.
+        type: Such as `diff_drive_controller/DiffDriveController`.
+        parameters: Of its own block and of those for every node, by name.
+        own: Names of the parameters in its own block.
+        listed: Whether the controller manager's block names it.
+        span: The key of its block, else the place that states its type.
+        block: The key of its own block; None when it has none.
+    """
+
+    name: str
+    type: Located[str]
+    parameters: Mapping[str, Parameter]
+    own: frozenset[str]
+    listed: bool
+    span: Span
+    block: Span | None = None
+
+    @property
+    def class_name(self) -> str:
+        """Class of its type: `DiffDriveController`."""
+        return self.type.value.rpartition("/")[2]
+
+    @property
+    def called(self) -> str:
+        """What a message calls it."""
+        return f"controller {self.name!r}"
+
+    @property
+    def path(self) -> str:
+        """What tells it from other controllers of the robot."""
+        return self.name
+
+    def texts(self, *names: str) -> tuple[Located[str], ...]:
+        """Return the texts of the first of these parameters that has any."""
+        found = (self.parameters[name].texts for name in names if name in self.parameters)
+        return next((texts for texts in found if texts), ())
+
+    def number(self, *names: str) -> Located[float] | None:
+        """Return the number of the first of these parameters that is one."""
+        found = (self.parameters[name].number for name in names if name in self.parameters)
+        return next((number for number in found if number is not None), None)
+
+    def flag(self, name: str, *, default: bool) -> bool:
+        """Return what a parameter of true or false says."""
+        parameter = self.parameters.get(name)
+        value = parameter.node.scalar if parameter is not None else None
+        return value if isinstance(value, bool) else default
+
+
+class ControllerFile(Record, eq=False):
+    """A parameter file that is about controllers.
+
+    Attributes:
+        path: As the package lists it.
+        blocks: What it gives to which nodes.
+        loaded_by: What names it: the `<parameters>` of a Gazebo plugin, or a launch file; None when
+            it is only found in the package.
+        bare: Keys of controller managers below which `ros__parameters` is missing.
+    """
+
+    path: str
+    blocks: tuple[NodeBlock, ...]
+    loaded_by: Span | None = None
+    bare: tuple[Span, ...] = ()
+
+    @property
+    def managers(self) -> tuple[NodeBlock, ...]:
+        """The blocks of controller managers."""
+        return tuple(block for block in self.blocks if block.node == MANAGER)
+
+
+def controllers_of(files: Iterable[ControllerFile]) -> tuple[Controller, ...]:
+    """Put together what files say about each controller; of two types, the last counts."""
+    blocks = [block for file in files for block in file.blocks]
+    drafts: dict[str, _Draft] = {}
+    for name, parameter, listed in _types(blocks):
+        kind = next(iter(parameter.texts), None)
+        if kind is not None and _TYPE.match(kind.value):
+            before = drafts.get(name)
+            was_listed = before is not None and before.listed
+            drafts[name] = _Draft(kind, listed or was_listed)
+    return tuple(_controller(name, draft, blocks) for name, draft in drafts.items())
+
+
+class _Draft(Record, eq=False):
+    type: Located[str]
+    listed: bool
+
+
+def _types(blocks: Sequence[NodeBlock]) -> Iterator[tuple[str, Parameter, bool]]:
+    """Yield names of controllers with what states their type, and whether the manager does."""
+    for block in blocks:
+        for name, parameter in block.parameters.items():
+            if name == "type" and block.node not in (MANAGER, _EVERY):
+                yield block.node, parameter, False
+            elif name.endswith(_LISTED) and block.node in (MANAGER, _EVERY):
+                yield name.removesuffix(_LISTED), parameter, True
+
+
+def _controller(name: str, draft: _Draft, blocks: Sequence[NodeBlock]) -> Controller:
+    own = [block for block in blocks if block.node == name]
+    parameters: dict[str, Parameter] = {}
+    for block in (*(block for block in blocks if block.node == _EVERY), *own):
+        parameters |= block.parameters
+    names = frozenset(parameter for block in own for parameter in block.parameters)
+    place = own[-1].span if own else None
+    span = place or draft.type.span
+    return Controller(name, draft.type, parameters, names, draft.listed, span, place)

@@ -1,0 +1,142 @@
+"""`<ros2_control>` tags of a URDF document: hardware, its joints, and their interfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+from checker.base.record import Record
+from checker.model.values import parse_number
+from checker.source.text import Located, Span
+from checker.source.xml import Element
+
+TYPES = ("system", "actuator", "sensor")
+KNOWN_CHILDREN = ("hardware", "joint", "sensor", "gpio", "transmission", "properties")
+"""What may stand below `<ros2_control>`; the controller manager ends on anything else."""
+STANDARD_INTERFACES = (
+    *("position", "velocity", "acceleration", "effort"),
+    *("torque", "force", "current", "temperature"),
+)
+
+
+class Interface(Record, eq=False):
+    """A `<command_interface>` or `<state_interface>`.
+
+    Attributes:
+        name: Such as `velocity`.
+        numbers: What `min`, `max` and `initial_value` say; what reads as no number is left out.
+        element: The tag.
+    """
+
+    name: Located[str]
+    numbers: Mapping[str, Located[float]]
+    element: Element
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.element.span
+
+
+class HardwareJoint(Record, eq=False):
+    """A `<joint>`, `<sensor>` or `<gpio>` of a `<ros2_control>` tag.
+
+    Attributes:
+        name: Of the joint in the URDF; of a sensor or gpio its own.
+        mimic: Its attribute `mimic`; None when it has none.
+        commands: Its command interfaces.
+        states: Its state interfaces.
+        params: Its own `<param>`s.
+        element: The tag.
+    """
+
+    name: Located[str]
+    mimic: Located[str] | None
+    commands: tuple[Interface, ...]
+    states: tuple[Interface, ...]
+    params: Mapping[str, Located[str]]
+    element: Element
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.element.span
+
+
+class Hardware(Record, eq=False, dict=True):
+    """A `<ros2_control>` tag.
+
+    Attributes:
+        name: Empty when not stated.
+        type: `system`, `actuator` or `sensor`; empty when not stated.
+        plugin: Class of the hardware component; empty when not stated.
+        joints: In order.
+        sensors: In order.
+        gpios: In order.
+        element: The tag.
+    """
+
+    name: Located[str]
+    type: Located[str]
+    plugin: Located[str]
+    joints: tuple[HardwareJoint, ...]
+    sensors: tuple[HardwareJoint, ...]
+    gpios: tuple[HardwareJoint, ...]
+    element: Element
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.element.span
+
+    @cached_property
+    def joints_by_name(self) -> Mapping[str, HardwareJoint]:
+        """Joints by name; the first one when a name is given twice."""
+        return {joint.name.value: joint for joint in reversed(self.joints)}
+
+
+def read_hardware(root: Element) -> tuple[Hardware, ...]:
+    """Read the `<ros2_control>` tags of a robot."""
+    return tuple(_hardware(element) for element in root.all("ros2_control"))
+
+
+def _hardware(element: Element) -> Hardware:
+    holder = element.child("hardware") or element
+    plugin = element.child("hardware", "plugin")
+    return Hardware(
+        _attribute(element, "name"),
+        _attribute(element, "type"),
+        plugin.text if plugin is not None else Located("", holder.span, stated=False),
+        tuple(map(_joint, element.all("joint"))),
+        tuple(map(_joint, element.all("sensor"))),
+        tuple(map(_joint, element.all("gpio"))),
+        element,
+    )
+
+
+def _joint(element: Element) -> HardwareJoint:
+    return HardwareJoint(
+        _attribute(element, "name"),
+        element.attribute("mimic"),
+        tuple(map(_interface, element.all("command_interface"))),
+        tuple(map(_interface, element.all("state_interface"))),
+        _params(element),
+        element,
+    )
+
+
+def _interface(element: Element) -> Interface:
+    numbers = {
+        name: Located(number, text.span)
+        for name, text in _params(element).items()
+        if (number := parse_number(text.value)) is not None
+    }
+    return Interface(_attribute(element, "name"), numbers, element)
+
+
+def _params(element: Element) -> dict[str, Located[str]]:
+    return {param.get("name") or "": param.text for param in element.all("param")}
+
+
+def _attribute(element: Element, name: str) -> Located[str]:
+    return element.attribute(name) or Located("", element.span, stated=False)

@@ -1,0 +1,197 @@
+"""What launch files do for ros2_control: controller managers that they start, and spawners."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+
+from checker.base.record import Record
+from checker.expand.ros2_launch.graph import LaunchGraph, Node, ParameterFile, is_known
+from checker.expand.ros2_launch.package_files import local_file
+from checker.model.ros2_control.controllers import ControllerFile, controllers_of
+from checker.model.ros2_control.parameters import MANAGER
+from checker.model.ros2_control.robot_control import ControlReader, RobotControl
+from checker.package.package import Package
+from checker.source.text import Located, Span
+
+MANAGER_NODE = "ros2_control_node"
+_SPAWNERS = ("spawner", "spawner.py")
+_WITH_VALUE = (
+    *("-c", "--controller-manager", "-p", "--param-file", "-n", "--namespace"),
+    *("-t", "--controller-type", "--controller-manager-timeout", "--switch-timeout"),
+    *("--service-call-timeout", "--controller-ros-args"),
+)
+_ROS_ARGS, _END_OF_ROS_ARGS = "--ros-args", "--"
+
+
+class Spawner(Record, eq=False):
+    """A spawner of controllers.
+
+    Attributes:
+        node: The node.
+        names: Of the controllers; those known at launch only are left out.
+        options: Values of options by their name, short or long, several where given several times.
+        complete: Whether nothing of its command line is left to the machine that launches.
+    """
+
+    node: Node
+    names: tuple[Located[str], ...]
+    options: Mapping[str, tuple[str, ...]]
+    complete: bool
+
+    @property
+    def param_files(self) -> tuple[str, ...]:
+        """Files of parameters that it hands to its controllers."""
+        own = (file.path for file in self.node.parameter_files)
+        return (*self.options.get("-p", ()), *self.options.get("--param-file", ()), *own)
+
+    @property
+    def states_type(self) -> bool:
+        """Whether it states the type of its controllers itself."""
+        return bool(self.options.keys() & {"-t", "--controller-type"})
+
+
+def spawner_of(node: Node) -> Spawner | None:
+    """Return a node as a spawner; None for any other node."""
+    if node.package.value != MANAGER or node.executable.value not in _SPAWNERS:
+        return None
+    names: list[Located[str]] = []
+    options: dict[str, tuple[str, ...]] = {}
+    awaited, for_ros = "", False
+    for word in node.arguments:
+        text = word.value
+        if awaited:
+            options[awaited] = (*options.get(awaited, ()), text)
+            awaited = ""
+        elif text in (_ROS_ARGS, _END_OF_ROS_ARGS):
+            for_ros = text == _ROS_ARGS
+        elif text.startswith("-") and not for_ros:
+            name, assigned, value = text.partition("=")
+            if assigned:
+                options[name] = (*options.get(name, ()), value)
+            elif name in _WITH_VALUE:
+                awaited = name
+        elif not for_ros and is_known(text) and text:
+            names.append(word)
+    known = all(is_known(word.value) for word in node.arguments)
+    return Spawner(node, tuple(names), options, known and not node.unread)
+
+
+def launched_files(package: Package, graphs: Iterable[LaunchGraph]) -> dict[str, Span]:
+    """Return the files of parameters that managers and spawners are given, by their path."""
+    files: dict[str, Span] = {}
+    for node in (node for graph in graphs for node in graph.nodes):
+        named = [(file.path, file.span) for file in node.parameter_files if _is_manager(node)]
+        spawner = spawner_of(node)
+        if spawner is not None:
+            named += [(path, node.span) for path in spawner.param_files]
+        for path, span in named:
+            local = local_file(package, path)
+            if local is not None:
+                files.setdefault(local, span)
+    return files
+
+
+def _is_manager(node: Node) -> bool:
+    return node.package.value == MANAGER and node.executable.value == MANAGER_NODE
+
+
+class LaunchedControl(Record, eq=False, dict=True):
+    """What one launch file, with all that it includes, does for ros2_control.
+
+    Attributes:
+        graph: Of the launch file.
+        controls: ros2_control of the robots of the package.
+        reader: Reads files of parameters.
+    """
+
+    graph: LaunchGraph
+    controls: tuple[RobotControl, ...]
+    reader: ControlReader
+
+    @cached_property
+    def nodes(self) -> tuple[Node, ...]:
+        """The nodes that are started with the defaults of all arguments."""
+        return tuple(node for node in self.graph.nodes if node.starts)
+
+    @cached_property
+    def spawners(self) -> tuple[Spawner, ...]:
+        """The spawners among them."""
+        found = map(spawner_of, self.nodes)
+        return tuple(spawner for spawner in found if spawner is not None)
+
+    @cached_property
+    def managers(self) -> tuple[Node, ...]:
+        """Controller managers that it starts as nodes."""
+        return tuple(filter(_is_manager, self.nodes))
+
+    @property
+    def simulates(self) -> bool:
+        """Whether it puts a robot into Gazebo."""
+        return any(
+            node.package.value == "ros_gz_sim" and node.executable.value == "create"
+            for node in self.nodes
+        )
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether nothing that it starts is left to other files or to the machine that launches.
+
+        Launch files of Gazebo itself start no controller manager.
+        """
+        missing = [
+            i for i in self.graph.includes if i.reason and "ros_gz_sim" not in i.target.value
+        ]
+        unsure = any(node.starts is None for node in self.graph.nodes)
+        return not (missing or self.graph.unread or unsure or self.graph.components)
+
+    @cached_property
+    def listed(self) -> frozenset[str] | None:
+        """Controllers whose type the managers know; None where a file of theirs is not known."""
+        files = [file for control in self.controls for file in control.files if control.managers]
+        for node in self.managers:
+            if node.unread:
+                return None
+            for parameter in node.parameters:
+                if isinstance(parameter, ParameterFile):
+                    read = self.reader.file(parameter.path)
+                    if read is None:
+                        return None
+                    files.append(read)
+        if any(control.unread for control in self.controls if control.managers):
+            return None
+        inline = (
+            parameter.name.removesuffix(".type")
+            for node in self.managers
+            for parameter in node.parameters
+            if not isinstance(parameter, ParameterFile) and parameter.name.endswith(".type")
+        )
+        listed = (each.name for each in controllers_of(files) if each.listed)
+        return frozenset((*inline, *listed))
+
+    def typed(self, spawner: Spawner) -> frozenset[str] | None:
+        """Return the controllers whose type a spawner's own files state; None if not known."""
+        files: list[ControllerFile] = []
+        for path in spawner.param_files:
+            read = self.reader.file(path)
+            if read is None:
+                return None
+            files.append(read)
+        return frozenset(each.name for each in controllers_of(files))
+
+
+def launched_controls(
+    package: Package, graphs: Sequence[LaunchGraph], controls: tuple[RobotControl, ...]
+) -> Iterator[LaunchedControl]:
+    """Yield what launch files do for ros2_control; those that have nothing to do with it are none.
+
+    Args:
+        package: That is checked.
+        graphs: Of its launch files.
+        controls: ros2_control of its robots.
+    """
+    reader = ControlReader(package)
+    for graph in graphs:
+        launched = LaunchedControl(graph, controls, reader)
+        if launched.spawners or launched.managers:
+            yield launched

@@ -1,0 +1,263 @@
+"""ros2_control of one robot: hardware, what runs the controller manager, controllers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from checker.base.files import NotReadable
+from checker.base.record import Record
+from checker.expand.ros2_launch.package_files import local_file
+from checker.expand.xacro.files import ROOT, local_path, package_in
+from checker.model.components import Joint, Plugin
+from checker.model.plugin_library import library_stem
+from checker.model.robot import Robot
+from checker.model.ros2_control.controllers import Controller, ControllerFile, controllers_of
+from checker.model.ros2_control.hardware import Hardware, HardwareJoint, read_hardware
+from checker.model.ros2_control.parameters import MANAGER, bare_managers, read_blocks
+from checker.model.urdf.description import UrdfDescription
+from checker.package.package import Package
+from checker.source.text import Located, Span
+
+if TYPE_CHECKING:
+    from checker.source.yaml import YamlFault, YamlNode
+
+MAX_FILES = 200
+"""YAML files of a package that are looked at though no plugin names them."""
+MAX_VALUES = 200_000
+"""Values of all YAML files of a package together."""
+_LIBRARY = "ros2_control"
+_FIND = re.compile(r"\$\(find(?:-pkg-share)?\s{1,8}([\w.-]{1,200})\s{0,8}\)")
+
+
+class ParametersFile(Record, eq=False):
+    """A file of parameters that a Gazebo plugin names.
+
+    Attributes:
+        text: What the plugin says.
+        package: Name of the package that it is in; empty where that is not known.
+        path: As the checked package lists it; None where no such package is at hand.
+        exists: Whether the file is there.
+    """
+
+    text: Located[str]
+    package: str
+    path: str | None
+    exists: bool
+
+
+class GazeboManager(Record, eq=False):
+    """A Gazebo plugin that runs a controller manager.
+
+    Attributes:
+        plugin: The plugin.
+        files: What its `<parameters>` name.
+        namespace: Absolute; `/` when it states none.
+        node: Name of the manager's node.
+    """
+
+    plugin: Plugin
+    files: tuple[ParametersFile, ...]
+    namespace: Located[str]
+    node: str = MANAGER
+
+    @property
+    def span(self) -> Span:
+        """The start tag."""
+        return self.plugin.span
+
+    @property
+    def library(self) -> str:
+        """Name of its library: `gz_ros2_control-system`, `gazebo_ros2_control`."""
+        return library_stem(self.plugin.filename.value)
+
+
+class RobotControl(Record, eq=False, dict=True):
+    """ros2_control of one robot.
+
+    Attributes:
+        robot: The robot, without its meshes.
+        hardware: Its `<ros2_control>` tags.
+        managers: Plugins of Gazebo that run a controller manager.
+        files: Files of parameters that are about its controllers.
+        faults: What is wrong with them as YAML.
+        unread: Why parameters are not known, each the end of a sentence.
+    """
+
+    robot: Robot
+    hardware: tuple[Hardware, ...]
+    managers: tuple[GazeboManager, ...] = ()
+    files: tuple[ControllerFile, ...] = ()
+    faults: tuple[YamlFault, ...] = ()
+    unread: tuple[str, ...] = ()
+
+    @property
+    def is_named(self) -> bool:
+        """Whether a plugin or launch file names the files: they are its own for certain."""
+        return any(file.loaded_by is not None for file in self.files)
+
+    @property
+    def has_variants(self) -> bool:
+        """Whether the files may be for variants of the robot: nothing says which one is loaded."""
+        return not self.is_named and len(self.files) > 1
+
+    @cached_property
+    def controllers(self) -> tuple[Controller, ...]:
+        """What the files configure."""
+        return controllers_of(self.files)
+
+    @cached_property
+    def joints(self) -> Mapping[str, HardwareJoint]:
+        """Joints of its hardware by name; the first one when a name is given twice."""
+        every = [joint for hardware in self.hardware for joint in hardware.joints]
+        return {joint.name.value: joint for joint in reversed(every)}
+
+    def joint(self, joint: HardwareJoint) -> Joint | None:
+        """Return the joint of the robot that one of the hardware stands for."""
+        return self.robot.joints_by_name.get(joint.name.value)
+
+    @cached_property
+    def components(self) -> frozenset[str]:
+        """Names of all joints, sensors and gpios of its hardware."""
+        return frozenset(
+            part.name.value
+            for hardware in self.hardware
+            for part in (*hardware.joints, *hardware.sensors, *hardware.gpios)
+        )
+
+
+# Which files of parameters belong to a robot, and reading them.
+
+
+class ControlReader:
+    """Reads ros2_control of the robots of a package; each YAML file is parsed once."""
+
+    def __init__(self, package: Package, launched: Mapping[str, Span] | None = None) -> None:
+        """Begin with nothing read.
+
+        Args:
+            package: Whose robots they are.
+            launched: Files of parameters that its launch files name, each with what names it.
+        """
+        self.package = package
+        self.launched = launched or {}
+        self._read: dict[str, tuple[YamlNode | None, tuple[YamlFault, ...], str]] = {}
+        self._values = 0
+
+    def control(self, description: UrdfDescription) -> RobotControl | None:
+        """Return ros2_control of a robot; None when it has none."""
+        robot = description.robot
+        hardware = read_hardware(description.document.root)
+        managers = tuple(map(self._manager, filter(_runs_manager, robot.plugins)))
+        if not hardware and not managers:
+            return None
+        faults: list[YamlFault] = []
+        unread: list[str] = []
+        named = tuple(self._named(managers, faults, unread))
+        mere = RobotControl(robot, hardware, managers)
+        # A file that is named and not there is a fault of its own, and no other one stands for it.
+        guesses = not any(manager.files for manager in managers)
+        files = self._likely(mere.components) if guesses else named
+        return RobotControl(robot, hardware, managers, files, tuple(faults), tuple(unread))
+
+    def _manager(self, plugin: Plugin) -> GazeboManager:
+        files = tuple(self._parameters_file(text) for text in plugin.at("parameters"))
+        stated = next((text for text in plugin.at("ros/namespace")), None)
+        namespace = Located("/", plugin.span, stated=False)
+        if stated is not None:
+            namespace = Located(f"/{stated.value.strip('/')}", stated.span)
+        node = next((text.value for text in plugin.at("controller_manager_name")), MANAGER)
+        return GazeboManager(plugin, files, namespace, node)
+
+    def _parameters_file(self, text: Located[str]) -> ParametersFile:
+        path = _FIND.sub(rf"{ROOT}/\1", text.value.strip())
+        path = re.sub(r"\A(?:file|package)://(?=/?)", "", path)
+        if not path.startswith("/"):
+            path = f"{ROOT}/{path}" if text.value.startswith("package://") else path
+        local = local_path(self.package, path)
+        exists = local is not None and self.package.exists(local)
+        return ParametersFile(text, package_in(path), local, exists)
+
+    def _named(
+        self, managers: Iterable[GazeboManager], faults: list[YamlFault], unread: list[str]
+    ) -> Iterator[ControllerFile]:
+        """Yield the files that Gazebo plugins name."""
+        for file in (file for manager in managers for file in manager.files):
+            if file.path is not None and file.exists:
+                root, found, reason = self._yaml(file.path)
+                faults += found
+                if reason:
+                    unread.append(reason)
+                if root is not None:
+                    blocks, bare = tuple(read_blocks(root)), tuple(bare_managers(root))
+                    yield ControllerFile(file.path, blocks, file.text.span, bare)
+
+    def _likely(self, names: frozenset[str]) -> tuple[ControllerFile, ...]:
+        """Return the files that launch files name, else those that lie in the package."""
+        launched = tuple(self._mentioning(self.launched, names))
+        index = self.package.index.with_suffix(".yaml", ".yml")[:MAX_FILES]
+        return launched or tuple(self._mentioning([entry.path for entry in index], names))
+
+    def _mentioning(self, paths: Iterable[str], names: frozenset[str]) -> Iterator[ControllerFile]:
+        """Yield those of the files that configure a controller of these joints."""
+        for path in paths:
+            root, _, _ = self._yaml(path)
+            if root is None:
+                continue
+            file = ControllerFile(path, tuple(read_blocks(root)), self.launched.get(path))
+            if any(_mentions(controller, names) for controller in controllers_of([file])):
+                yield file
+
+    def file(self, path: str) -> ControllerFile | None:
+        """Return the file at a path as xacro and launch see it; None when it cannot be had."""
+        local = local_file(self.package, path)
+        root = self._yaml(local)[0] if local is not None else None
+        return (
+            None
+            if local is None or root is None
+            else ControllerFile(local, tuple(read_blocks(root)))
+        )
+
+    def _yaml(self, path: str) -> tuple[YamlNode | None, tuple[YamlFault, ...], str]:
+        if path not in self._read:
+            self._read[path] = self._parsed(path)
+        return self._read[path]
+
+    def _parsed(self, path: str) -> tuple[YamlNode | None, tuple[YamlFault, ...], str]:
+        # The library is loaded for those packages only that have such files.
+        from checker.source.yaml import read_yaml
+
+        source = self.package.read(path)
+        if isinstance(source, NotReadable):
+            return None, (), f"{path} {source.reason}"
+        if self._values > MAX_VALUES:
+            return (
+                None,
+                (),
+                f"{path} is not read: the parameters have more than {MAX_VALUES} values",
+            )
+        document = read_yaml(source)
+        self._values += document.root.size if document.root is not None else 0
+        return document.root, document.faults, ""
+
+
+def may_be_controlled(description: UrdfDescription) -> bool:
+    """Say whether a robot has a `<ros2_control>` tag, or a plugin that runs a manager."""
+    root = description.document.root
+    return root.child("ros2_control") is not None or any(
+        map(_runs_manager, description.robot.plugins)
+    )
+
+
+def _runs_manager(plugin: Plugin) -> bool:
+    return _LIBRARY in library_stem(plugin.filename.value)
+
+
+def _mentions(controller: Controller, names: frozenset[str]) -> bool:
+    return any(
+        text.value in names
+        for parameter in controller.parameters.values()
+        for text in parameter.texts
+    )

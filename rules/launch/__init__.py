@@ -1,0 +1,1 @@
+"""LCH: launch files of ROS 2."""

@@ -1,0 +1,68 @@
+"""A launch file names a file that its package does not have.
+
+What is included or read does not start; a node that is given the path ends, or runs without its
+parameters. The name of an included file is written in full, `robot.launch.py` and not `robot`.
+Files of packages that are not at hand, and files that the build makes, are not judged. Where a
+condition leaves the action out, and for what is only shown in RViz, this is a warning.
+
+Fix: correct the path, or add the file.
+Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
+ROS 2 issues ros2/ros2#1401, HarvestX/MG400_ROS2#200.
+"""
+
+from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.expand.ros2_launch.named_paths import is_missing, lies_elsewhere, named_paths
+from checker.package.package import Package
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("LCH001", "launch-names-missing-file", Severity.ERROR, Concern.INTERFACE)
+def check(launch: Ros2Launch, package: Package) -> Findings:
+    """Report files in share folders of packages at hand that are not there."""
+    for graph in launch.entries:
+        for named in named_paths(graph):
+            if is_missing(package, named.path):
+                what = "the included file" if named.include else "the file"
+                found = lies_elsewhere(package, named.path)
+                hint = f": {found} is not installed there" if found else ""
+                yield finding(
+                    named,
+                    f"{what} {named.path} does not exist{hint}",
+                    severity=None if named.needed else Severity.WARNING,
+                )
+
+
+_STATE = """        Node(package='p', executable='e', parameters=[
+            in_package('config', 'arm.yaml')]),"""
+
+GOOD = [
+    {"@ros2": True},
+    {"@ros2": _STATE},
+    {"@ros2": _STATE.replace("'config', 'arm.yaml'", "'maps', 'saved'")},
+    {
+        "@ros2": """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
+            os.path.join(get_package_share_directory('nav2_bringup'), 'launch', 'x.launch.py'))),"""
+    },
+]
+BAD = [
+    {"@ros2": _STATE.replace("arm.yaml')]),", "arms.yaml')]),  # ^ LCH001")},
+    {
+        "@ros2": """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
+            in_package('launch', 'view.launch.py'))),  # ^ LCH001"""
+    },
+    {
+        "@ros2": """        Node(package='rviz2', executable='rviz2', arguments=[
+            '-d', in_package('rviz', 'view.rviz')]),  # ^ LCH001"""
+    },
+    {
+        "@ros2": """        Node(package='p', executable='e', parameters=[{'robot_description':
+            Command(['xacro ', in_package('urdf', 'hand.urdf.xacro'), ' a:=1'])}]),  # ^ LCH001"""
+    },
+    {
+        "@ros2": True,
+        "launch/view.launch.xml": """<launch>
+  <include file="$(find-pkg-share acme_arm_bringup)/launch/arm.launch"/> <!-- ^ LCH001 -->
+</launch>
+""",
+    },
+]

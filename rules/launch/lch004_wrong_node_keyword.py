@@ -1,0 +1,41 @@
+"""A node of a launch file lacks its executable, or has keywords of another release.
+
+`node_name`, `node_executable` and `node_namespace` are of releases before Galactic, `type` is of
+ROS 1. Without `executable` (in XML and YAML `exec`) the launch file ends with an error.
+
+Fix: write `name`, `executable` and `namespace`.
+Source: launch_ros, `Node`: `executable` is required, and other keywords raise a TypeError.
+"""
+
+from collections.abc import Mapping
+
+from checker.expand.ros2_launch.graph import LaunchFaultKind, Ros2Launch
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+OLD: Mapping[str, str] = {
+    "node_name": "name",
+    "node_executable": "executable",
+    "node_namespace": "namespace",
+}
+
+
+@rule("LCH004", "wrong-node-keyword", Severity.ERROR, Concern.INTERFACE)
+def check(launch: Ros2Launch) -> Findings:
+    """Report nodes without executable, and keywords that were renamed."""
+    for graph in launch.entries:
+        for fault in graph.faults:
+            if fault.kind is LaunchFaultKind.ATTRIBUTE:
+                new = OLD.get(fault.name)
+                hint = f": write {new}" if new else ""
+                yield finding(fault, f"{fault.message}{hint}", key=fault.message)
+
+
+GOOD = [{"@ros2": True}]
+BAD = [
+    {"@ros2": "        Node(package='p', node_executable='e'),  # ^ LCH004"},
+    {"@ros2": "        Node(package='p', executable='e', node_name='n'),  # ^ LCH004"},
+    {
+        "@ros2": True,
+        "launch/view.launch.xml": '<launch>\n<node pkg="p" name="n"/> <!-- ^ LCH004 -->\n</launch>',
+    },
+]

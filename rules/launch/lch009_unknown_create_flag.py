@@ -1,0 +1,55 @@
+"""An option of another spawner among the arguments of `create`.
+
+`create` of ros_gz_sim ends at an option that it does not know: the robot is not spawned. `-entity`,
+`-robot_namespace` and the like are options of Gazebo Classic's spawners.
+
+Fix: write `-name` for `-entity`; give a namespace to the node, and leave the others out.
+Source: ros_gz_sim, `create.cpp`: gflags ends the program at an unknown flag.
+"""
+
+from collections.abc import Mapping
+
+from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_HINTS: Mapping[str, str] = {
+    "entity": "write -name",
+    "model": "write -name",
+    "robot_namespace": "give a namespace to the nodes",
+    "reference_frame": "leave it out",
+    "gazebo_namespace": "leave it out",
+    "spawn_service_timeout": "leave it out",
+    "package_to_model": "leave it out",
+    "unpause": "leave it out",
+    "database": "write -file with the model's URI",
+    "urdf": "leave it out: the format is recognized",
+    "sdf": "leave it out: the format is recognized",
+}
+"""Options of spawn_entity.py and spawn_model."""
+
+
+@rule("LCH009", "unknown-create-option", Severity.ERROR, Concern.INTERFACE)
+def check(launch: Ros2Launch) -> Findings:
+    """Report options that `create` does not have."""
+    for graph in launch.entries:
+        for node in graph.nodes:
+            if (node.package.value, node.executable.value) != ("ros_gz_sim", "create"):
+                continue
+            for word in node.arguments:
+                if word.value == "--ros-args":
+                    break
+                name = word.value.lstrip("-").partition("=")[0]
+                if word.value.startswith("-") and name in _HINTS:
+                    yield finding(
+                        word,
+                        f"create has no option {word.value!r}: {_HINTS[name]}",
+                        severity=None if node.starts is True else Severity.WARNING,
+                        key=name,
+                    )
+
+
+_CREATE = """        Node(package='ros_gz_sim', executable='create',
+             arguments=['-topic', 'robot_description', '-name', 'arm', '-z', '-0.5']),"""
+
+GOOD = [{"@ros2": _CREATE}]
+BAD = [{"@ros2": _CREATE.replace("'-name'", "'-entity'").replace("]),", "]),  # ^ LCH009")}]

@@ -1,0 +1,53 @@
+"""A launch file that does not load, or not with its own defaults.
+
+It is no Python, XML or YAML, defines no `generate_launch_description`, includes itself, or has a
+default that is none of its choices.
+
+Fix: correct what the message names; `ros2 launch PACKAGE FILE --show-args` says the same.
+Source: launch, `PythonLaunchDescriptionSource`, `DeclareLaunchArgument`.
+"""
+
+from checker.expand.ros2_launch.graph import LaunchFaultKind, Ros2Launch
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+
+_KINDS = (
+    LaunchFaultKind.SYNTAX,
+    LaunchFaultKind.NO_DESCRIPTION,
+    LaunchFaultKind.INCLUDE_LOOP,
+    LaunchFaultKind.UNKNOWN_CHOICE,
+)
+
+
+@rule("LCH011", "launch-file-does-not-load", Severity.ERROR, Concern.INTERFACE)
+def check(launch: Ros2Launch) -> Findings:
+    """Report launch files that end with an error, and name what of them is not read."""
+    for reason in launch.unread:
+        yield unchecked(reason)
+    for graph in launch.entries:
+        for fault in graph.faults:
+            if fault.kind in _KINDS:
+                yield finding(fault, fault.message)
+        broken = any(fault.kind in _KINDS for fault in graph.faults)
+        for unread in graph.unread if not broken else ():
+            place = unread.span.place()
+            if not place.file.startswith("../"):
+                yield unchecked(f"{place.file}:{place.line}: {unread.reason}")
+
+
+_ARGUMENT = "        DeclareLaunchArgument('x', choices=['a', 'b'], default_value='@'),"
+
+GOOD = [{"@ros2": True}, {"@ros2": _ARGUMENT.replace("@", "a")}]
+BAD = [
+    {"@ros2": f"{_ARGUMENT.replace('@', 'c')}  # ^ LCH011"},
+    {"@ros2": True, "launch/view.launch.xml": "<launch><node></launch> <!-- ^ LCH011 -->"},
+    {
+        "@ros2": True,
+        "launch/view.launch.xml": """<launch>
+  <include file="$(dirname)/view.launch.xml"/> <!-- ^ LCH011 -->
+</launch>
+""",
+    },
+    {
+        "@ros2": "        Node(package='p' executable='e'),  # ^ LCH011",
+    },
+]

@@ -1,0 +1,1 @@
+"""R2C: ros2_control, its hardware and its controllers."""

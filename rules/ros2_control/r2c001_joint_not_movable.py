@@ -1,0 +1,66 @@
+"""A joint of ros2_control that the URDF has not, or that is fixed.
+
+From Jazzy on, the controller manager compares the joints of each `<ros2_control>` tag with those of
+the URDF and ends with an error: none of the robot's controllers runs. Humble does not compare them;
+there the joint is only never moved.
+
+Fix: write the joint's name as the URDF has it, with its prefix, and leave out joints that cannot
+move.
+Source: ros2_control, hardware_interface/src/component_parser.cpp,
+`parse_control_resources_from_urdf`.
+"""
+
+from checker.base.words import Suggestions
+from checker.model.ros2_control.distributions import distribution_of, is_from
+from checker.model.ros2_control.hardware import HardwareJoint
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
+
+
+@rule("R2C001", "joint-not-movable", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl, context: Context) -> Findings:
+    """Report joints of `<ros2_control>` that do not exist or are fixed; for Humble as warnings."""
+    distribution = distribution_of(context)
+    severity = None if is_from(distribution, "jazzy") else Severity.WARNING
+    suggestions = Suggestions(control.robot.joints_by_name)
+    for hardware in control.hardware:
+        for joint in hardware.joints:
+            name, wrong = joint.name, _wrong(control, joint, suggestions)
+            if wrong and name.stated:
+                yield finding(
+                    name,
+                    f"<ros2_control> {hardware.name.value!r} has joint {name.value!r}, {wrong}",
+                    severity=severity,
+                )
+
+
+def _wrong(control: RobotControl, joint: HardwareJoint, suggestions: Suggestions) -> str:
+    known = control.joint(joint)
+    if known is None:
+        return f"which the URDF has not{suggestions.hint(joint.name.value)}"
+    return "which is fixed" if known.type.value == "fixed" else ""
+
+
+def _arm(joint: str, more: str = "") -> dict[str, str]:
+    return {
+        "@urdf": f"""{more}
+<ros2_control name="arm" type="system">
+  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+  {joint}
+    <command_interface name="position"/>
+    <state_interface name="position"/>
+  </joint>
+</ros2_control>
+"""
+    }
+
+
+_FIXED = """
+<link name="tool"/>
+<joint name="tool_joint" type="fixed"><parent link="upper_arm"/><child link="tool"/></joint>
+"""
+GOOD = [_arm('<joint name="shoulder">'), {"@urdf": True}]
+BAD = [
+    _arm('<joint name="shoulder_joint">  <!-- ^ R2C001 -->'),
+    _arm('<joint name="tool_joint">  <!-- ^ R2C001 -->', _FIXED),
+]

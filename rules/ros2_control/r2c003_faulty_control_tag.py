@@ -1,0 +1,96 @@
+"""A `ros2_control` tag that the controller manager cannot read.
+
+The tag needs a `name`, a `type` of `system`, `actuator` or `sensor`, and `<hardware>` with a
+`<plugin>`. Below it stand `<hardware>`, `<joint>`, `<sensor>`, `<gpio>`, `<transmission>` and
+`<properties>`; on anything else the controller manager ends with "invalid tag name", on a `<param>`
+as well: parameters of the hardware belong inside `<hardware>`.
+
+Fix: move `<param>` into `<hardware>`, correct the tag's name, and state name, type and plugin.
+Source: ros2_control, hardware_interface/src/component_parser.cpp, `parse_resource_from_xml`.
+"""
+
+from collections.abc import Iterator
+
+from checker.base.words import Suggestions
+from checker.model.ros2_control.hardware import (
+    KNOWN_CHILDREN,
+    TYPES,
+    Hardware,
+    HardwareJoint,
+    Interface,
+)
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule
+
+
+@rule("R2C003", "faulty-control-tag", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl) -> Findings:
+    """Report what is missing in a `<ros2_control>` tag, and tags that do not belong there."""
+    for hardware in control.hardware:
+        yield from _missing(hardware)
+        yield from _strange(hardware)
+        for part in (*hardware.joints, *hardware.sensors, *hardware.gpios):
+            yield from _nameless(part)
+
+
+def _missing(hardware: Hardware) -> Iterator[Finding]:
+    called = f"<ros2_control> {hardware.name.value!r}" if hardware.name.value else "<ros2_control>"
+    if not hardware.name.value:
+        yield finding(hardware, "<ros2_control> has no name")
+    kind = hardware.type
+    if kind.value not in TYPES:
+        says = f"is of type {kind.value!r}" if kind.stated else "has no type"
+        yield finding(kind, f"{called} {says}, expected system, actuator or sensor")
+    if not hardware.plugin.value:
+        lacks = "<plugin>" if hardware.element.child("hardware") is not None else "<hardware>"
+        yield finding(hardware.plugin, f"{called} has no {lacks}, so no hardware is loaded")
+
+
+def _strange(hardware: Hardware) -> Iterator[Finding]:
+    suggestions = Suggestions(KNOWN_CHILDREN)
+    for child in hardware.element.children:
+        if child.tag not in KNOWN_CHILDREN:
+            hint = suggestions.hint(child.tag)
+            inside = "; it belongs into <hardware>" if child.tag == "param" else hint
+            yield finding(child, f"<{child.tag}> does not belong below <ros2_control>{inside}")
+
+
+def _nameless(part: HardwareJoint) -> Iterator[Finding]:
+    pieces: tuple[HardwareJoint | Interface, ...] = (part, *part.commands, *part.states)
+    for piece in pieces:
+        if not piece.name.value:
+            yield finding(piece, f"<{piece.element.tag}> has no name")
+
+
+_NAMED, _TYPED = ' name="arm"', ' type="system"'
+_PLUGIN = "<plugin>mock_components/GenericSystem</plugin>"
+_HARDWARE = f"<hardware>{_PLUGIN}</hardware>"
+_MARK = "  <!-- ^ R2C003 -->"
+
+
+def _arm(attributes: str = _NAMED + _TYPED, inside: str = _HARDWARE, mark: str = "") -> object:
+    return {
+        "@urdf": f"""
+<ros2_control{attributes}>{mark}
+  {inside}
+  <joint name="shoulder">
+    <command_interface name="position"/>
+    <state_interface name="position"/>
+  </joint>
+</ros2_control>
+"""
+    }
+
+
+_SENSOR = '<sensor name="imu"><state_interface name="orientation.x"/></sensor>'
+GOOD = [_arm(), _arm(inside=_HARDWARE + _SENSOR)]
+BAD = [
+    _arm(_TYPED, mark=_MARK),
+    _arm(_NAMED, mark=_MARK),
+    _arm(_NAMED + ' type="robot"', mark=_MARK),
+    _arm(inside="", mark=_MARK),
+    _arm(inside=f"<hardware>{_MARK}</hardware>"),
+    _arm(inside=f'{_HARDWARE}\n<param name="port">/dev/ttyUSB0</param>{_MARK}'),
+    _arm(inside=f"{_HARDWARE}\n<joints/>{_MARK}"),
+    _arm(inside=f"{_HARDWARE}\n<sensor><state_interface name='force.x'/></sensor>{_MARK}"),
+]

@@ -1,0 +1,97 @@
+"""A controller type that the ROS 2 distribution does not have.
+
+The spawner ends with an error for a type that no package exports. Some types were renamed: the
+`GripperActionController` of `position_controllers` and `effort_controllers` is gone since Kilted,
+the `JointGroup…Controller`s since Lyrical. Types of ROS 1, such as
+`joint_state_controller/JointStateController`, never were there.
+
+Types of packages other than ros2_controllers are not judged.
+
+Fix: `joint_state_broadcaster/JointStateBroadcaster` publishes joint states,
+`joint_trajectory_controller/JointTrajectoryController` follows trajectories,
+`parallel_gripper_action_controller/GripperActionController` closes grippers, and
+`forward_command_controller/ForwardCommandController` with `interface_name` forwards commands.
+Source: plugin descriptions of ros2_controllers, by branch.
+"""
+
+from collections.abc import Mapping
+
+from checker.base.words import Suggestions
+from checker.model.ros2_control.distributions import controller_types, distribution_of
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.rule import Concern, Context, Findings, Severity, finding, rule
+
+_OF_ROS_1 = {"joint_state_controller"}
+_FORWARDS = "forward_command_controller/ForwardCommandController with interface_name: "
+_INSTEAD: Mapping[str, str] = {
+    "joint_state_controller/JointStateController": "joint_state_broadcaster/JointStateBroadcaster",
+    "position_controllers/JointTrajectoryController": (
+        "joint_trajectory_controller/JointTrajectoryController"
+    ),
+    "effort_controllers/JointTrajectoryController": (
+        "joint_trajectory_controller/JointTrajectoryController"
+    ),
+    "velocity_controllers/JointTrajectoryController": (
+        "joint_trajectory_controller/JointTrajectoryController"
+    ),
+    "position_controllers/GripperActionController": (
+        "parallel_gripper_action_controller/GripperActionController"
+    ),
+    "effort_controllers/GripperActionController": (
+        "parallel_gripper_action_controller/GripperActionController"
+    ),
+    "position_controllers/JointGroupPositionController": f"{_FORWARDS}position",
+    "velocity_controllers/JointGroupVelocityController": f"{_FORWARDS}velocity",
+    "effort_controllers/JointGroupEffortController": f"{_FORWARDS}effort",
+}
+
+
+@rule("R2C008", "unknown-controller-type", Severity.ERROR, Concern.INTERFACE)
+def check(control: RobotControl, context: Context) -> Findings:
+    """Report types of packages of ros2_controllers that these do not export."""
+    distribution, types = distribution_of(context), controller_types()
+    packages = {name.partition("/")[0] for name in types} | _OF_ROS_1
+    suggestions = Suggestions(name for name in types if types[name].exists_in(distribution))
+    for controller in control.controllers:
+        name = controller.type.value
+        if name.partition("/")[0] not in packages:
+            continue
+        known = types.get(name)
+        if known is None or not known.exists_in(distribution):
+            instead = _INSTEAD.get(name)
+            hint = f", expected {instead}" if instead else suggestions.hint(name)
+            yield finding(
+                controller.type,
+                f"ROS 2 {distribution.title()} has no controller of type {name}{hint}",
+            )
+
+
+def _arm(kind: str) -> object:
+    return {
+        "@urdf": """
+<ros2_control name="arm" type="system">
+  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+  <joint name="shoulder"><command_interface name="position"/></joint>
+</ros2_control>
+""",
+        "config/arm.yaml": f"""controller_manager:
+  ros__parameters:
+    arm_controller:
+      type: {kind}
+arm_controller:
+  ros__parameters:
+    joints: [shoulder]
+""",
+    }
+
+
+GOOD = [
+    _arm("joint_trajectory_controller/JointTrajectoryController"),
+    _arm("position_controllers/GripperActionController"),
+    _arm("acme_controllers/ArmController"),
+]
+BAD = [
+    _arm("joint_trajectory_controller/JointTrajectoryControler  # ^ R2C008"),
+    _arm("effort_controllers/JointEffortController  # ^ R2C008"),
+    _arm("joint_state_controller/JointStateController  # ^ R2C008"),
+]

@@ -1,0 +1,103 @@
+"""What rules of ros2_control say depends on the ROS 2 distribution."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from checker.model.ros2_control.distributions import distribution_of, is_from
+from checker.pipeline import check_package
+from checker.rule import Context
+from checker.rule_testing import write_example
+from checker.settings import Settings
+
+ARM = """
+<link name="finger"/>
+<joint name="finger_joint" type="revolute">
+  <parent link="upper_arm"/><child link="finger"/><mimic joint="shoulder"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/>
+</joint>
+<ros2_control name="arm" type="system">
+  <hardware><plugin>@</plugin></hardware>
+  <joint name="shoulder"><command_interface name="velocity"/></joint>
+  <joint name="finger_joint"><command_interface name="position"/></joint>
+  <joint name="elbow"><command_interface name="position"/></joint>
+</ros2_control>
+"""
+CONTROLLERS = """
+gripper:
+  ros__parameters:
+    type: position_controllers/GripperActionController
+    joint: finger_joint
+drive:
+  ros__parameters:
+    type: diff_drive_controller/DiffDriveController
+    left_wheel_names: [shoulder]
+    right_wheel_names: [shoulder]
+    wheel_radius: 0.1
+    wheel_separation: 0.5
+    use_stamped_vel: false
+"""
+
+
+def said(folder: Path, distro: str, hardware: str = "mock_components/GenericSystem") -> set[str]:
+    """Return the rules of the group that speak, with their severities."""
+    example = {"@urdf": ARM.replace("@", hardware), "config/arm.yaml": CONTROLLERS}
+    package = write_example(example, folder / distro)
+    settings = Settings(profile="ros2", profile_chosen=True, distro=distro, trial=False)
+    (report,) = check_package(package, settings).packages
+    return {
+        f"{each.rule} {each.severity.value}"
+        for each in report.findings
+        if each.rule.startswith("R2C")
+    }
+
+
+def test_humble_does_not_compare_joints_and_reads_twist(tmp_path: Path) -> None:
+    assert said(tmp_path, "humble") == {"R2C001 warning", "R2C009 warning"}
+
+
+def test_jazzy_does(tmp_path: Path) -> None:
+    assert said(tmp_path, "jazzy") == {
+        *("R2C001 error", "R2C002 error", "R2C009 warning", "R2C011 warning")
+    }
+
+
+def test_kilted_has_no_gripper_of_position_controllers(tmp_path: Path) -> None:
+    assert "R2C008 error" in said(tmp_path, "kilted")
+    assert "R2C008 error" in said(tmp_path, "lyrical")
+
+
+@pytest.mark.parametrize(
+    ("hardware", "distro", "severity"),
+    [
+        ("gazebo_ros2_control/GazeboSystem", "humble", ""),
+        ("gazebo_ros2_control/GazeboSystem", "jazzy", "error"),
+        ("fake_components/GenericSystem", "humble", ""),
+        ("fake_components/GenericSystem", "jazzy", "error"),
+        ("gz_ros2_control/GazeboSimSystem", "humble", "warning"),
+        ("ign_ros2_control/IgnitionSystem", "kilted", "info"),
+    ],
+)
+def test_hardware(tmp_path: Path, hardware: str, distro: str, severity: str) -> None:
+    found = {each for each in said(tmp_path, distro, hardware) if each.startswith("R2C004")}
+
+    assert found == ({f"R2C004 {severity}"} if severity else set())
+
+
+def test_a_profile_without_distribution_judges_for_that_of_its_release() -> None:
+    names = {
+        release: distribution_of(Context(release=release))
+        for release in ("fortress", "harmonic", "ionic", "jetty", "dome")
+    }
+
+    assert names == {
+        "fortress": "humble",
+        "harmonic": "jazzy",
+        "ionic": "kilted",
+        "jetty": "lyrical",
+        "dome": "jazzy",
+    }
+    assert is_from("kilted", "jazzy")
+    assert not is_from("humble", "jazzy")
