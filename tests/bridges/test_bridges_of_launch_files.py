@@ -9,7 +9,12 @@ import pytest
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridge_entry import BridgeFault, Passed, read_argument
+from checker.expand.ros2_launch.bridge_entry import (
+    BridgeFault,
+    BridgeFaultKind,
+    Passed,
+    read_argument,
+)
 from checker.expand.ros2_launch.bridge_file import read_bridge_file
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.package.inputs import open_input
@@ -175,6 +180,32 @@ def test_hostile_files_end_in_faults(text: str) -> None:
 
     assert bool(items) is bool(text)
     assert all(isinstance(item, BridgeFault) for item in items)
+
+
+TYPES = "ros_type_name: nav_msgs/msg/Odometry, gz_type_name: gz.msgs.Odometry"
+
+
+@pytest.mark.parametrize(
+    ("entry", "kinds"),
+    [
+        (f"{{topic_name: a, {TYPES}}}", []),
+        (f"{{ros_topic: a, gz_topic_name: b, {TYPES}}}", [BridgeFaultKind.UNKNOWN_KEY]),
+        (f"{{ros_topic: a, {TYPES}}}", [BridgeFaultKind.DROPPED]),
+        (
+            f"{{ros_topic: a, gz_topic: b, {TYPES}}}",
+            [BridgeFaultKind.DROPPED, BridgeFaultKind.UNKNOWN_KEY],
+        ),
+        (
+            "{ros_topic_name: a, ros_type_name: b/msg/C, ign_type_name: ignition.msgs.IMU}",
+            [BridgeFaultKind.UNKNOWN_KEY],
+        ),
+        ("{service_name: a, ros_type_name: b/srv/C, gz_req_type_name: gz.msgs.Empty}", []),
+    ],
+)
+def test_what_is_left_out_and_what_is_ignored(entry: str, kinds: list[BridgeFaultKind]) -> None:
+    items = read_bridge_file(read_yaml(SourceText("bridge.yaml", f"- {entry}")))
+
+    assert [item.kind for item in items if isinstance(item, BridgeFault)] == kinds
 
 
 def _word(text: str) -> Located[str]:

@@ -20,6 +20,7 @@ _TYPES = ("ros_type_name", "gz_type_name")
 _OLD = {"ign_topic_name": "gz_topic_name", "ign_type_name": "gz_type_name"}
 _SERVICE = ("service_name", "gz_req_type_name", "gz_rep_type_name")
 _OTHERS = ("direction", "publisher_queue", "subscriber_queue", "lazy", "qos_profile", "frame_id")
+_KNOWN = (*_TOPICS, *_TYPES, *_SERVICE, *_OTHERS)
 _MARKS = ("gz_topic_name", "gz_type_name", *_OLD)
 """Keys that files of no other bridge have."""
 _NEAR = {
@@ -60,59 +61,67 @@ def read_bridge_file(document: YamlDocument) -> Iterator[Item]:
         hint = "; write '- ' in front of each entry" if root.kind == "mapping" else ""
         yield BridgeFault(BridgeFaultKind.NO_SEQUENCE, root.span, message + hint)
         return
+    suggestions = Suggestions(_KNOWN)
     for entry in root.items:
-        yield from _entry(entry)
+        yield from _entry(entry, suggestions)
 
 
-def _entry(entry: YamlNode) -> Iterator[Item]:
+def _entry(entry: YamlNode, suggestions: Suggestions) -> Iterator[Item]:
     if entry.kind != "mapping":
         message = f"an entry is a {entry.kind} instead of a mapping: it is left out"
         yield BridgeFault(BridgeFaultKind.DROPPED, entry.span, message)
         return
-    yield from _unknown_keys(entry)
-    if any(entry.get(key) is not None for key in _SERVICE):
-        return
-    dropped = [*_dropped(entry)]
+    unknown = [key for key, _ in entry.entries if _text(key) not in _KNOWN]
+    meant = {_NEAR.get(_text(key)) or suggestions.near(_text(key)) or "": key for key in unknown}
+    dropped: list[BridgeFault] = []
+    if all(entry.get(key) is None for key in _SERVICE):
+        dropped += _dropped(entry, meant)
+        if not dropped and all(entry.get(key) is None for key in _OLD):
+            yield from _passed(entry)
     yield from dropped
-    if not dropped and not any(entry.get(key) is not None for key in _OLD):
-        yield from _passed(entry)
-
-
-def _unknown_keys(entry: YamlNode) -> Iterator[BridgeFault]:
-    known = (*_TOPICS, *_TYPES, *_SERVICE, *_OTHERS)
-    suggestions = Suggestions(known)
-    for key, _ in entry.entries:
-        name = str(key.scalar)
-        if key.kind == "scalar" and name not in known:
-            near = _NEAR.get(name) or suggestions.near(name)
-            message = f"the bridge ignores the key {name!r}"
-            if near:
-                message += f"; expected {near}"
+    told = {id(fault.span) for fault in dropped}
+    names = {id(key): name for name, key in meant.items()}
+    for key in unknown:
+        if id(key.span) not in told:
+            name = names.get(id(key))
+            hint = f"; expected {name}" if name else ""
+            message = f"the bridge ignores the key {_text(key)!r:.60}{hint}"
             yield BridgeFault(BridgeFaultKind.UNKNOWN_KEY, key.span, message)
 
 
-def _dropped(entry: YamlNode) -> Iterator[BridgeFault]:
+def _dropped(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[BridgeFault]:
     """Yield why the bridge leaves an entry out."""
-
-    def fault(node: YamlNode, message: str) -> BridgeFault:
-        return BridgeFault(BridgeFaultKind.DROPPED, node.span, f"{message}: the entry is left out")
-
     both = entry.get("topic_name")
     for key in ("ros_topic_name", "gz_topic_name"):
         if both is not None and _text(both) and _text(entry.get(key)):
-            yield fault(both, f"topic_name and {key} exclude each other")
+            yield _left_out(both, f"topic_name and {key} exclude each other")
     # Files of older releases spell these with ign: whether they are still read is not known.
-    old = any(entry.get(key) is not None for key in _OLD)
-    first = entry.entries[0][0] if entry.entries else entry
-    for key in _TYPES:
-        if not old and not _text(entry.get(key)):
-            yield fault(first, f"the entry has no {key}")
-    if not old and not any(_text(entry.get(key)) for key in _TOPICS):
-        yield fault(first, "the entry names no topic")
+    if not any(entry.get(key) is not None for key in _OLD):
+        yield from _missing(entry, misspelt)
     direction = entry.get("direction")
     if direction is not None and _text(direction) not in DIRECTIONS:
         expected = ", ".join(DIRECTIONS)
-        yield fault(direction, f"the direction {direction.plain()!r:.60} is none of {expected}")
+        said = f"the direction {direction.plain()!r:.60} is none of {expected}"
+        yield _left_out(direction, said)
+
+
+def _missing(entry: YamlNode, misspelt: Mapping[str, YamlNode]) -> Iterator[BridgeFault]:
+    """Yield the keys that an entry needs and has not; one that is misspelt is named."""
+    first = entry.entries[0][0] if entry.entries else entry
+    named = any(_text(entry.get(key)) for key in _TOPICS)
+    topic = next((key for key in _TOPICS if key in misspelt), _TOPICS[0])
+    missing = [key for key in _TYPES if not _text(entry.get(key))]
+    for key in missing if named else [topic, *missing]:
+        written = misspelt.get(key)
+        what = key if written is not None or key in _TYPES else "topic"
+        said = f"the entry has no {what}"
+        if written is not None:
+            said += f", but a key {_text(written)!r:.60}, which the bridge ignores"
+        yield _left_out(written or first, said)
+
+
+def _left_out(node: YamlNode, message: str) -> BridgeFault:
+    return BridgeFault(BridgeFaultKind.DROPPED, node.span, f"{message}: the entry is left out")
 
 
 def _passed(entry: YamlNode) -> Iterator[Passed]:
