@@ -3,7 +3,8 @@
 The bridge waits for it without a word. Names that a sensor states in `<topic>` are taken as they
 are; all others begin with the names that world and model have in Gazebo, which `-name` of the
 spawning program gives. It is reported where all robots that the launch file spawns were read, and
-either all of what it starts is known, or a topic with this message is left over.
+either all of what it starts is known, or a topic with this message is left over. Topics that the robot's
+files hold, for an argument to switch on, are passed over.
 
 Fix: write the topic of the sensor or system; `gz topic -l` lists them.
 Source: gz-sensors and Gazebo's systems, their default topics.
@@ -16,15 +17,19 @@ from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.bridge_entry import BridgeEntry
 from checker.model.ros.simulated_topics import SimulatedTopic
 from checker.model.ros.simulation import Simulation, Simulations
+from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
 
 _OF_THE_WORLD = re.compile(r"/(?:clock|stats|gui|keyboard|marker|world/[^/]*/(?!model/))")
+_FILES_LIMIT = 100
 _OF_THE_USER = ("Twist", "Joy", "Double", "Boolean", "StringMsg", "Int32", "Empty")
 """Messages that windows of Gazebo publish as well, on topics that the user chooses."""
 
 
 @rule("BRG004", "bridge-of-no-topic", Severity.WARNING, Concern.INTERFACE)
-def check(simulations: Simulations) -> Findings:
+def check(package: Package, simulations: Simulations) -> Findings:
     """Report topics that no robot, model or world has, if all of them are known."""
     for simulation in simulations.launched:
         if not simulation.topics or simulation.unknown_topics:
@@ -34,7 +39,11 @@ def check(simulations: Simulations) -> Findings:
             if unknown or _OF_THE_WORLD.match(entry.gz_topic):
                 continue
             behind = simulation.topics_of(entry)
-            if not behind and not _may_be_of_user(entry):
+            if (
+                not behind
+                and not _may_be_of_user(entry)
+                and not _is_written(package, simulation, entry)
+            ):
                 hint = _instead(simulation, entry)
                 whole = simulation.is_whole and simulation.knows_systems
                 if hint or (simulation.robots and whole):
@@ -46,6 +55,21 @@ def check(simulations: Simulations) -> Findings:
                 behind and simulation.is_whole and (fault := _other_name(simulation, entry, behind))
             ):
                 yield finding(entry.passed.gz_topic, f"{entry.gz_topic}: {fault}")
+
+
+def _is_written(package: Package, simulation: Simulation, entry: BridgeEntry) -> bool:
+    """Whether an argument may put the topic there: the robot's file or one of macros has it."""
+    files = package.index.with_suffix(".xacro", ".urdf", ".sdf")[:_FILES_LIMIT]
+    own = {spawned.robot.document.source.file for spawned in simulation.robots}
+    written = entry.gz_topic.strip("/") + "</"
+    for path in (file.path for file in files):
+        source, document = package.read(path), package.xml(path)
+        if not isinstance(source, SourceText) or written not in source.text:
+            continue
+        root = document.root if isinstance(document, XmlDocument) else None
+        if path in own or root is None or (root.tag == "robot" and not root.get("name")):
+            return True
+    return False
 
 
 def _may_be_of_user(entry: BridgeEntry) -> bool:
@@ -101,6 +125,8 @@ _MARK = "  # ^ BRG004"
 GOOD = [
     {"@bridge": True},
     _entry("/model/rover/odometry", *_ODOMETRY),
+    _entry("/lidar", *_SCAN)
+    | {"urdf/mast.xacro": "<robot><sensor><topic>${ns}/lidar</topic></sensor></robot>"},
     {
         **_entry("/lidar", *_SCAN),
         "@launch": {'"rover", "-file", URDF': '"rover", "-file", "/somewhere/rover.sdf"'},
