@@ -30,13 +30,14 @@ def axle(child: str = TYRE, name: str = "axle") -> str:
 
 
 def checked(example: str | Mapping[str, Any], folder: Path, *select: str) -> PackageReport:
-    """Check an example by some rules and those on suppressions."""
-    return checked_again(write_example(example, folder), *select)
+    """Check an example by some rules and those on suppressions, for the target that it names."""
+    profile = example.get("@profile") if isinstance(example, Mapping) else None
+    return checked_again(write_example(example, folder), *select, profile=profile)
 
 
-def checked_again(package: Path, *select: str) -> PackageReport:
+def checked_again(package: Path, *select: str, profile: str | None = None) -> PackageReport:
     settings = find_settings([package]).overridden(
-        select=("CFG", *(select or ("KIN001",))), trial=False, cache=False
+        select=("CFG", *(select or ("KIN001",))), trial=False, cache=False, profile=profile
     )
     (report,) = check_package(package, settings).packages
     return report
