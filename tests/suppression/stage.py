@@ -30,9 +30,8 @@ def axle(child: str = TYRE, name: str = "axle") -> str:
 
 
 def checked(example: str | Mapping[str, Any], folder: Path, *select: str) -> PackageReport:
-    """Check an example by some rules and those on suppressions, for the target that it names."""
-    profile = example.get("@profile") if isinstance(example, Mapping) else None
-    return checked_again(write_example(example, folder), *select, profile=profile)
+    """Check an example by some rules and those on suppressions."""
+    return checked_again(write_example(example, folder), *select)
 
 
 def checked_again(package: Path, *select: str, profile: str | None = None) -> PackageReport:
