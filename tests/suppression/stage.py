@@ -34,9 +34,9 @@ def checked(example: str | Mapping[str, Any], folder: Path, *select: str) -> Pac
     return checked_again(write_example(example, folder), *select)
 
 
-def checked_again(package: Path, *select: str) -> PackageReport:
+def checked_again(package: Path, *select: str, profile: str | None = None) -> PackageReport:
     settings = find_settings([package]).overridden(
-        select=("CFG", *(select or ("KIN001",))), trial=False, cache=False
+        select=("CFG", *(select or ("KIN001",))), trial=False, cache=False, profile=profile
     )
     (report,) = check_package(package, settings).packages
     return report

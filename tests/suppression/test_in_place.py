@@ -10,7 +10,14 @@ from typing import Any
 import pytest
 
 from checker.rule import Rule
-from checker.rule_testing import MINIMAL, NAME, SPAWNER, model_with, write_example
+from checker.rule_testing import (
+    MINIMAL,
+    NAME,
+    SPAWNER,
+    judge_of,
+    model_with,
+    write_example,
+)
 from checker.rulebook.discovery import all_rules
 from tests.suppression.stage import (
     REASON,
@@ -202,7 +209,8 @@ def _cases() -> list[Any]:
 
 @pytest.mark.parametrize(("rule", "example"), _cases())
 def test_what_any_rule_finds_can_be_set_aside(rule: Rule, example: Any, tmp_path: Path) -> None:
-    report = checked(example, tmp_path, rule.id)
+    profile = judge_of(rule, example).name
+    report = checked_again(write_example(example, tmp_path), rule.id, profile=profile)
     assert found(report) == []
     assert {each.finding.rule for each in report.suppressed} == {rule.id}
     assert {each.reason for each in report.suppressed} == {REASON}

@@ -89,7 +89,7 @@ def test_arguments_come_from_the_launch_file(describe: Describe) -> None:
     assert links(subject) == ["base", "laser"]
 
 
-def test_the_file_that_a_launch_file_loads_counts(describe: Describe) -> None:
+def test_the_file_that_a_launch_file_loads_counts_first(describe: Describe) -> None:
     other = f"{NAME}/urdf/other.urdf"
     subject = describe(
         {
@@ -98,7 +98,7 @@ def test_the_file_that_a_launch_file_loads_counts(describe: Describe) -> None:
             f"{NAME}/launch/show.launch": launch(f"cat $(find {NAME})/urdf/other.urdf"),
         }
     )
-    assert links(subject) == ["other"]
+    assert links(subject) == ["other", "base"]
 
 
 def test_several_robots_are_each_one(describe: Describe) -> None:

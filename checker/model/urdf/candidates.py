@@ -9,6 +9,7 @@ from itertools import islice
 
 from msgspec import field
 
+from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.expand.launch.launch_file import Load
 from checker.expand.xacro.files import local_path
@@ -131,7 +132,11 @@ def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
         package: To look into.
         seen: Files that were read, or are parts of what was.
     """
-    left = [path for path in _files(package) if path not in seen and _holds_parts(package, path)]
+    others = [path for path in _files(package) if path not in seen]
+    for path in others:
+        if isinstance(source := package.read(path), NotReadable):
+            yield f"{path} {source.reason}"
+    left = [path for path in others if _holds_parts(package, path)]
     if not left:
         return
     elsewhere = _with_their_parts(package, left, set(_included_elsewhere(package)))
