@@ -20,12 +20,13 @@ ROW = "{:<9} {:<8} {:<8} {:>6} {:>9} {:>6} {:>11} {:>7}"
 
 def verdicts(source: str, *, trial: bool) -> Iterator[tuple[Severity, str, str]]:
     """Yield severity, rule and verdict of each error and warning that is reported now."""
-    known = {(it.path, it.place): it for it in judgements(source)}
+    known = {(it.path, it.profile, it.place): it for it in judgements(source)}
     for path, profile in by_check(source):
         for found in findings(source, path, profile, trial=trial):
             if found.severity is Severity.INFO:
                 continue
-            judged = [known[path, at] for at in places(found) if (path, at) in known]
+            keys = ((path, profile, at) for at in places(found))
+            judged = [known[key] for key in keys if key in known]
             same = [it.verdict for it in judged if it.severity is found.severity]
             yield found.severity, found.rule, same[0] if same else "not judged"
 
