@@ -51,26 +51,36 @@ def _example(example: object) -> str:
     return "\n".join(line for path, text in example.items() for line in _lines(path, text))
 
 
+_SHARED = {
+    "@ros2": "launch/arm.launch.py starts an arm that urdf/arm.urdf.xacro describes",
+    "@bridge": "a launch file starts Gazebo, spawns a rover with a lidar and bridges its topics",
+    "@urdf": "urdf/arm.urdf contains an arm with a transmission for its joint",
+}
+"""What the packages hold that examples share."""
+_SHARED_FILES = {
+    "@fragment": "model.sdf:",
+    "@urdf": "urdf/arm.urdf:",
+    "@bridge": "config/bridge.yaml:",
+    "@ros2": "launch/arm.launch.py starts:",
+}
+"""What the text of an example becomes in them."""
+
+
 def _lines(path: str, text: Any) -> Iterator[str]:
     """Show one entry of an example (see `checker.rule_testing`)."""
     match path, text:
         case "@reported" | "@with" | "@profile", _:
             pass
-        case (("@fragment" | "@urdf"), str()):
-            file = "model.sdf" if path == "@fragment" else "urdf/arm.urdf"
-            yield f"{file}:\n{_indented(text.strip())}"
-        case "@ros2", str():
-            yield f"launch/arm.launch.py starts:\n{_indented(dedent(text).strip())}"
-        case "@ros2", _:
-            yield "launch/arm.launch.py starts an arm that urdf/arm.urdf.xacro describes"
-        case "@urdf", _:
-            yield "urdf/arm.urdf contains an arm with a transmission for its joint"
+        case _, str() if path in _SHARED_FILES:
+            yield f"{_SHARED_FILES[path]}\n{_indented(dedent(text).strip())}"
+        case _ if path in _SHARED:
+            yield _SHARED[path]
         case "@robot", _:
             yield f"model.sdf is the robot {text!r} that examples share"
-        case (("@change" | "@links"), _):
-            words = "instead of" if path == "@change" else "is a link to"
+        case (("@change" | "@launch" | "@links"), _):
+            words = "is a link to" if path == "@links" else "instead of"
             for first, second in text.items():
-                pair = (second, first) if path == "@change" else (first, second)
+                pair = (first, second) if path == "@links" else (second, first)
                 yield f"{pair[0]} {words} {pair[1]}"
         case "@name", _:
             yield f"folder {text}/"

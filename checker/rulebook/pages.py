@@ -184,6 +184,8 @@ def _example(example: object) -> str:
 def _shown(path: str, text: Any) -> str:
     if path == "@ros2" and isinstance(text, str):
         return _fenced(dedent(text), "arm.launch.py")
+    if path == "@bridge" and isinstance(text, str):
+        return _fenced(text, "bridge.yaml")
     if not isinstance(text, str) or (path.startswith("@") and path not in ("@fragment", "@urdf")):
         return ""
     block = _fenced(text, "model.sdf" if path.startswith("@") else path)
