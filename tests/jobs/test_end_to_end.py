@@ -23,7 +23,7 @@ from checker.service.jobs.durable.worker import WorkerOptions, work
 from checker.service.store.store import Store
 work(WorkerOptions(sys.argv[1], Store(Path(sys.argv[2])), "slot-1"))
 """
-MODEL = "broken_ouster_description"
+MODEL = "broken_gurdy_description"
 
 
 @pytest.fixture

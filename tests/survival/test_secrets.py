@@ -14,7 +14,7 @@ from tests.serving.conftest import SECONDS, Serve, Serving
 from tests.survival.conftest import Home, kill, upload, wait_for_end
 from tests.web.service import zip_of
 
-MODEL = "broken_ouster_description"
+MODEL = "broken_gurdy_description"
 NOBODYS = "x" * 22
 """An id that was never given."""
 

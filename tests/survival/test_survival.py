@@ -26,7 +26,7 @@ from tests.web.server import form, request_head
 from tests.web.service import zip_of
 
 WHOLE = ["queued", "static", "trial", "trial", "done"]
-MODEL = "broken_ouster_description"
+MODEL = "broken_gurdy_description"
 AGAIN = "starts again"
 """In the words of an event that tells of a worker that died."""
 
