@@ -1,7 +1,7 @@
 """Planted faults: is each found by the rules that must find it, and by no other rule?
 
 Run with `python -m bench.faults [--once] [--seed N] [--only WORDS]` from the top folder. Faults are
-planted one by one in three real submissions (SUBT_CHECK_CORPUS), in one ROS 2 robot
+planted one by one in three real submissions (SUBT_CHECK_CORPUS), in ROS 2 packages
 (SUBT_CHECK_MODERN) and in one URDF file of PyPI's example-robot-data. `--once` plants each kind in
 one robot only. Rules that do not exist yet cannot find anything, so every kind counts.
 """
@@ -23,7 +23,7 @@ from random import Random
 
 from lxml.etree import LxmlError
 
-from bench.planted import launch, model, paperwork, sensors, shapes, spawner, urdf
+from bench.planted import launch, model, paperwork, ros2, sensors, shapes, spawner, urdf
 from bench.planted.edits import Kind
 from checker.pipeline import check_package
 from checker.settings import Settings
@@ -75,6 +75,10 @@ def _submission(name: str) -> Robot:
     return Robot(name, "corpus", name, "", name, "subt", SUBMISSION)
 
 
+def _ros2(name: str, repository: str) -> Robot:
+    return Robot(name, "modern", f"{repository}/{name}", "", name, "ros2", ros2.KINDS)
+
+
 TURTLEBOT = "nav2_minimal_tb3_sim"
 ROBOTS = (
     _submission("coro_jeanine_sensor_config_1"),
@@ -98,6 +102,9 @@ ROBOTS = (
         "urdf",
         urdf.KINDS,
     ),
+    _ros2("gz_ros2_control_demos", "gz_ros2_control"),
+    _ros2("turtlebot3_gazebo", "turtlebot3_simulations"),
+    _ros2("nav2_minimal_tb3_sim", "nav2_minimal_turtlebot_simulation"),
 )
 
 

@@ -44,6 +44,7 @@ def check(robot: Robot, *, least_cosine: float = 0.5, least_share: float = 0.25)
         left = _left_of(drive, least_cosine)
         yield from _reversed(drive, left, least_cosine)
         yield from _swapped(drive, left, least_share)
+        yield from _on_both_sides(drive)
         yield from _steering(robot, drive, least_cosine)
     yield from _against_its_side(robot.locomotion.undriven, least_cosine, least_share)
 
@@ -152,6 +153,18 @@ def _swapped(drive: WheelDrive, left: Vector, least_share: float) -> Iterator[Fi
                 f"{drive.plugin.called} {how}, but its wheel is {abs(at - middle):.3g} m {side} of "
                 "the middle",
                 key=f"{drive.path} {wheel.side}",
+                related=[(wheel.joint, "the joint")],
+            )
+
+
+def _on_both_sides(drive: WheelDrive) -> Iterator[Finding]:
+    sides: dict[str, Side] = {}
+    for wheel in drive.wheels:
+        if sides.setdefault(wheel.joint.scoped_name, wheel.side) is not wheel.side:
+            yield finding(
+                wheel.name,
+                f"{drive.plugin.called} lists {wheel.name.value!r} as left and as right",
+                key=f"{drive.path} both",
                 related=[(wheel.joint, "the joint")],
             )
 
@@ -272,6 +285,12 @@ BAD = [
         _LEFTWARD,
         _LEFTWARD,
         f"""<left_joint>right_axle</left_joint>{_MARK}
+  <right_joint>left_axle</right_joint>{_MARK}""",
+    ),
+    _rover(
+        _LEFTWARD,
+        _LEFTWARD,
+        f"""<left_joint>left_axle</left_joint>
   <right_joint>left_axle</right_joint>{_MARK}""",
     ),
     _urdf(_Y, _Y, _marked(_classic(_DIFF, _CROSSED, _MODERN))),

@@ -1,7 +1,7 @@
 """A launch file that does not load, or not with its own defaults.
 
-It is no Python, XML or YAML, defines no `generate_launch_description`, includes itself, or has a
-default that is none of its choices.
+It is no Python, XML or YAML, defines no `generate_launch_description`, uses a name that nothing
+defines or imports, includes itself, or has a default that is none of its choices.
 
 Fix: correct what the message names; `ros2 launch PACKAGE FILE --show-args` says the same.
 Source: launch, `PythonLaunchDescriptionSource`, `DeclareLaunchArgument`.
@@ -13,6 +13,7 @@ from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
 _KINDS = (
     LaunchFaultKind.SYNTAX,
     LaunchFaultKind.NO_DESCRIPTION,
+    LaunchFaultKind.UNDEFINED_NAME,
     LaunchFaultKind.INCLUDE_LOOP,
     LaunchFaultKind.UNKNOWN_CHOICE,
 )
@@ -49,5 +50,8 @@ BAD = [
     },
     {
         "@ros2": "        Node(package='p' executable='e'),  # ^ LCH011",
+    },
+    {
+        "@ros2": "        Node(package='p', executable=program),  # ^ LCH011",
     },
 ]

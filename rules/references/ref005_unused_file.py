@@ -1,11 +1,13 @@
 """A mesh or texture that nothing uses.
 
-Each user of the robot downloads it. Often a wrong path should lead to it.
+Each user of the robot downloads it. Often a wrong path should lead to it. A folder of meshes
+without a model lends them to other models: it is not judged.
 
 Fix: delete it, or correct the reference that should lead to it.
 Source: common practice; the Model Migration Guide, steps 6 and 7, gathers what the model uses.
 """
 
+from checker.package.kind import PackageKind
 from checker.package.mentions import unsearched
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -24,6 +26,8 @@ def check(
         folders: Names in lower case of folders at the top of the package; unused pictures are
             reported only there, meshes anywhere.
     """
+    if package.kind is PackageKind.UNKNOWN:
+        return
     if too_large := unsearched(package):
         yield unchecked(f"{too_large[0]} is too large to search for names")
         return

@@ -25,12 +25,16 @@ from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 @rule("R2C003", "faulty-control-tag", Severity.ERROR, Concern.INTERFACE)
 def check(control: RobotControl) -> Findings:
-    """Report what is missing in a `<ros2_control>` tag, and tags that do not belong there."""
+    """Report what is missing in a `<ros2_control>` tag, and tags that do not belong there.
+
+    A joint that stands twice in a tag is a warning.
+    """
     for hardware in control.hardware:
         yield from _missing(hardware)
         yield from _strange(hardware)
         for part in (*hardware.joints, *hardware.sensors, *hardware.gpios):
             yield from _nameless(part)
+        yield from _twice(hardware)
 
 
 def _missing(hardware: Hardware) -> Iterator[Finding]:
@@ -53,6 +57,21 @@ def _strange(hardware: Hardware) -> Iterator[Finding]:
             hint = suggestions.hint(child.tag)
             inside = "; it belongs into <hardware>" if child.tag == "param" else hint
             yield finding(child, f"<{child.tag}> does not belong below <ros2_control>{inside}")
+
+
+def _twice(hardware: Hardware) -> Iterator[Finding]:
+    first: dict[str, HardwareJoint] = {}
+    for joint in hardware.joints:
+        before = first.setdefault(joint.name.value, joint)
+        if before is not joint and joint.name.value:
+            yield finding(
+                joint,
+                f"joint {joint.name.value!r} stands twice in <ros2_control> "
+                f"{hardware.name.value!r}",
+                severity=Severity.WARNING,
+                key="twice",
+                related=[(before, "the first one")],
+            )
 
 
 def _nameless(part: HardwareJoint) -> Iterator[Finding]:
@@ -92,5 +111,6 @@ BAD = [
     _arm(inside=f"<hardware>{_MARK}</hardware>"),
     _arm(inside=f'{_HARDWARE}\n<param name="port">/dev/ttyUSB0</param>{_MARK}'),
     _arm(inside=f"{_HARDWARE}\n<joints/>{_MARK}"),
+    _arm(inside=f'{_HARDWARE}\n<joint name="elbow"/>\n<joint name="elbow"/>{_MARK}'),
     _arm(inside=f"{_HARDWARE}\n<sensor><state_interface name='force.x'/></sensor>{_MARK}"),
 ]

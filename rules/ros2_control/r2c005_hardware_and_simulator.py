@@ -3,7 +3,8 @@
 Hardware such as `gz_ros2_control/GazeboSimSystem` exists within Gazebo only, and a plugin in
 `<gazebo>` starts the controller manager there: the robot needs both. With the plugin and other
 hardware, such as `mock_components/GenericSystem`, the controllers run and the simulated robot does
-not move. The plugin's `name` is the class that is loaded from the library, and no free label.
+not move. Without any `<ros2_control>` tag the plugin gives up, and there is no controller manager.
+The plugin's `name` is the class that is loaded from the library, and no free label.
 
 Fix: write `<plugin filename="gz_ros2_control-system"
 name="gz_ros2_control::GazeboSimROS2ControlPlugin">` below `<gazebo>`, with `<parameters>`, and
@@ -74,7 +75,14 @@ def _names(manager: GazeboManager) -> Iterator[Finding]:
 def _disagreement(control: RobotControl) -> Iterator[Finding]:
     simulated = [each for each in control.hardware if is_of_gazebo(each.plugin.value)]
     others = [each for each in control.hardware if each not in simulated and each.plugin.value]
-    if simulated and not control.managers:
+    if control.managers and not control.hardware:
+        yield finding(
+            control.managers[0],
+            f"plugin {control.managers[0].plugin.name.value!r} runs a controller manager, but the "
+            "robot has no <ros2_control> tag",
+            key="no tag",
+        )
+    elif simulated and not control.managers:
         yield finding(
             simulated[0].plugin,
             f"hardware {simulated[0].plugin.value!r} needs a plugin of Gazebo that runs the "
@@ -128,4 +136,5 @@ BAD = [
     _arm("", f"<plugin>gz_ros2_control/GazeboSimSystem</plugin>{_MARK}"),
     _arm(_plugin(*_GZ), _MOCK + _MARK),
     _arm(_plugin("libgazebo_ros2_control.so", "gazebo_ros2_control", _MARK)),
+    {"@urdf": _plugin(*_GZ, _MARK)},
 ]

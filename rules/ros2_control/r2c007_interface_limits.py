@@ -33,6 +33,7 @@ def check(control: RobotControl) -> Findings:
             known = control.joint(joint)
             for interface in (*joint.commands, *joint.states):
                 yield from _misspelt(joint, interface, suggestions)
+                yield from _no_numbers(joint, interface)
                 yield from _numbers(joint, interface, known)
 
 
@@ -46,6 +47,17 @@ def _misspelt(
             f"joint {joint.name.value!r} has the interface {name!r}, which no controller looks "
             f"for; did you mean {near!r}?",
         )
+
+
+def _no_numbers(joint: HardwareJoint, interface: Interface) -> Iterator[Finding]:
+    for name in ("min", "max", "initial_value"):
+        text = interface.params.get(name)
+        if text is not None and name not in interface.numbers and "$" not in text.value:
+            yield finding(
+                text,
+                f"{name} of {interface.name.value} of joint {joint.name.value!r} is "
+                f"{text.value!r}, which is no number",
+            )
 
 
 def _numbers(joint: HardwareJoint, interface: Interface, known: Joint | None) -> Iterator[Finding]:
@@ -119,6 +131,7 @@ GOOD = [
 BAD = [
     _arm(_param("position", "max", "3", _MARK)),
     _arm(_param("velocity", "min", "-2", _MARK)),
+    _arm(_param("velocity", "min", "fast", _MARK)),
     _arm(_param("position", "initial_value", "1.5", _MARK)),
     _arm(f'<command_interface name="postion"/>{_MARK}'),
     _arm(

@@ -5,7 +5,8 @@ The spawner ends with an error for a type that no package exports. Some types we
 the `JointGroup…Controller`s since Lyrical. Types of ROS 1, such as
 `joint_state_controller/JointStateController`, never were there.
 
-Types of packages other than ros2_controllers are not judged.
+Types of other packages are not judged, unless the class has the name of one of ros2_controllers and
+the package is neither in package.xml nor at hand.
 
 Fix: `joint_state_broadcaster/JointStateBroadcaster` publishes joint states,
 `joint_trajectory_controller/JointTrajectoryController` follows trajectories,
@@ -14,12 +15,18 @@ Fix: `joint_state_broadcaster/JointStateBroadcaster` publishes joint states,
 Source: plugin descriptions of ros2_controllers, by branch.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from checker.base.words import Suggestions
-from checker.model.ros2_control.distributions import controller_types, distribution_of
+from checker.model.ros2_control.distributions import (
+    ControllerType,
+    controller_types,
+    distribution_of,
+)
 from checker.model.ros2_control.robot_control import RobotControl
-from checker.rule import Concern, Context, Findings, Severity, finding, rule
+from checker.package.package import Package
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
+from checker.source.text import Located
 
 _OF_ROS_1 = {"joint_state_controller"}
 _FORWARDS = "forward_command_controller/ForwardCommandController with interface_name: "
@@ -47,14 +54,18 @@ _INSTEAD: Mapping[str, str] = {
 
 
 @rule("R2C008", "unknown-controller-type", Severity.ERROR, Concern.INTERFACE)
-def check(control: RobotControl, context: Context) -> Findings:
-    """Report types of packages of ros2_controllers that these do not export."""
+def check(control: RobotControl, context: Context, package: Package) -> Findings:
+    """Report types of packages of ros2_controllers that these do not export.
+
+    A class of ros2_controllers in a package that nothing declares or holds is a warning.
+    """
     distribution, types = distribution_of(context), controller_types()
     packages = {name.partition("/")[0] for name in types} | _OF_ROS_1
     suggestions = Suggestions(name for name in types if types[name].exists_in(distribution))
     for controller in control.controllers:
         name = controller.type.value
         if name.partition("/")[0] not in packages:
+            yield from _another_package(controller.type, types, package)
             continue
         known = types.get(name)
         if known is None or not known.exists_in(distribution):
@@ -64,6 +75,22 @@ def check(control: RobotControl, context: Context) -> Findings:
                 controller.type,
                 f"ROS 2 {distribution.title()} has no controller of type {name}{hint}",
             )
+
+
+def _another_package(
+    kind: Located[str], types: Mapping[str, ControllerType], package: Package
+) -> Iterator[Finding]:
+    owner, _, name = kind.value.partition("/")
+    meant = [known for known in types if known.endswith(f"/{name}")]
+    declared = {reference.package_name for reference in package.references}
+    if meant and owner not in declared and package.workspace.package(owner) is None:
+        yield finding(
+            kind,
+            f"controller type {kind.value} is of package {owner!r}, which package.xml does not "
+            f"name; did you mean {meant[0]}?",
+            severity=Severity.WARNING,
+            key="package",
+        )
 
 
 def _arm(kind: str) -> object:
@@ -94,4 +121,5 @@ BAD = [
     _arm("joint_trajectory_controller/JointTrajectoryControler  # ^ R2C008"),
     _arm("effort_controllers/JointEffortController  # ^ R2C008"),
     _arm("joint_state_controller/JointStateController  # ^ R2C008"),
+    _arm("joint_trajectory/JointTrajectoryController  # ^ R2C008"),
 ]

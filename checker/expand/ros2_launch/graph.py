@@ -68,6 +68,7 @@ class LaunchFaultKind(enum.Enum):
 
     SYNTAX = "the file cannot be parsed"
     NO_DESCRIPTION = "the file describes no launch"
+    UNDEFINED_NAME = "a name of Python is used that nothing defines"
     UNDECLARED_ARGUMENT = "an argument is used that nothing declares"
     LATE_ARGUMENT = "an argument is used before it is declared"
     UNKNOWN_CHOICE = "a value is none of the choices"

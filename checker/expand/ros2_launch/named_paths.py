@@ -24,6 +24,8 @@ _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
 _WORD = re.compile(r"[\w-]+")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
+_GAZEBO_ARGUMENTS = ("gz_args", "ign_args")
+"""Arguments of `gz_sim.launch.py` that hold the words of a command."""
 _GENERATES = re.compile(
     r"\b(?:add_custom_command|configure_file|xacro_\w{1,40}|file\s{0,8}\(\s{0,8}(?:GENERATE|DOWNLOAD)"
     r"|ExternalProject_Add|FetchContent_\w{1,40}|execute_process)\b",
@@ -54,6 +56,8 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
     for include in graph.includes:
         needed = include.starts is True
         yield from _named(include.target.value, include.target.span, needed=needed, include=True)
+        for name, text in include.arguments.items():
+            yield from _in_argument(name, text, needed=needed)
     for node in graph.nodes:
         starts = node.starts is True
         shows = node.executable.value in ("rviz", "rviz2", "rqt_gui")
@@ -66,6 +70,15 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
 
 def _starts(started: Started) -> bool:
     return started.starts is True
+
+
+def _in_argument(name: str, text: Located[str], *, needed: bool) -> Iterator[NamedPath]:
+    """Yield the files that an included launch file is given; only Gazebo's world is known to be."""
+    if name in _GAZEBO_ARGUMENTS:
+        words = (Located(word, text.span) for word in text.value.split())
+        yield from _in_words(words, needed=needed)
+    else:
+        yield from _named(text.value, text.span, needed=False)
 
 
 def _in_words(words: Iterable[Located[str]], *, needed: bool) -> Iterator[NamedPath]:

@@ -25,11 +25,13 @@ class Interface(Record, eq=False):
     Attributes:
         name: Such as `velocity`.
         numbers: What `min`, `max` and `initial_value` say; what reads as no number is left out.
+        params: Texts of its `<param>`s by their names.
         element: The tag.
     """
 
     name: Located[str]
     numbers: Mapping[str, Located[float]]
+    params: Mapping[str, Located[str]]
     element: Element
 
     @property
@@ -126,12 +128,13 @@ def _joint(element: Element) -> HardwareJoint:
 
 
 def _interface(element: Element) -> Interface:
+    params = _params(element)
     numbers = {
         name: Located(number, text.span)
-        for name, text in _params(element).items()
+        for name, text in params.items()
         if (number := parse_number(text.value)) is not None
     }
-    return Interface(_attribute(element, "name"), numbers, element)
+    return Interface(_attribute(element, "name"), numbers, params, element)
 
 
 def _params(element: Element) -> dict[str, Located[str]]:

@@ -11,6 +11,7 @@ from checker.expand.ros2_launch.package_files import holder_of
 from checker.expand.ros2_launch.python.expressions import evaluate
 from checker.expand.ros2_launch.python.interpreter import Interpreter, World
 from checker.expand.ros2_launch.python.scope import LocalFunction, Partial, Scope
+from checker.expand.ros2_launch.python.undefined import undefined_names
 from checker.expand.ros2_launch.values import Allowance, Made, Unknown, Value, chosen
 from checker.package.package import Package
 from checker.source.text import SourceText, Span
@@ -45,6 +46,9 @@ def read_python(source: SourceText, allowance: Allowance, world: World, found: G
         found.faults.append(LaunchFault(LaunchFaultKind.SYNTAX, _line(source, tree), message))
         return Unknown(message, source.whole())
     run = Interpreter(source, allowance, world)
+    for name in undefined_names(tree, ENTRY):
+        message = f"name {name.id!r} is not defined in the launch file"
+        found.faults.append(LaunchFault(LaunchFaultKind.UNDEFINED_NAME, run.span(name), message))
     scope = run.module_scope(tree)
     function = scope.values.get(ENTRY)
     if not isinstance(function, LocalFunction):

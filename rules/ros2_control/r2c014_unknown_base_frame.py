@@ -1,0 +1,91 @@
+"""A drive controller whose odometry is that of a frame which the robot has not.
+
+The controller publishes the transform from `odom` to its `base_frame_id`; robot_state_publisher
+publishes those of the links. If no link has that name, there are two trees: nothing can be
+transformed from a sensor into `odom`, and navigation waits for it.
+
+Fix: write the robot's root link as `base_frame_id`; without it the controllers take `base_link`.
+Source: ros2_controllers, `base_frame_id` of diff_drive_controller, tricycle_controller and the
+steering controllers; REP 105.
+"""
+
+from checker.expand.ros2_launch.graph import Ros2Launch
+from checker.model.ros2_control.controllers import Controller
+from checker.model.ros2_control.distributions import controller_types
+from checker.model.ros2_control.robot_control import RobotControl
+from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.source.text import Located
+
+_FRAME = "base_frame_id"
+_STATIC = "static_transform_publisher"
+
+
+@rule("R2C014", "unknown-base-frame", Severity.WARNING, Concern.INTERFACE)
+def check(control: RobotControl, launch: Ros2Launch) -> Findings:
+    """Report frames that are no link, unless a launch file publishes more transforms."""
+    if control.robot.missing_parts:
+        yield unchecked(control.robot.missing_parts)
+        return
+    links = {link.name.value for link in control.robot.links}
+    if any(node.executable.value == _STATIC for node in launch.nodes):
+        return
+    for controller in control.controllers:
+        frame = _base_frame(controller)
+        if frame is None or frame.value in links or "/" in frame.value:
+            continue
+        leaves = f"has {_FRAME} {frame.value!r}"
+        if not frame.stated:
+            leaves = f"states no {_FRAME}, so it is {frame.value!r}"
+        yield finding(
+            frame,
+            f"{controller.called} {leaves}, which is no link of robot {control.robot.name.value!r}",
+        )
+
+
+def _base_frame(controller: Controller) -> Located[str] | None:
+    """Return what a controller takes for the robot's base; None where that cannot be told."""
+    known = controller_types().get(controller.type.value)
+    usual = known.params.get(_FRAME) if known is not None else None
+    if usual is None:
+        return None
+    stated = controller.parameters.get(_FRAME)
+    if stated is None:
+        return Located(str(usual.default), controller.span, stated=False)
+    return next(iter(stated.texts), None)
+
+
+def _arm(frame: str, package: str = "robot_state_publisher", publisher: str = "") -> object:
+    node = f"Node(package='{package}', executable='{publisher or package}')"
+    return {
+        "@urdf": """
+<ros2_control name="arm" type="system">
+  <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+  <joint name="shoulder"><command_interface name="velocity"/></joint>
+</ros2_control>
+""",
+        "config/arm.yaml": f"""controller_manager:
+  ros__parameters:
+    drive_controller: {{type: diff_drive_controller/DiffDriveController}}
+drive_controller:
+  ros__parameters:
+    left_wheel_names: [shoulder]
+    {frame}
+""",
+        "launch/arm.launch.py": f"""from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([{node}])
+""",
+    }
+
+
+_MARK = "  # ^ R2C014"
+GOOD = [
+    _arm("base_frame_id: base_link"),
+    _arm(""),
+    _arm('base_frame_id: "$(var frame)"'),
+    _arm("base_frame_id: base_footprint", "tf2_ros", _STATIC),
+]
+BAD = [_arm(f"base_frame_id: base_footprint{_MARK}")]
