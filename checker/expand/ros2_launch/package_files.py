@@ -10,7 +10,6 @@ from checker.expand.xacro.files import ROOT, local_path
 from checker.package.installed import source_of
 from checker.package.package import Package
 from checker.source.text import SourceText
-from checker.source.xml import XmlDocument
 
 
 def holder_of(package: Package, name: str) -> Package | None:
@@ -25,11 +24,7 @@ def holder_of(package: Package, name: str) -> Package | None:
 
 def own_names(package: Package) -> tuple[str, ...]:
     """Return the names of a package: the declared one first, then that of its folder."""
-    manifest = package.xml("package.xml")
-    declared = ""
-    if isinstance(manifest, XmlDocument) and (name := manifest.root.child("name")) is not None:
-        declared = name.text.value
-    return tuple(dict.fromkeys(filter(None, (declared, package.root.name))))
+    return tuple(dict.fromkeys((package.declared_name, package.root.name)))
 
 
 def local_file(package: Package, path: str) -> str | None:
