@@ -7,7 +7,7 @@ import posixpath
 from checker.base.files import NotReadable
 from checker.expand.ros2_launch.graph import SharePath, is_known, share_path
 from checker.expand.xacro.files import ROOT, local_path
-from checker.package.installed import source_of
+from checker.package.installed import installed_as, source_of
 from checker.package.package import Package
 from checker.source.text import SourceText
 
@@ -71,11 +71,7 @@ def installed_path(package: Package, file: str) -> str:
     if file.startswith("../"):
         name, _, rest = file.removeprefix("../").partition("/")
         holder = package.workspace.package(name) or package
-    name = own_names(holder)[0]
-    for target, origin in holder.installed:
-        if rest == origin or rest.startswith(f"{origin}/"):
-            return posixpath.normpath(f"{ROOT}/{name}/{target}/{posixpath.relpath(rest, origin)}")
-    return f"{ROOT}/{name}/{rest}"
+    return f"{ROOT}/{holder.declared_name}/{installed_as(holder, rest) or rest}"
 
 
 def installs(package: Package, target: SharePath) -> bool:
