@@ -88,6 +88,14 @@ def left_out_folder(package: Package, path: str) -> str:
     return ""
 
 
+def instead(package: Package, path: str) -> str:
+    """Say where a file is that is left out, as the end of a sentence."""
+    if folder := left_out_folder(package, path):
+        return f"folder {folder}/ exists in the source alone"
+    target = installed_as(package, path)
+    return f"the file is installed as {target}" if target else "the file exists in the source alone"
+
+
 def _tells_all(package: Package) -> bool:
     """Whether CMakeLists.txt, or setup.py, says in plain words all that is installed."""
     build = package.build

@@ -13,7 +13,7 @@ Source: ament_cmake user documentation; RobotecAI/ROSCon2023Demo#116.
 from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.ros2_launch.named_paths import is_left_out, named_paths
 from checker.expand.ros2_launch.package_files import holder_of
-from checker.package.installed import USUAL_FOLDERS, installed_as, left_out_folder
+from checker.package.installed import USUAL_FOLDERS, instead, left_out_folder
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -31,18 +31,10 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
                 continue
             yield finding(
                 named,
-                f"{named.path} is not installed: {_instead(holder, named.path.path, folder)}",
+                f"{named.path} is not installed: {instead(holder, named.path.path)}",
                 severity=None if named.needed else Severity.WARNING,
                 key=f"{holder.name}/{folder or named.path.path}",
             )
-
-
-def _instead(holder: Package, path: str, folder: str) -> str:
-    """Say what is there instead, as the end of a sentence."""
-    if folder:
-        return f"folder {folder}/ exists in the source alone"
-    target = installed_as(holder, path)
-    return f"the file is installed as {target}" if target else "the file exists in the source alone"
 
 
 _CMAKE = """project(acme_arm_bringup)
