@@ -15,6 +15,7 @@ from checker.finding import Place, Severity
 from checker.model.components import Collision, Visual
 from checker.model.mesh import Mesh
 from checker.model.robot import Robot
+from checker.model.urdf.files import UrdfFiles
 from checker.physics.mass.mass_properties import MassProperties
 from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.measures.figures import MEASURES, Measure
@@ -160,7 +161,16 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
     if len(robots) > 1:
         for known, robot in zip(facts, robots, strict=False):
             known["file"] = robot.document.source.file
+    for known, robot in zip(facts, robots, strict=False):
+        if assumed := _assumed(subject, robot):
+            known["assumed"] = assumed
     return tuple(facts)
+
+
+def _assumed(subject: Subject, robot: Robot) -> str:
+    """Return the arguments of xacro that nobody gives, and the values that are taken for them."""
+    files = subject.urdf_files if robot.document.root.tag == "robot" else None
+    return files.assumed.get(robot.document.source.file, "") if isinstance(files, UrdfFiles) else ""
 
 
 def _at(items: Sequence[_T], number: int) -> _T | None:

@@ -3,19 +3,31 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
-from checker.source.cmake import CMakeFile, Install
+from checker.source.cmake import AUTO_PACKAGE, CMakeFile, Install
 from checker.source.setup_py import Pattern, SetupFile
+from checker.source.text import SourceText
 
 if TYPE_CHECKING:
     from checker.package.index import FileIndex
     from checker.package.package import Package
 
+USUAL_FOLDERS = ("launch", "meshes", "materials", "urdf", "config", "worlds", "thumbnails")
+"""Folders that a package installs, whether anything at hand names their files or not."""
 _SHARE = "share/"
 _PATTERN_LIMIT = 200
+_WORD = re.compile(r"[\w-]+")
+_GENERATES = re.compile(
+    r"\b(?:add_custom_command|configure_file|xacro_\w{1,40}|file\s{0,8}\(\s{0,8}(?:GENERATE|DOWNLOAD)"
+    r"|ExternalProject_Add|FetchContent_\w{1,40}|execute_process)\b",
+    re.IGNORECASE,
+)
+_MAY_INSTALL = re.compile(r"install|add_subdirectory|\binclude\b", re.IGNORECASE)
+_PYTHON_MODULES = "ament_python_install_package"
 
 
 def source_of(package: Package, path: str) -> str | None:
@@ -43,6 +55,74 @@ def _only_one(package: Package, path: str) -> str | None:
     return found[0] if len(found) == 1 else None
 
 
+def leaves_out(package: Package, path: str) -> bool:
+    """Whether a package has a file at a path, and certainly installs none there.
+
+    Args:
+        package: That ought to install it.
+        path: Below the installed package's folder.
+    """
+    if not package.exists(path) or source_of(package, path) is not None:
+        return False
+    return _tells_all(package) and not may_be_made(package, path)
+
+
+def installed_as(package: Package, path: str) -> str:
+    """Return where a file of the source is, below the installed package; empty when it is not."""
+    for target, origin in package.installed:
+        if path == origin or path.startswith(f"{origin}/") or origin == ".":
+            return posixpath.normpath(posixpath.join(target, posixpath.relpath(path, origin)))
+    return ""
+
+
+def left_out_folder(package: Package, path: str) -> str:
+    """Return the outermost folder around a file of which nothing is installed; else nothing."""
+    if installed_as(package, path):
+        return ""
+    origins = [origin for _, origin in package.installed]
+    folder = ""
+    for name in path.split("/")[:-1]:
+        folder = posixpath.join(folder, name)
+        if not any(origin == folder or origin.startswith(f"{folder}/") for origin in origins):
+            return folder
+    return ""
+
+
+def instead(package: Package, path: str) -> str:
+    """Say where a file is that is left out, as the end of a sentence."""
+    if folder := left_out_folder(package, path):
+        return f"folder {folder}/ exists in the source alone"
+    target = installed_as(package, path)
+    return f"the file is installed as {target}" if target else "the file exists in the source alone"
+
+
+def _tells_all(package: Package) -> bool:
+    """Whether CMakeLists.txt, or setup.py, says in plain words all that is installed."""
+    build = package.build
+    if build is None:
+        return package.setup is not None and package.setup.complete and bool(package.installed)
+    for call in build.calls:
+        if call.name in ("install", AUTO_PACKAGE):
+            words = (word.value for word in call.arguments)
+            if call.conditional or any("${" in word for word in words):
+                return False
+        elif _MAY_INSTALL.search(call.name) and call.name != _PYTHON_MODULES:
+            return False
+    return bool(package.installed) and not build.faults
+
+
+def may_be_made(package: Package, path: str) -> bool:
+    """Whether the build may make a file: it names it, or makes files whose names are not read."""
+    stem = posixpath.basename(path).partition(".")[0]
+    for file in ("CMakeLists.txt", "setup.py"):
+        source = package.read(file)
+        if not isinstance(source, SourceText):
+            continue
+        if _GENERATES.search(source.text) or stem in _WORD.findall(source.text):
+            return True
+    return False
+
+
 def installed_items(build: CMakeFile) -> Iterator[tuple[str, str]]:
     """Yield where files and folders go, below the installed package, and where they come from."""
     for install in build.installs:
@@ -50,7 +130,9 @@ def installed_items(build: CMakeFile) -> Iterator[tuple[str, str]]:
 
 
 def _items(install: Install) -> Iterator[tuple[str, str]]:
-    if install.kind not in ("DIRECTORY", "FILES") or not install.destination.startswith(_SHARE):
+    if install.kind not in ("DIRECTORY", "FILES", "PROGRAMS") or not install.destination.startswith(
+        _SHARE
+    ):
         return
     below = install.destination.removeprefix(_SHARE).partition("/")[2]
     for item in install.items:

@@ -87,6 +87,13 @@ class Package(Record, eq=False, dict=True):
         return self.only or self.root.name
 
     @cached_property
+    def declared_name(self) -> str:
+        """The name in package.xml, under which it is installed; else the folder's."""
+        manifest = self.xml("package.xml")
+        name = manifest.root.child("name") if isinstance(manifest, XmlDocument) else None
+        return (name.text.value if name is not None else "") or self.root.name
+
+    @cached_property
     def index(self) -> FileIndex:
         """All files, folders and links."""
         if self.only:

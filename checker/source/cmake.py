@@ -9,6 +9,8 @@ from checker.source.cmake_calls import Call, evaluate
 from checker.source.cmake_tokens import CMakeFault, read_commands
 from checker.source.text import Located, SourceText, Span
 
+AUTO_PACKAGE = "ament_auto_package"
+_TO_SHARE = "INSTALL_TO_SHARE"
 _INSTALL_KINDS = ("DIRECTORY", "FILES", "PROGRAMS", "TARGETS")
 _KEYWORDS = {
     *("DESTINATION", "TYPE", "PERMISSIONS", "FILE_PERMISSIONS", "DIRECTORY_PERMISSIONS"),
@@ -93,9 +95,13 @@ class CMakeFile(Record, eq=False):
 
     @property
     def installs(self) -> tuple[Install, ...]:
-        """All `install()` and `catkin_install_python()` of files, directories and targets."""
-        calls = self.calls_of("install", "catkin_install_python")
-        return tuple(install for call in calls if (install := _install(call)))
+        """All `install()` and `catkin_install_python()` of files, directories and targets.
+
+        The folders behind `INSTALL_TO_SHARE` of `ament_auto_package()` are among them.
+        """
+        calls = self.calls_of("install", "catkin_install_python", AUTO_PACKAGE)
+        name = self.project.value if self.project is not None else ""
+        return tuple(install for call in calls if (install := _install(call, name)))
 
 
 def read_cmake(source: SourceText) -> CMakeFile:
@@ -105,8 +111,10 @@ def read_cmake(source: SourceText) -> CMakeFile:
     return CMakeFile(source, calls, tuple(faults))
 
 
-def _install(call: Call) -> Install | None:
+def _install(call: Call, project: str) -> Install | None:
     words = call.arguments
+    if call.name == AUTO_PACKAGE:
+        return _to_share(call, project)
     if not words or words[0].value not in _INSTALL_KINDS:
         return None
     values = [word.value for word in words]
@@ -119,3 +127,17 @@ def _install(call: Call) -> Install | None:
     destination = values[where] if where < len(values) else ""
     filtered = not {"FILES_MATCHING", "PATTERN", "REGEX"}.isdisjoint(values)
     return Install(values[0], tuple(items), destination, filtered, call.conditional, call.span)
+
+
+def _to_share(call: Call, project: str) -> Install | None:
+    """Return the folders that ament_auto installs under their own names."""
+    values = [word.value for word in call.arguments]
+    if _TO_SHARE not in values:
+        return None
+    items = []
+    for word in call.arguments[values.index(_TO_SHARE) + 1 :]:
+        if word.value.isupper():
+            break
+        items.append(word)
+    where = f"share/{project}"
+    return Install("DIRECTORY", tuple(items), where, False, call.conditional, call.span)

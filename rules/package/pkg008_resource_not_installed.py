@@ -15,6 +15,7 @@ from fnmatch import fnmatch
 from itertools import islice
 
 from checker.finding import Fix
+from checker.package.installed import USUAL_FOLDERS
 from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
@@ -33,15 +34,13 @@ from checker.source.cmake import CMakeFile, Install
 from checker.source.text import Span
 from checker.source.xml_insertion import newline_of
 
-FOLDERS = {
-    "launch": Severity.ERROR,
-    "meshes": Severity.ERROR,
-    "materials": Severity.ERROR,
+_LESS = {
     "urdf": Severity.WARNING,
     "config": Severity.WARNING,
     "worlds": Severity.WARNING,
     "thumbnails": Severity.INFO,
 }
+"""What the robot starts without."""
 _CATKIN = "${CATKIN_PACKAGE_SHARE_DESTINATION}"
 _PATTERN = re.compile(r"[*?\[]")
 _PATTERN_LIMIT, _PATTERNS_LIMIT = 100, 100
@@ -63,12 +62,12 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
         return
     installed = _installed(build)
     whole = "" in installed
-    for folder, severity in FOLDERS.items():
+    for folder in USUAL_FOLDERS:
         entry = package.index.find(folder)
         if entry is None or not entry.is_folder or whole or _covers(installed, folder):
             continue
         message = f"folder {folder}/ is not installed"
-        yield _finding(build, message, severity, _added(build, "DIRECTORY", [folder]))
+        yield _finding(build, message, _LESS.get(folder), _added(build, "DIRECTORY", [folder]))
     model_files = [path for path in MODEL_FILES if package.index.find(path)]
     if model_files and not whole and not any(_covers(installed, path) for path in model_files):
         message = f"neither of {' and '.join(model_files)} is installed"
@@ -87,12 +86,12 @@ def _by_setup(package: Package) -> Findings:
         yield unchecked("data_files of setup.py is computed, so what is installed is not known")
         return
     origins = {origin for _, origin in package.installed}
-    for folder, severity in FOLDERS.items():
+    for folder in USUAL_FOLDERS:
         entry = package.index.find(folder)
         if entry is None or not entry.is_folder or _covers(origins, folder):
             continue
         message = f"folder {folder}/ is not installed: data_files names no file of it"
-        yield finding(setup, message, severity=severity, key=message)
+        yield finding(setup, message, severity=_LESS.get(folder), key=message)
 
 
 def _finding(build: CMakeFile, message: str, severity: Severity | None, fix: Fix | None) -> Finding:

@@ -4,14 +4,23 @@ The part is invisible, or has no collision and falls through the ground. Names m
 as on the machines that run the simulation: `Wheel.DAE` is not `wheel.dae`. Without a texture the
 part is there and has another colour: this is a warning.
 
-Fix: add the file, or correct the path.
-Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package.
+`package://` leads to the installed package: a file that the build does not install there is not
+found either. What lies in one folder of which nothing is installed is reported once; meshes/ and
+other usual folders are PKG008's.
+
+Fix: add the file, correct the path, or install the folder.
+Source: Model Migration Guide, steps 6 and 7: gather all meshes and materials in the package;
+resource_retriever: the share folder of the installed package.
 """
 
+from collections.abc import Iterator
+
 from checker.model.robot import Robot
+from checker.package.installed import USUAL_FOLDERS, instead, leaves_out, left_out_folder
 from checker.package.package import Package
 from checker.package.uris import Unknown, path_behind
-from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.source.text import Located
 
 
 @rule("REF002", "file-not-found", Severity.ERROR, Concern.ROBOT)
@@ -25,6 +34,8 @@ def check(package: Package, robot: Robot) -> Findings:
                 yield unchecked(f"{uri.value} {path.reason}")
             continue
         if package.exists(path):
+            if uri.value.startswith("package://"):
+                yield from _not_installed(package, uri, path, uri in meshes)
             continue
         where = f" (looked for {path})" if path != uri.value else ""
         yield finding(
@@ -35,12 +46,62 @@ def check(package: Package, robot: Robot) -> Findings:
         )
 
 
+def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -> Iterator[Finding]:
+    """Report a file that its package has and does not install."""
+    _, name, inside = path.split("/", 2) if path.startswith("../") else ("", "", path)
+    holder = package.workspace.package(name) if name else package
+    if holder is None or not leaves_out(holder, inside):
+        return
+    folder = left_out_folder(holder, inside)
+    if holder is package and folder in USUAL_FOLDERS:
+        return
+    yield finding(
+        uri,
+        f"{uri.value} is not installed: {instead(holder, inside)}",
+        severity=None if mesh else Severity.WARNING,
+        key=f"{name}/{folder or inside}",
+    )
+
+
 def _hint(package: Package, path: str) -> str:
     alike = [other for other in package.index.similar(path) if other != path]
     return f"; did you mean {alike[0]}?" if alike else ""
 
 
+_BUILD = """project(acme_arm)
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY urdf shapes DESTINATION share/${PROJECT_NAME})
+ament_package()
+"""
+_MESH = '<mesh filename="package://acme_arm/shapes/arm.dae"/>'
+_ROBOT = f"""<robot name="arm">
+  <link name="base_link">
+    <visual><geometry>{_MESH}</geometry></visual>
+    <collision><geometry>{_MESH}</geometry></collision>
+  </link>
+</robot>
+"""
+_MANIFEST = """<package format="3">
+  <name>acme_arm</name>
+  <version>1.0.0</version>
+  <description>An arm</description>
+  <maintainer email="a@example.org">A</maintainer>
+  <license>Apache-2.0</license>
+  <export><build_type>ament_cmake</build_type></export>
+</package>
+"""
+_ARM = {
+    "@name": "acme_arm",
+    "@profile": "ros2",
+    "@urdf": "",
+    "package.xml": _MANIFEST,
+    "CMakeLists.txt": _BUILD,
+    "shapes/arm.dae": "<COLLADA/>",
+    "urdf/arm.urdf": _ROBOT,
+}
 GOOD = [
+    _ARM,
+    {**_ARM, "CMakeLists.txt": _BUILD.replace("urdf shapes", "${FOLDERS}")},
     {
         "@fragment": """
 <visual name="v"><geometry><mesh><uri>meshes/wheel.dae</uri></mesh></geometry></visual>
@@ -49,6 +110,13 @@ GOOD = [
     },
 ]
 BAD = [
+    {
+        **_ARM,
+        "CMakeLists.txt": _BUILD.replace(" shapes", ""),
+        "urdf/arm.urdf": _ROBOT.replace("</visual>", "</visual> <!-- ^ REF002 -->").replace(
+            "</collision>", "</collision> <!-- ^ REF002 -->"
+        ),
+    },
     {
         "@fragment": """
 <visual name="v"><geometry><mesh>

@@ -9,7 +9,7 @@ import pytest
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
-from checker.package.installed import source_of
+from checker.package.installed import installed_as, leaves_out, left_out_folder, source_of
 from tests.package.conftest import Write
 
 CMAKE = """project(crane)
@@ -54,3 +54,39 @@ def test_xacro_finds_what_is_installed(crane: Path) -> None:
         description = subject.descriptions[0]
         assert [link.name.value for link in description.robot.links] == ["hook"]
         subject.close()
+
+
+AUTO = """project(hoist)
+ament_auto_package(INSTALL_TO_SHARE launch description/urdf USE_SCOPED_HEADER_INSTALL_DIR)
+"""
+SETUP = """from glob import glob
+from setuptools import setup
+setup(data_files=[("share/hoist/urdf", glob("description/urdf/*")), ("share/hoist", ["a.txt"])])
+"""
+
+
+@pytest.mark.parametrize(
+    ("build", "path", "left_out", "folder", "target"),
+    [
+        (("CMakeLists.txt", AUTO), "description/urdf/crane.xacro", True, "", "urdf/crane.xacro"),
+        (("CMakeLists.txt", AUTO), "urdf/crane.xacro", False, "urdf", ""),
+        (("CMakeLists.txt", AUTO), "notes.txt", True, "", ""),
+        (("CMakeLists.txt", AUTO), "description/parts/hook.xacro", True, "description/parts", ""),
+        (("CMakeLists.txt", f"include(x)\n{AUTO}"), "notes.txt", False, "", ""),
+        (("CMakeLists.txt", f"configure_file(a b)\n{AUTO}"), "notes.txt", False, "", ""),
+        (("CMakeLists.txt", f"set(A notes)\n{AUTO}"), "notes.txt", False, "", ""),
+        (("setup.py", SETUP), "description/parts/hook.xacro", True, "description/parts", ""),
+        (("setup.py", SETUP.replace("[(", "x + [(")), "notes.txt", False, "", ""),
+        (("setup.py", SETUP), "absent.txt", False, "", ""),
+    ],
+)
+def test_what_is_left_out(
+    write: Write, build: tuple[str, str], path: str, left_out: bool, folder: str, target: str
+) -> None:
+    files = ("description/urdf/crane.xacro", "description/parts/hook.xacro", "notes.txt", "a.txt")
+    texts = {**dict.fromkeys(files, "<robot/>"), "package.xml": "<package/>", build[0]: build[1]}
+    with open_input(write({f"crane/{name}": text for name, text in texts.items()}) / "crane") as it:
+        package = it.packages[0]
+        assert leaves_out(package, path) is left_out
+        assert left_out_folder(package, path) == folder
+        assert installed_as(package, path) == target

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import shlex
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
 from msgspec.structs import replace
@@ -17,6 +18,8 @@ from checker.package.package import Package
 from checker.source.text import Span
 
 _COMMAND, _CONTENT = "$(command ", "$(file-content "
+_VARIABLE = re.compile(r"\$\(var ([\w.-]{1,200})\)")
+_ONE_WORD = re.compile(r"\$\(var:([\w.-]{1,200})\)")
 _SUFFIXES = (".urdf", ".xacro", ".xml", ".sdf")
 
 
@@ -26,6 +29,7 @@ class LoadedDescription(Record, eq=False):
     Attributes:
         load: The file, and the arguments that are known.
         unknown: Names of arguments whose values are only known at launch.
+        choices: Of these, the values that the launch file allows; none where any text will do.
         node: That is given it.
         parameter: By which it is given; None where it stands among the arguments.
         span: Where the file is named.
@@ -33,6 +37,7 @@ class LoadedDescription(Record, eq=False):
 
     load: Load
     unknown: tuple[str, ...]
+    choices: Mapping[str, tuple[str, ...]]
     node: Node
     parameter: Parameter | None
     span: Span
@@ -45,32 +50,42 @@ def loaded_descriptions(package: Package, graph: LaunchGraph) -> Iterator[Loaded
         package: That is checked.
         graph: Of its launch file.
     """
+    allowed = {a.name: a.choices for a in graph.arguments if a.choices and a.default is None}
     for node in sorted(graph.nodes, key=lambda node: _RANKS[node.starts]):
-        for parameter in node.parameters:
-            if isinstance(parameter, Parameter) and isinstance(parameter.value, str):
-                for load, unknown in _described(package, parameter.value):
-                    yield LoadedDescription(load, unknown, node, parameter, parameter.span)
-        for option, word in pairwise(node.arguments):
-            text = f"{_CONTENT}{word.value})" if option.value == "-file" else word.value
-            for load, unknown in _described(package, text):
-                yield LoadedDescription(load, unknown, node, None, word.span)
+        for text, parameter, span in _texts(node):
+            for load, given in _described(package, text):
+                choices = {
+                    name: allowed[variable[1]]
+                    for name, value in given.items()
+                    if (variable := _ONE_WORD.fullmatch(value)) and variable[1] in allowed
+                }
+                yield LoadedDescription(load, tuple(given), choices, node, parameter, span)
+
+
+def _texts(node: Node) -> Iterator[tuple[str, Parameter | None, Span]]:
+    """Yield the texts of a node that may hold a description, and where they stand."""
+    for parameter in node.parameters:
+        if isinstance(parameter, Parameter) and isinstance(parameter.value, str):
+            yield parameter.value, parameter, parameter.span
+    for option, word in pairwise(node.arguments):
+        yield f"{_CONTENT}{word.value})" if option.value == "-file" else word.value, None, word.span
 
 
 _RANKS = {True: 0, None: 1, False: 2}
 
 
-def _described(package: Package, text: str) -> Iterator[tuple[Load, tuple[str, ...]]]:
-    """Yield the file that a text comes from, and the arguments that are not known."""
+def _described(package: Package, text: str) -> Iterator[tuple[Load, dict[str, str]]]:
+    """Yield the file that a text comes from, and the arguments whose values are not known."""
     if text.startswith(_COMMAND) and text.endswith(")"):
         command = text.removeprefix(_COMMAND)[:-1]
         for load in read_command(command):
             path = _as_listed(package, load.path)
             if path is not None:
-                yield replace(load, path=path), tuple(_unknown(command))
+                yield replace(load, path=path), _unknown(command)
     elif text.startswith(_CONTENT) and text.endswith(")"):
         path = _as_listed(package, text.removeprefix(_CONTENT)[:-1])
         if path is not None and path.lower().endswith(_SUFFIXES):
-            yield Load(path, {}, by_xacro=False), ()
+            yield Load(path, {}, by_xacro=False), {}
 
 
 def _as_listed(package: Package, path: str) -> str | None:
@@ -79,13 +94,11 @@ def _as_listed(package: Package, path: str) -> str | None:
     return None if local is None else path_of(package, local)
 
 
-def _unknown(command: str) -> Iterator[str]:
-    """Yield the names of arguments whose values hold substitutions."""
+def _unknown(command: str) -> dict[str, str]:
+    """Return the arguments whose values hold substitutions; `$(var x)` as `$(var:x)`, one word."""
     try:
-        words = shlex.split(command)
+        words = shlex.split(_VARIABLE.sub(r"$(var:\1)", command))
     except ValueError:  # a quotation mark that nothing closes
-        return
-    for word in words:
-        name, assigned, value = word.partition(":=")
-        if assigned and not is_known(value):
-            yield name
+        return {}
+    parts = (word.partition(":=") for word in words)
+    return {name: value for name, assigned, value in parts if assigned and not is_known(value)}

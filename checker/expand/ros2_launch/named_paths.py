@@ -15,22 +15,16 @@ from checker.expand.ros2_launch.graph import (
     Started,
     share_path,
 )
-from checker.expand.ros2_launch.package_files import holder_of, own_names
-from checker.package.installed import source_of
+from checker.expand.ros2_launch.package_files import holder_of
+from checker.package.installed import leaves_out, may_be_made, source_of
 from checker.package.package import Package
-from checker.source.text import Located, SourceText, Span
+from checker.source.text import Located, Span
 
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
-_WORD = re.compile(r"[\w-]+")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
 _GAZEBO_ARGUMENTS = ("gz_args", "ign_args")
 """Arguments of `gz_sim.launch.py` that hold the words of a command."""
-_GENERATES = re.compile(
-    r"\b(?:add_custom_command|configure_file|xacro_\w{1,40}|file\s{0,8}\(\s{0,8}(?:GENERATE|DOWNLOAD)"
-    r"|ExternalProject_Add|FetchContent_\w{1,40}|execute_process)\b",
-    re.IGNORECASE,
-)
 
 
 class NamedPath(Record, eq=False):
@@ -118,7 +112,7 @@ def is_missing(package: Package, path: SharePath) -> bool:
     if holder is None or not path.path or path.path.startswith(".."):
         return False
     there = holder.exists(path.path) or source_of(holder, path.path) is not None
-    return not there and not _may_be_made(holder, path.path)
+    return not there and not may_be_made(holder, path.path)
 
 
 def lies_elsewhere(package: Package, path: SharePath) -> str:
@@ -133,42 +127,4 @@ def lies_elsewhere(package: Package, path: SharePath) -> str:
 def is_left_out(package: Package, path: SharePath) -> bool:
     """Whether a package at hand has a file, and certainly does not install it there."""
     holder = holder_of(package, path.package)
-    if holder is None or source_of(holder, path.path) is not None:
-        return False
-    return holder.exists(path.path) and tells_all(holder) and not _may_be_made(holder, path.path)
-
-
-def tells_all(package: Package) -> bool:
-    """Whether a package's CMakeLists.txt says in plain words all that is installed."""
-    build = package.build
-    if build is None or build.faults:
-        return False
-    others = re.compile(r"install|add_subdirectory|ament_auto_package|\binclude\b", re.IGNORECASE)
-    for call in build.calls:
-        if call.name == "install":
-            words = [word.value for word in call.arguments]
-            if call.conditional or any("${" in word for word in words):
-                return False
-        elif others.search(call.name) and call.name != "ament_python_install_package":
-            return False
-    return bool(package.installed)
-
-
-def _may_be_made(holder: Package, path: str) -> bool:
-    """Whether the build may make a file: it names it, or makes files whose names are not read."""
-    stem = posixpath.basename(path).partition(".")[0]
-    for file in ("CMakeLists.txt", "setup.py"):
-        source = holder.read(file)
-        if not isinstance(source, SourceText):
-            continue
-        if _GENERATES.search(source.text) or stem in _WORD.findall(source.text):
-            return True
-    return False
-
-
-def is_whole_folder(package: Package, path: SharePath) -> bool:
-    """Whether nothing of the top folder that a file of the checked package lies in is installed."""
-    top = path.path.partition("/")[0]
-    if path.package not in own_names(package):
-        return False
-    return not any(origin.partition("/")[0] == top for _, origin in package.installed)
+    return holder is not None and leaves_out(holder, path.path)

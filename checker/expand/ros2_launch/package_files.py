@@ -7,10 +7,9 @@ import posixpath
 from checker.base.files import NotReadable
 from checker.expand.ros2_launch.graph import SharePath, is_known, share_path
 from checker.expand.xacro.files import ROOT, local_path
-from checker.package.installed import source_of
+from checker.package.installed import installed_as, source_of
 from checker.package.package import Package
 from checker.source.text import SourceText
-from checker.source.xml import XmlDocument
 
 
 def holder_of(package: Package, name: str) -> Package | None:
@@ -25,11 +24,7 @@ def holder_of(package: Package, name: str) -> Package | None:
 
 def own_names(package: Package) -> tuple[str, ...]:
     """Return the names of a package: the declared one first, then that of its folder."""
-    manifest = package.xml("package.xml")
-    declared = ""
-    if isinstance(manifest, XmlDocument) and (name := manifest.root.child("name")) is not None:
-        declared = name.text.value
-    return tuple(dict.fromkeys(filter(None, (declared, package.root.name))))
+    return tuple(dict.fromkeys((package.declared_name, package.root.name)))
 
 
 def local_file(package: Package, path: str) -> str | None:
@@ -76,11 +71,7 @@ def installed_path(package: Package, file: str) -> str:
     if file.startswith("../"):
         name, _, rest = file.removeprefix("../").partition("/")
         holder = package.workspace.package(name) or package
-    name = own_names(holder)[0]
-    for target, origin in holder.installed:
-        if rest == origin or rest.startswith(f"{origin}/"):
-            return posixpath.normpath(f"{ROOT}/{name}/{target}/{posixpath.relpath(rest, origin)}")
-    return f"{ROOT}/{name}/{rest}"
+    return f"{ROOT}/{holder.declared_name}/{installed_as(holder, rest) or rest}"
 
 
 def installs(package: Package, target: SharePath) -> bool:

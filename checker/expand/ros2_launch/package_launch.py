@@ -13,6 +13,8 @@ from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
 
 FILES_LIMIT = 150
+OTHERS_LIMIT = 20
+"""Launch files of other packages that are read for one that they name."""
 _PYTHON = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
 _YAML = re.compile(r"^launch\s{0,8}:", re.MULTILINE)
 _ROS_1 = re.compile(r"""<node\b[^>]{0,1000}\stype\s{0,8}=""")
@@ -42,14 +44,35 @@ def ros2_launch(
         if any(fault.kind is LaunchFaultKind.LIMIT for fault in graphs[file].faults):
             unread.append(f"{file} and the following files are too large to read")
             break
+    return Ros2Launch(tuple(_outermost(graphs)), tuple(unread))
+
+
+def _outermost(graphs: Mapping[str, LaunchGraph]) -> list[LaunchGraph]:
+    """Return the graphs of files that no other one includes; of a circle all."""
     included = {
         include.path
         for file, graph in graphs.items()
         for include in graph.includes
         if include.path != file
     }
-    first = [graph for file, graph in graphs.items() if file not in included]
-    return Ros2Launch(tuple(first or graphs.values()), tuple(unread))
+    return [graphs[file] for file in graphs if file not in included] or [*graphs.values()]
+
+
+def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
+    """Yield the launch files of other packages at hand that name a package, each with its own.
+
+    Args:
+        package: That ought to be named, as in `FindPackageShare("arm_description")`.
+    """
+    word = re.compile(rf"(?<![\w-]){re.escape(package.declared_name)}(?![\w-])")
+    left = OTHERS_LIMIT
+    for other in package.workspace.packages.values() if not package.only else ():
+        if other is package:
+            continue
+        files = [file for file in launch_files(other) if _holds(other, file, word)][:left]
+        left -= len(files)
+        graphs = {file: read_launch(other, file) for file in files}
+        yield from ((other, graph) for graph in _outermost(graphs))
 
 
 def launch_files(package: Package) -> Iterator[str]:

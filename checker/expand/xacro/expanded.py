@@ -39,6 +39,11 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
         pieces = tuple(_pieces(self.plain, origins, self.written))
         return EmittedText(self.file, self.text, origin=self.written.whole(), pieces=pieces)
 
+    def states_path(self, uri: str) -> bool:
+        """Whether a `package://` URI stands for the path of a file, `file://$(find p)/x`."""
+        path = f"file://{ROOT}/{uri.removeprefix('package://')}"
+        return any(f"{path}{end}" in str(self.answer["xml"]) for end in ('"', "<"))
+
     def place(self, start: int, end: int) -> Place:
         """Return the place in a written file of the characters from `start` to `end`."""
         return self._emitted.place(start, end)

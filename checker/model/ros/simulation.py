@@ -53,11 +53,13 @@ class SpawnedRobot(Record, eq=False):
 
     Attributes:
         robot: The robot.
+        node: That spawns it.
         name: In Gazebo; empty when it is not known.
         publisher: The node that publishes its transforms from the same description, if any.
     """
 
     robot: Robot
+    node: Node
     name: str
     publisher: Node | None
 
@@ -172,7 +174,7 @@ class Simulations(Record, eq=False):
 
 
 def simulations(package: Package, launch: Ros2Launch | None, cache: Cache) -> Simulations:
-    """Read what the launch files of a package simulate, those that bridge something.
+    """Read what the launch files of a package simulate and bridge.
 
     Args:
         package: That is checked.
@@ -196,10 +198,9 @@ class _Reader:
         starts = any(
             _starts_gazebo(include.target.value) and include.starts for include in graph.includes
         ) or any(_is_gazebo(process) and process.starts for process in graph.processes)
-        if not bridges.entries:
-            return Simulation(graph, bridges, starts_gazebo=starts)
         robots, unknown = self._robots(graph)
-        worlds, unknown_worlds = self._worlds(graph)
+        # Who asks for the world asks what is behind a bridge.
+        worlds, unknown_worlds = self._worlds(graph) if bridges.entries else ([], [])
         return Simulation(
             graph,
             bridges,
@@ -228,7 +229,7 @@ class _Reader:
                     unknown.append(robot)
                 else:
                     publisher = _publisher(description, loaded)
-                    robots.append(SpawnedRobot(robot, _name(node, robot), publisher))
+                    robots.append(SpawnedRobot(robot, node, _name(node, robot), publisher))
         return robots, unknown
 
     def _robot(self, description: LoadedDescription) -> Robot | str:

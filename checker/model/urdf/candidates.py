@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import islice
 
 from msgspec import field
@@ -33,6 +33,7 @@ class Candidate(Record):
         loaded: Whether a launch file loads it.
         by_xacro: Whether xacro reads it, whatever it holds.
         missing: Arguments that whoever starts it must give, and the launch file that says so.
+        choices: The values that it allows for these, where it names them.
     """
 
     path: str
@@ -40,10 +41,28 @@ class Candidate(Record):
     loaded: bool = False
     by_xacro: bool = False
     missing: Mapping[str, str] = field(default_factory=dict)
+    choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def assumed(self, number: int, given: Collection[str]) -> dict[str, str]:
+        """Return the values that are taken for arguments which nobody gives.
+
+        Args:
+            number: Of the choice, the first one being 0; of fewer choices the last one.
+            given: Names of the arguments that are given.
+        """
+        return {
+            name: values[min(number, len(values) - 1)]
+            for name, values in self.choices.items()
+            if name not in given
+        }
 
 
-StartedLoad = tuple[Load, Mapping[str, str]]
-"""What a launch file loads, and the arguments that it leaves to whoever starts it."""
+class StartedLoad(Record):
+    """What a launch file loads; see `Candidate`."""
+
+    load: Load
+    missing: Mapping[str, str] = field(default_factory=dict)
+    choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 def may_hold_description(package: Package) -> bool:
@@ -63,11 +82,13 @@ def candidates(package: Package, loads: Iterable[StartedLoad]) -> list[Candidate
     if package.only:
         return [Candidate(package.only)]
     chosen: dict[str, Candidate] = {}
-    for load, missing in loads:
+    for started in loads:
+        load, missing = started.load, started.missing
         path = local_path(package, load.path)
         # What nobody has is a fault of the launch file; a sibling's is the sibling's own.
         if path is not None and not path.startswith("../") and package.exists(path):
-            candidate = Candidate(path, load.args, True, load.by_xacro, missing)
+            choices = started.choices
+            candidate = Candidate(path, load.args, True, load.by_xacro, missing, choices)
             before = chosen.get(path, candidate)
             # Of several ways to start it, one that is known counts before one that is not.
             chosen[path] = candidate if before.missing and not missing else before

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from msgspec import field
+
 from checker.base.record import Record
 from checker.expand.xacro.fault import XacroFault
 from checker.model.urdf.description import UrdfDescription
@@ -16,6 +20,7 @@ class UrdfFiles(Record, eq=False):
         unread: Why files could not be looked at, each the end of a sentence.
         set_aside: The same of files beside an SDF model that no launch file loads.
         old: What only newer releases of xacro refuse; the descriptions are what Melodic's makes.
+        assumed: Arguments that nobody gives, with the choice that is taken, by file.
     """
 
     descriptions: tuple[UrdfDescription, ...] = ()
@@ -23,3 +28,4 @@ class UrdfFiles(Record, eq=False):
     unread: tuple[str, ...] = ()
     set_aside: tuple[str, ...] = ()
     old: tuple[XacroFault, ...] = ()
+    assumed: Mapping[str, str] = field(default_factory=dict)

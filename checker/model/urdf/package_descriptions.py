@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 
@@ -11,22 +11,19 @@ from msgspec.structs import replace
 
 from checker.base.cache import Cache
 from checker.base.files import NotReadable
-from checker.expand.launch.expansion import expand_launch
-from checker.expand.launch.launch_file import Load, loads
-from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
-from checker.expand.ros2_launch.descriptions import loaded_descriptions
+from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS
 from checker.expand.ros2_launch.graph import Ros2Launch
 from checker.expand.xacro.expansion import Expansions, Outcome, Unread, Wanted
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.model.urdf.candidates import (
     Candidate,
-    StartedLoad,
     candidates,
     may_hold_description,
     unread_models,
 )
 from checker.model.urdf.description import read_description
 from checker.model.urdf.files import UrdfFiles
+from checker.model.urdf.started_loads import started_loads
 from checker.package.kind import PackageKind
 from checker.package.package import Package
 from checker.source.text import SourceText
@@ -34,9 +31,8 @@ from checker.source.xml import XmlDocument
 from checker.source.xml_positions import XmlFault
 
 _URDF_KINDS = (PackageKind.URDF_DESCRIPTION, PackageKind.SINGLE_FILE)
-_LAUNCH_SUFFIXES = (".launch", ".launch.xml")
-_LAUNCH_LIMIT = 100
-_LOADS = re.compile(r"\.(?:urdf|xacro)\b|robot_description")
+_CHOICES_LIMIT = 10
+"""Choices for an argument that are tried."""
 _XACRO = re.compile(r"\bxacro:|\bxmlns:xacro\b")
 
 
@@ -63,20 +59,25 @@ class PackageDescriptions:
         """
         self._package = package
         self._args = args
-        self._ros2 = ros2
         self._cache = cache
         self._for_rviz = package.kind not in _URDF_KINDS
         self._candidates: Sequence[Candidate] = ()
         if only:
             self._candidates = [Candidate(only, loaded=True)]
         elif may_hold_description(package):
-            self._candidates = candidates(package, self._loads())
+            self._candidates = candidates(package, started_loads(package, ros2))
         self._wanted = [
-            Wanted(candidate.path, {**SAMPLE_ARGUMENTS, **candidate.args, **args})
+            self._wish(candidate)
             for candidate in self._candidates
             if _needs_xacro(package, candidate)
         ]
         self._expansions = Expansions(package, self._wanted, cache) if self._wanted else None
+
+    def _wish(self, candidate: Candidate, choice: int = 0) -> Wanted:
+        """Return what to expand, with one of the choices for arguments that nobody gives."""
+        assumed = candidate.assumed(choice, self._args)
+        args = {**SAMPLE_ARGUMENTS, **candidate.args, **assumed, **self._args}
+        return Wanted(candidate.path, args)
 
     @property
     def applicable(self) -> bool:
@@ -87,9 +88,9 @@ class PackageDescriptions:
     def files(self) -> UrdfFiles:
         """What became of the files; the first call waits for their expansion."""
         expanded = self._expanded
+        unread, assumed = self._choose(expanded)
         old = self._expand_as_melodic(expanded)
         descriptions, faults = [], []
-        unread: list[tuple[Candidate, str]] = []
         for candidate in self._candidates:
             outcome = expanded.get(candidate.path) or _plain(self._package, candidate.path)
             if isinstance(outcome, XmlDocument):
@@ -112,6 +113,7 @@ class PackageDescriptions:
             tuple(reasons),
             tuple(reason for file, reason in unread if self._for_rviz and not file.loaded),
             old,
+            assumed,
         )
 
     @property
@@ -126,7 +128,8 @@ class PackageDescriptions:
 
     def _unread(self, candidate: Candidate, reason: str) -> str:
         """Return a reason; it says which arguments a launch file leaves to whoever starts it."""
-        missing = [name for name in candidate.missing if name not in self._args]
+        known = self._args.keys() | candidate.choices.keys()
+        missing = [name for name in candidate.missing if name not in known]
         if not missing:
             return reason
         file, given = candidate.missing[missing[0]], " ".join(f"{name}:=…" for name in missing)
@@ -142,6 +145,30 @@ class PackageDescriptions:
         """What became of the files that xacro reads, by path."""
         outcomes = self._expansions.outcomes() if self._expansions is not None else []
         return dict(zip((wish.path for wish in self._wanted), outcomes, strict=True))
+
+    def _choose(
+        self, expanded: dict[str, Outcome]
+    ) -> tuple[list[tuple[Candidate, str]], dict[str, str]]:
+        """Expand with another choice for an argument what the first one does not fit.
+
+        What comes of it takes its place in `expanded`. Return why the first one does not fit, and
+        what is assumed, by path.
+        """
+        assuming = [each for each in self._candidates if each.assumed(0, self._args)]
+        assumed = {each.path: _in_words(each.assumed(0, self._args)) for each in assuming}
+        misfits = {each.path: _misfit(expanded.get(each.path), each.path) for each in assuming}
+        unfit = [each for each in assuming if misfits[each.path]]
+        tried = [(each, number) for each in unfit for number in _further(each)]
+        wanted = [self._wish(*each) for each in tried]
+        outcomes = Expansions(self._package, wanted, self._cache).outcomes() if wanted else []
+        unread = []
+        for (candidate, number), outcome in zip(tried, outcomes, strict=True):
+            if isinstance(outcome, XmlDocument) and (why := misfits.pop(candidate.path, "")):
+                expanded[candidate.path] = outcome
+                taken = _in_words(candidate.assumed(number, self._args))
+                unread.append((candidate, f"{why}; {taken} is taken instead"))
+                assumed[candidate.path] = taken
+        return unread, assumed
 
     def _expand_as_melodic(self, expanded: dict[str, Outcome]) -> tuple[XacroFault, ...]:
         """Expand what a newer xacro refuses as Melodic's does, and return what is refused.
@@ -165,27 +192,21 @@ class PackageDescriptions:
         if self._expansions is not None:
             self._expansions.stop()
 
-    def _loads(self) -> Iterator[StartedLoad]:
-        for graph in self._ros2.entries if self._ros2 is not None else ():
-            for described in loaded_descriptions(self._package, graph):
-                missing = dict.fromkeys(described.unknown, described.node.file)
-                yield described.load, missing
-        yield from ((load, {}) for load in self._classic_loads())
 
-    def _classic_loads(self) -> list[Load]:
-        launch_files = self._package.index.with_suffix(*_LAUNCH_SUFFIXES)[:_LAUNCH_LIMIT]
-        paths = [file.path for file in launch_files if self._loads_something(file.path)]
-        files, documents = LaunchFiles(self._package), map(self._package.xml, paths)
-        return [
-            load
-            for document in documents
-            if isinstance(document, XmlDocument)
-            for load in loads(expand_launch(document, SAMPLE_ARGUMENTS, files))
-        ]
+def _misfit(outcome: Outcome | None, path: str) -> str:
+    """Return why another value of an argument may do better; empty where none would."""
+    if isinstance(outcome, XacroFault) and outcome.kind is XacroFaultKind.ARGUMENT:
+        return f"{path} is not expanded: {outcome.message}"
+    return outcome.reason if isinstance(outcome, Unread) else ""
 
-    def _loads_something(self, path: str) -> bool:
-        source = self._package.read(path)
-        return isinstance(source, SourceText) and _LOADS.search(source.text) is not None
+
+def _further(candidate: Candidate) -> range:
+    """Return the numbers of the choices behind the first one."""
+    return range(1, min(max(map(len, candidate.choices.values())), _CHOICES_LIMIT))
+
+
+def _in_words(args: Mapping[str, str]) -> str:
+    return " ".join(f"{name}:={value}" for name, value in args.items())
 
 
 _WITHOUT_PREFIX = ("include", "insert_block", "macro", "property")

@@ -1,0 +1,113 @@
+"""The path on which Gazebo searches meshes and models when a launch file starts it."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterator
+
+from checker.base.record import Record
+from checker.expand.ros2_launch.graph import (
+    SHARE,
+    EnvironmentChange,
+    LaunchGraph,
+    Unread,
+    is_known,
+    share_path,
+)
+from checker.expand.ros2_launch.package_launch import launch_files
+from checker.package.package import Package
+from checker.package.resource_path import VARIABLES, SearchedFolder, mentions, searched_folders
+
+_PREFIX = re.compile(rf"(?:{SHARE}-prefix/|\$\(find-pkg-prefix )[\w.-]{{1,200}}\)?/share(?:/|\Z)")
+"""The folder of all share folders, below the prefix that a package is installed in."""
+
+_SETS_NOTHING = ("ros_gz_sim", "ros_gz_bridge", "ros_ign_gazebo", "ros_ign_bridge")
+"""Packages whose launch files set variables for Gazebo alone, from package.xml."""
+
+
+class ResourcePath(Record, eq=False):
+    """The folders that Gazebo searches when a launch file starts it.
+
+    Attributes:
+        folders: What the packages at hand and the launch file put on the path.
+        complete: Whether these are all that anything at hand tells of.
+    """
+
+    folders: tuple[SearchedFolder, ...]
+    complete: bool
+
+    @property
+    def holds_packages(self) -> bool:
+        """Whether packages are found by their names, or may be."""
+        return not self.complete or any(folder.folder == "" for folder in self.folders)
+
+    def inside(self, name: str) -> SearchedFolder | None:
+        """Return what puts a package's own folder on the path, instead of the one above it."""
+        return next((folder for folder in self.folders if folder.folder == name), None)
+
+
+def resource_path(package: Package, graph: LaunchGraph) -> ResourcePath:
+    """Read what is on the path.
+
+    Args:
+        package: That is checked.
+        graph: Of the launch file that starts Gazebo.
+    """
+    packages = (package, *(p for p in package.workspace.packages.values() if p is not package))
+    folders = [folder for each in packages for folder in searched_folders(each)]
+    changes = [change for change in graph.environment if change.name in VARIABLES]
+    folders += (folder for change in changes for folder in _changed(change))
+    complete = all(folder.known for folder in folders)
+    elsewhere = any(_others_name_it(package, each, graph, changes) for each in packages)
+    return ResourcePath(tuple(folders), complete and not elsewhere and _is_read(graph))
+
+
+def _is_read(graph: LaunchGraph) -> bool:
+    """Whether all was read that may set a variable: a part of a node does not."""
+    of_nodes = {_place(unread) for node in graph.nodes for unread in node.unread}
+    if any(_place(unread) not in of_nodes for unread in graph.unread):
+        return False
+    beyond = [
+        share_path(i.target.value) for i in graph.includes if i.reason and i.starts is not False
+    ]
+    return all(target is not None and target.package in _SETS_NOTHING for target in beyond)
+
+
+def _place(unread: Unread) -> tuple[str, int, str]:
+    return unread.span.source.file, unread.span.start, unread.reason
+
+
+def _changed(change: EnvironmentChange) -> Iterator[SearchedFolder]:
+    """Yield the folders that a launch file puts on the path."""
+    text = _PREFIX.sub(f"{SHARE}/", change.value.value)
+    if not is_known(text):
+        yield SearchedFolder(None, False, change.span)
+        return
+    for path in filter(None, text.split(":")):
+        folder = posixpath.normpath(path)
+        below = folder == SHARE or folder.startswith(f"{SHARE}/")
+        rest = folder.removeprefix(SHARE).lstrip("/") if below else None
+        yield SearchedFolder(rest, True, change.span)
+
+
+def _others_name_it(
+    package: Package, holder: Package, graph: LaunchGraph, changes: list[EnvironmentChange]
+) -> bool:
+    """Whether something else in a package names the path: who launches may set it.
+
+    Launch files do, as far as their actions tell. Other launch files of the checked package do not
+    count, since none of them includes this one; those of another package may.
+    """
+    own = holder is package
+    launched = {graph.file, *(include.path for include in graph.includes)}
+    others = frozenset(launch_files(holder) if own else ())
+    for mention in mentions(holder):
+        file = mention.source.file if own else f"../{holder.name}/{mention.source.file}"
+        if file in launched:
+            told = (c.span for c in changes if c.span.source.file == file)
+            if not any(span.start <= mention.start < span.end for span in told):
+                return True
+        elif mention.source.file not in others:
+            return True
+    return False

@@ -1,0 +1,58 @@
+"""Which robots launch files load: those of the package, and those of others that name it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from checker.expand.launch.expansion import expand_launch
+from checker.expand.launch.launch_file import Load, loads
+from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
+from checker.expand.ros2_launch.descriptions import loaded_descriptions
+from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
+from checker.expand.ros2_launch.package_launch import launches_naming
+from checker.model.urdf.candidates import StartedLoad
+from checker.package.package import Package
+from checker.source.text import SourceText
+from checker.source.xml import XmlDocument
+
+_LAUNCH_SUFFIXES = (".launch", ".launch.xml")
+_LAUNCH_LIMIT = 100
+_LOADS = re.compile(r"\.(?:urdf|xacro)\b|robot_description")
+
+
+def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[StartedLoad]:
+    """Yield what launch files load; those of the package come first, then others of ROS 2.
+
+    Args:
+        package: That is checked.
+        ros2: What its own launch files of ROS 2 start, if it has any.
+    """
+    for graph in ros2.entries if ros2 is not None else ():
+        yield from _loaded(package, graph, "")
+    yield from map(StartedLoad, _classic_loads(package))
+    for other, graph in launches_naming(package):
+        yield from _loaded(other, graph, f"../{other.name}/")
+
+
+def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[StartedLoad]:
+    for described in loaded_descriptions(package, graph):
+        missing = dict.fromkeys(described.unknown, f"{folder}{described.node.file}")
+        yield StartedLoad(described.load, missing, described.choices)
+
+
+def _classic_loads(package: Package) -> list[Load]:
+    launch_files = package.index.with_suffix(*_LAUNCH_SUFFIXES)[:_LAUNCH_LIMIT]
+    paths = [file.path for file in launch_files if _loads_something(package, file.path)]
+    files, documents = LaunchFiles(package), map(package.xml, paths)
+    return [
+        load
+        for document in documents
+        if isinstance(document, XmlDocument)
+        for load in loads(expand_launch(document, SAMPLE_ARGUMENTS, files))
+    ]
+
+
+def _loads_something(package: Package, path: str) -> bool:
+    source = package.read(path)
+    return isinstance(source, SourceText) and _LOADS.search(source.text) is not None

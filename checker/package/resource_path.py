@@ -1,0 +1,127 @@
+"""What a package puts on the path that Gazebo searches for meshes and models.
+
+Environment hooks do so in whoever sources the workspace; `<gazebo_ros>` in package.xml, in what
+`gz_sim.launch.py` of ros_gz_sim starts.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Iterator
+
+from checker.base.record import Record
+from checker.package.package import Package
+from checker.source.text import Located, SourceText, Span
+from checker.source.xml import XmlDocument
+
+VARIABLES = (
+    *("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"),
+    *("SDF_PATH", "GZ_FILE_PATH", "IGN_FILE_PATH"),
+)
+"""The resource path, and what gz-sim copies it into when it starts."""
+NAMED = re.compile(rf"\b(?:{'|'.join(VARIABLES)})\b")
+_TEXTS = (
+    *(".md", ".rst", ".txt", ".sh", ".bash", ".zsh", ".env", ".dsv", ".in", ".py", ".xml"),
+    *(".launch", ".yaml", ".yml", ".json", ".toml", ".cmake", "file"),
+)
+"""Ends of the names of documents, scripts, and files such as `Dockerfile` and `Makefile`."""
+_ADDS = ("prepend-non-duplicate", "append-non-duplicate", "prepend-non-duplicate-if-exists", "set")
+_IN_SHELL = re.compile(
+    r"(?:\$\{?(?:AMENT|COLCON)_CURRENT_PREFIX\}?|@CMAKE_INSTALL_PREFIX@)/([^\s:;\"']{1,300})"
+)
+_EXPORTS = ("gazebo_model_path", "gazebo_media_path")
+
+
+class SearchedFolder(Record, eq=False):
+    """A folder that is put on the path.
+
+    Attributes:
+        folder: Below the folder of all share folders: empty for that itself, `arm/models`; None
+            when it is not known, or lies elsewhere.
+        known: Whether it is known where it lies.
+        span: What puts it there.
+    """
+
+    folder: str | None
+    known: bool
+    span: Span
+
+
+def searched_folders(package: Package) -> Iterator[SearchedFolder]:
+    """Yield what the hooks and the manifest of a package put on the path."""
+    for path in hooks(package):
+        source = package.read(path)
+        if isinstance(source, SourceText):
+            yield from _of_hook(source, package.declared_name)
+    yield from _exported(package)
+
+
+def hooks(package: Package) -> tuple[str, ...]:
+    """Return the environment hooks that a package's CMakeLists.txt registers."""
+    calls = package.build.calls_of("ament_environment_hooks") if package.build else ()
+    named = (posixpath.normpath(word.value) for call in calls for word in call.arguments)
+    return tuple(path for path in named if package.exists(path))
+
+
+def _of_hook(source: SourceText, name: str) -> Iterator[SearchedFolder]:
+    """Yield what one hook adds: a list of operations (`.dsv`), or a script of the shell."""
+    at = 0
+    for line in source.text.splitlines(keepends=True):
+        span = Span(source, at, at + len(line.rstrip()))
+        at += len(line)
+        if line.lstrip().startswith("#") or not NAMED.search(line):
+            continue
+        text = line.replace("@PROJECT_NAME@", name) if source.file.endswith(".in") else line
+        if ".dsv" in posixpath.basename(source.file):
+            yield from _operation(text.strip().split(";"), span)
+        else:
+            found = _IN_SHELL.findall(text)
+            yield from (_below_prefix(path, span) for path in found)
+            if not found:
+                yield SearchedFolder(None, False, span)
+
+
+def _operation(words: list[str], span: Span) -> Iterator[SearchedFolder]:
+    if words[0] not in _ADDS:
+        yield SearchedFolder(None, False, span)
+    for path in words[2:]:
+        yield _below_prefix(path.replace("@CMAKE_INSTALL_PREFIX@/", ""), span)
+
+
+def _below_prefix(path: str, span: Span) -> SearchedFolder:
+    """Return the folder at a path below the prefix that a package is installed in."""
+    first, _, rest = posixpath.normpath(path).partition("/")
+    return SearchedFolder(rest if first == "share" else None, not {"$", "@"} & {*path}, span)
+
+
+def _exported(package: Package) -> Iterator[SearchedFolder]:
+    """Yield the folders of `<gazebo_ros gazebo_model_path="${prefix}/…"/>` in package.xml."""
+    manifest = package.xml("package.xml")
+    export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
+    for element in export.children if export is not None else ():
+        for attribute in map(element.attribute, _EXPORTS):
+            if element.tag == "gazebo_ros" and attribute is not None:
+                yield from _share_folders(attribute, package.declared_name)
+
+
+def _share_folders(attribute: Located[str], name: str) -> Iterator[SearchedFolder]:
+    for path in attribute.value.split(":"):
+        prefix, slash, rest = path.strip().partition("/")
+        if prefix == "${prefix}":
+            folder = posixpath.normpath(f"/{name}{slash}{rest}").lstrip("/")
+            yield SearchedFolder(folder, "$" not in rest, attribute.span)
+        else:
+            yield SearchedFolder(None, "$" not in path, attribute.span)
+
+
+def mentions(package: Package) -> Iterator[Span]:
+    """Yield where the texts of a package name the path, but for its hooks.
+
+    Launch files set it; documents, scripts and container files tell who launches to do so.
+    """
+    known = frozenset(hooks(package))
+    for file in package.index.with_suffix(*_TEXTS):
+        if file.path not in known and isinstance(source := package.read(file.path), SourceText):
+            for match in NAMED.finditer(source.text):
+                yield Span(source, *match.span())

@@ -1,0 +1,145 @@
+"""Gazebo does not find the meshes of a robot that a launch file spawns.
+
+RViz finds `package://arm_description/meshes/link.dae` by the index of packages. Gazebo makes
+`model://arm_description/meshes/link.dae` of it and looks below the folders of its resource path:
+unless the folder above `share/arm_description` is one of them, the part is visible in RViz,
+missing in Gazebo, and a collision of that shape touches nothing.
+
+It is reported of a launch file that starts Gazebo itself and was read in full, for packages that
+are at hand, when no environment hook, no package.xml and no launch file there puts that folder on
+the path, and no document or script names the path at all.
+
+Fix: write `<gazebo_ros gazebo_model_path="${prefix}/.."/>` into `<export>` of the package.xml of
+the package that holds the meshes: `gz_sim.launch.py` reads it, and `${prefix}` is its share folder.
+A hook with the line `prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share` works for `gz sim` as well.
+Source: libsdformat, parser_urdf.cc; gz-sim, resource paths; ros_gz_sim, gz_sim.launch.py; ros_gz
+issue 132, gz-sim issue 1959, and ros_gz issue 684 for a path that ends one level too deep.
+"""
+
+import re
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.package_files import holder_of
+from checker.expand.xacro.expanded import ExpandedText
+from checker.model.robot import Robot
+from checker.model.ros.resource_path import resource_path
+from checker.model.ros.simulation import Simulations
+from checker.package.package import Package
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+_NAMED = re.compile(r"(?:package|model)://([^/]+)/.")
+
+
+@rule("LCH012", "mesh-not-on-resource-path", Severity.WARNING, Concern.INTERFACE)
+def check(simulations: Simulations, package: Package) -> Findings:
+    """Report each package once whose meshes a launch file has Gazebo look for in vain."""
+    for simulation in simulations.launched:
+        if simulation.graph is None or not simulation.starts_gazebo:
+            continue
+        for spawned in simulation.robots:
+            for name, uri in _packages(package, spawned.robot).items():
+                path = resource_path(package, simulation.graph)
+                if path.holds_packages:
+                    continue
+                deep = path.inside(name)
+                reason = (
+                    f"share/{name} is on the resource path, and not the folder above it"
+                    if deep is not None
+                    else f"nothing puts the folder above share/{name} on the resource path"
+                )
+                yield finding(
+                    deep or spawned.node,
+                    f"{uri} is visible in RViz and missing in Gazebo: {reason}; expected "
+                    f'<gazebo_ros gazebo_model_path="${{prefix}}/.."/> in <export> of the '
+                    f"package.xml of {name}",
+                    key=name,
+                )
+
+
+def _packages(package: Package, robot: Robot) -> dict[str, str]:
+    """Return the first mesh that is named by its package, of each package at hand."""
+    return dict(reversed([*_named(package, robot)]))
+
+
+def _named(package: Package, robot: Robot) -> Iterator[tuple[str, str]]:
+    for shape in robot.shapes():
+        uri = shape.geometry.uri
+        named = _NAMED.match(uri.value) if uri is not None else None
+        if uri is None or named is None:
+            continue
+        holder, source = holder_of(package, named[1]), uri.span.source
+        by_path = isinstance(source, ExpandedText) and source.states_path(uri.value)
+        if holder is not None and holder.exists("package.xml") and not by_path:
+            yield named[1], uri.value
+
+
+_CREATE = 'Node(package="ros_gz_sim", executable="create",'
+_URDF = """<robot name="rover">
+  <link name="base_link">
+    <visual><geometry>
+      <mesh filename="package://acme_rover_bringup/meshes/base.dae"/>
+    </geometry></visual>
+  </link>
+</robot>
+"""
+_FILES = {"@bridge": True, "urdf/rover.urdf": _URDF, "meshes/base.dae": "<COLLADA/>"}
+_MANIFEST = """<package format="3">
+  <name>acme_rover_bringup</name>
+  <version>1.0.0</version>
+  <description>A rover in Gazebo</description>
+  <maintainer email="a@example.org">A</maintainer>
+  <license>Apache-2.0</license>
+  <buildtool_depend>ament_cmake</buildtool_depend>
+  <export>
+    <build_type>ament_cmake</build_type>
+  </export>
+</package>
+"""
+_BUILD = """project(acme_rover_bringup)
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY config launch meshes urdf DESTINATION share/${PROJECT_NAME})
+ament_environment_hooks("${CMAKE_CURRENT_SOURCE_DIR}/hooks/gazebo.dsv.in")
+ament_package()
+"""
+
+
+def _launched(action: str) -> dict[str, object]:
+    begin = "return LaunchDescription([\n"
+    imported = "from launch.actions import IncludeLaunchDescription"
+    return {
+        **_FILES,
+        "@launch": {
+            begin: f"{begin}        {action},\n",
+            imported: f"{imported}, AppendEnvironmentVariable",
+        },
+    }
+
+
+def _exported(path: str, mark: str = "") -> dict[str, object]:
+    line = f'    <gazebo_ros gazebo_model_path="{path}"/>{mark}\n'
+    return {**_FILES, "package.xml": _MANIFEST.replace("  </export>", f"{line}  </export>")}
+
+
+def _hooked(line: str) -> dict[str, object]:
+    return {**_FILES, "CMakeLists.txt": _BUILD, "hooks/gazebo.dsv.in": f"{line}\n"}
+
+
+_APPEND = "AppendEnvironmentVariable('GZ_SIM_RESOURCE_PATH', os.path.join(HERE, '..'))"
+_PREPEND = "prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share"
+_MARKED = {_CREATE: f"{_CREATE}  # ^ LCH012"}
+
+GOOD = [
+    {"@bridge": True},
+    _exported("${prefix}/.."),
+    _hooked(_PREPEND),
+    _launched(_APPEND),
+    {**_FILES, "urdf/rover.urdf": _URDF.replace("package://acme_rover", "package://acme_arm")},
+    {**_FILES, "README.md": "Set GZ_SIM_RESOURCE_PATH before you launch it.\n"},
+    {**_FILES, "@launch": {"IncludeLaunchDescription(gazebo": "IncludeLaunchDescription(URDF"}},
+]
+BAD = [
+    {**_FILES, "@launch": _MARKED},
+    _exported("${prefix}", "  <!-- ^ LCH012 -->"),
+    {**_hooked(f"{_PREPEND}/@PROJECT_NAME@/models"), "@launch": _MARKED},
+    _launched(_APPEND.replace("os.path.join(HERE, '..'))", "HERE)  # ^ LCH012\n        ")),
+]
