@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 from checker.base.cache import Cache
@@ -35,6 +36,12 @@ from checker.model.ros.simulated_topics import (
     unknown_owner,
 )
 from checker.model.ros.topics import comparable
+from checker.model.ros2_control.launched import launched_files
+from checker.model.ros2_control.robot_control import (
+    ControlReader,
+    RobotControl,
+    may_be_controlled,
+)
 from checker.model.sdf.includes import ModelIncludes
 from checker.model.sdf.reader import read_sdf
 from checker.model.sdf.world import World, systems_of
@@ -50,12 +57,14 @@ class SpawnedRobot(Record, eq=False):
 
     Attributes:
         robot: The robot.
+        control: Its ros2_control, if it has any.
         name: In Gazebo; empty when it is not known.
         node: That spawns it.
         publisher: The node that publishes its transforms from the same description, if any.
     """
 
     robot: Robot
+    control: RobotControl | None
     name: str
     node: Node
     publisher: Node | None
@@ -193,17 +202,24 @@ def simulations(package: Package, launch: Ros2Launch | None, cache: Cache) -> Si
         launch: Its launch files.
         cache: Where what xacro makes is kept.
     """
-    reader = _Reader(package, cache)
-    launched = tuple(map(reader.simulation, launch.entries if launch is not None else ()))
+    graphs = launch.entries if launch is not None else ()
+    reader = _Reader(package, cache, graphs)
+    launched = tuple(map(reader.simulation, graphs))
     named = {file for each in launched for file in each.bridges.files}
     return Simulations(launched, Simulation(None, loose_bridges(package, named)))
 
 
+class _Described(Record, eq=False):
+    robot: Robot
+    control: RobotControl | None = None
+
+
 class _Reader:
-    def __init__(self, package: Package, cache: Cache) -> None:
+    def __init__(self, package: Package, cache: Cache, graphs: Sequence[LaunchGraph]) -> None:
         self._package = package
         self._cache = cache
-        self._known: dict[str, Robot | str] = {}
+        self._known: dict[str, _Described | str] = {}
+        self._control = ControlReader(package, launched_files(package, graphs))
 
     def simulation(self, graph: LaunchGraph) -> Simulation:
         bridges = read_bridges(self._package, graph)
@@ -226,15 +242,16 @@ class _Reader:
             if not given:
                 unknown.append(f"what {node.executable.value} spawns is not known")
             for description in given:
-                robot = self._robot(description)
-                if isinstance(robot, str):
-                    unknown.append(robot)
+                read = self._robot(description)
+                if isinstance(read, str):
+                    unknown.append(read)
                 else:
-                    publisher = _publisher(description, loaded)
-                    robots.append(SpawnedRobot(robot, _name(node, robot), node, publisher))
+                    publisher, name = _publisher(description, loaded), _name(node, read.robot)
+                    spawned = SpawnedRobot(read.robot, read.control, name, node, publisher)
+                    robots.append(spawned)
         return robots, unknown
 
-    def _robot(self, description: LoadedDescription) -> Robot | str:
+    def _robot(self, description: LoadedDescription) -> _Described | str:
         if description.unknown:
             return f"argument {description.unknown[0]!r} of the robot is not known"
         load = description.load
@@ -243,7 +260,7 @@ class _Reader:
             self._known[key] = self._read(load)
         return self._known[key]
 
-    def _read(self, load: Load) -> Robot | str:
+    def _read(self, load: Load) -> _Described | str:
         path = local_path(self._package, load.path)
         if path is None:
             return f"{shown(load.path)} is not at hand"
@@ -254,9 +271,12 @@ class _Reader:
         if not isinstance(document, XmlDocument):
             return f"{path} cannot be read"
         if document.root.tag == "robot":
-            return read_description(document, path, for_rviz=False).robot
+            description = read_description(document, path, for_rviz=False)
+            controlled = may_be_controlled(description)
+            control = self._control.control(description) if controlled else None
+            return _Described(description.robot, control)
         models = read_sdf(document, ModelIncludes(self._package))
-        return models[0] if models else f"{path} holds no model"
+        return _Described(models[0]) if models else f"{path} holds no model"
 
 
 def _given(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:
