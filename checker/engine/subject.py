@@ -32,6 +32,7 @@ from checker.model.devices.devices import SensorDevices
 from checker.model.devices.known import KnownDevices, known_devices
 from checker.model.devices.sensors import find_sensor_devices
 from checker.model.first_configuration import FirstConfiguration
+from checker.model.plugin_host import PluginHost, model_host, world_host
 from checker.model.robot import Robot
 from checker.model.ros.simulation import Simulations, simulations
 from checker.model.ros2_control.launched import (
@@ -237,6 +238,15 @@ class Subject(Record, eq=False, dict=True):
             return NotAvailable(self.sdf.reason, applicable=self.package.kind is PackageKind.WORLD)
         worlds = read_worlds(self.sdf.document, ModelIncludes(self.package))
         return worlds or NotAvailable("the file contains no world", applicable=False)
+
+    @property
+    def plugin_hosts(self) -> tuple[PluginHost, ...] | NotAvailable:
+        """What loads plugins: the robots, and the worlds of the model file."""
+        robots, worlds = self.robots, self.worlds
+        hosts = () if isinstance(worlds, NotAvailable) else tuple(map(world_host, worlds))
+        if isinstance(robots, NotAvailable):
+            return hosts or robots
+        return (*map(model_host, robots), *hosts)
 
     @cached_property
     def robots(self) -> tuple[Robot, ...] | NotAvailable:
@@ -513,6 +523,7 @@ _PROVIDERS: dict[type, Callable[[Subject], object]] = {
     Paperwork: lambda subject: subject.paperwork,
     SdfDocument: lambda subject: subject.sdf,
     World: lambda subject: subject.worlds,
+    PluginHost: lambda subject: subject.plugin_hosts,
     Robot: lambda subject: subject.robots,
     FirstConfiguration: lambda subject: subject.first_configuration,
     MassProperties: lambda subject: subject.masses,

@@ -1,4 +1,4 @@
-"""A plugin of Gazebo Classic in a model for Gazebo.
+"""A plugin of Gazebo Classic in a model or world for Gazebo.
 
 Gazebo, since it was called Ignition, cannot load plugins built for Gazebo Classic: it prints one
 line and continues without the drive, the sensor or the light that the plugin provides.
@@ -17,8 +17,8 @@ from typing import Any
 
 from checker.finding import Fix
 from checker.model.components import Plugin
+from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import classic_plugin, library_stem, newer_name
-from checker.model.robot import Robot
 from checker.model.urdf.simulator import classic_by_default
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Safety, Severity, finding, rule, unchecked
@@ -26,14 +26,14 @@ from checker.source.xml_insertion import removal
 
 
 @rule("PLG001", "classic-plugin", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, package: Package, context: Context) -> Findings:
+def check(host: PluginHost, package: Package, context: Context) -> Findings:
     """Report plugins whose library belongs to Gazebo Classic."""
-    if robot.unread_plugins:
-        yield unchecked(robot.unread_plugins)
-    if reason := classic_by_default(robot, package):
+    if host.unread:
+        yield unchecked(host.unread)
+    if host.robot is not None and (reason := classic_by_default(host.robot, package)):
         yield unchecked(reason)
         return
-    for plugin in robot.all_plugins:
+    for plugin in host.plugins:
         known = classic_plugin(plugin.filename.value)
         if known is None:
             continue
@@ -81,6 +81,14 @@ def _advice(entry: dict[str, Any]) -> str:
     return f"{advice} ({note})" if note else advice
 
 
+_WORLD = """
+<sdf version="1.9">
+  <world name="hall">
+    <plugin filename="{}" name="{}"/>  <!-- {} -->
+  </world>
+</sdf>
+"""
+_HARMONIC = {"@profile": "gazebo-harmonic"}
 GOOD = [
     '<plugin filename="libignition-gazebo-diff-drive-system.so" name="drive"/>',
 ]
@@ -94,4 +102,5 @@ BAD = [
   <plugin filename="libhector_gazebo_ros_imu.so" name="imu"/>  <!-- ^ PLG001 -->
 </sensor>
 """,
+    {**_HARMONIC, "@fragment": _WORLD.format("libgazebo_ros_state.so", "state", "^ PLG001")},
 ]

@@ -13,6 +13,7 @@ packages (`subt_plugins.json`). None of the accepted packages that we checked sh
 """
 
 from checker.base.words import Suggestions
+from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import (
     classic_plugin,
     is_of_gazebo,
@@ -23,17 +24,19 @@ from checker.model.plugin_library import (
     release_label,
     releases_with,
 )
-from checker.model.robot import Robot
 from checker.package.dependencies import lenders_of
 from checker.package.package import Package
 from checker.rule import Concern, Context, Findings, Severity, finding, rule, unchecked
 
+_NONE = "__default__"
+"""What libsdformat of old wrote where a file names no library."""
+
 
 @rule("PLG002", "unknown-plugin-library", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, package: Package, context: Context) -> Findings:
+def check(host: PluginHost, package: Package, context: Context) -> Findings:
     """Report plugins whose library neither Gazebo nor any available package has."""
-    if robot.unread_plugins:
-        yield unchecked(robot.unread_plugins)
+    if host.unread:
+        yield unchecked(host.unread)
     of_release = plugin_libraries(context.release)
     if not of_release:
         yield unchecked(f"the plugins of {context.release or 'no release'} are not known")
@@ -41,9 +44,9 @@ def check(robot: Robot, package: Package, context: Context) -> Findings:
     lenders = lenders_of(package)
     known = lenders.libraries() | of_release.keys()
     suggestions = Suggestions(sorted(known))
-    for plugin in robot.all_plugins:
+    for plugin in host.plugins:
         stem = library_stem(plugin.filename.value)
-        if not stem or stem in known or classic_plugin(stem) is not None:
+        if stem in ("", _NONE) or stem in known or classic_plugin(stem) is not None:
             continue
         if not context.of_submissions and newer_name(stem) in known:
             continue  # PLG010 says so.

@@ -9,6 +9,7 @@ accepted packages that we checked shows this.
 """
 
 from checker.model.components import Plugin
+from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import (
     PluginLibrary,
     library_of_class,
@@ -16,7 +17,6 @@ from checker.model.plugin_library import (
     newer_name,
     plugin_libraries,
 )
-from checker.model.robot import Robot
 from checker.rule import (
     Concern,
     Context,
@@ -32,12 +32,12 @@ from checker.rule import (
 
 
 @rule("PLG003", "class-of-another-library", Severity.ERROR, Concern.INTERFACE)
-def check(robot: Robot, context: Context) -> Findings:
+def check(host: PluginHost, context: Context) -> Findings:
     """Report plugins whose `name` is not a class in their `filename`."""
-    if robot.unread_plugins:
-        yield unchecked(robot.unread_plugins)
+    if host.unread:
+        yield unchecked(host.unread)
     libraries = plugin_libraries(context.release)
-    for plugin in robot.all_plugins:
+    for plugin in host.plugins:
         library = libraries.get(library_stem(plugin.filename.value))
         if library is None or not plugin.name.stated or library.has_class(plugin.name.value):
             continue

@@ -12,8 +12,8 @@ Source: SystemLoader.cc of gz-sim, branches ign-gazebo6, gz-sim8, gz-sim9 and gz
 from collections.abc import Iterator
 
 from checker.model.components import Plugin
+from checker.model.plugin_host import PluginHost
 from checker.model.plugin_library import library_stem, newer_name, plugin_libraries
-from checker.model.robot import Robot
 from checker.rule import (
     Concern,
     Context,
@@ -36,14 +36,14 @@ _EFFECTS = {
 
 
 @rule("PLG010", "plugin-name-of-another-release", Severity.ERROR, Concern.PORTABILITY)
-def check(robot: Robot, context: Context) -> Findings:
+def check(host: PluginHost, context: Context) -> Findings:
     """Report systems of Gazebo with a library or class of the time of Ignition."""
     if context.release not in _EFFECTS:
         return
-    if robot.unread_plugins:
-        yield unchecked(robot.unread_plugins)
+    if host.unread:
+        yield unchecked(host.unread)
     severity, effect = _EFFECTS[context.release]
-    for plugin in robot.all_plugins:
+    for plugin in host.plugins:
         for old in _old_names(plugin, context.release):
             new = newer_name(old.value)
             yield finding(

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from checker.model.components import Sensor
 from checker.model.robot import Robot
-from checker.model.sdf.world import World, sensor_system
+from checker.model.sdf.world import World, holds, sensor_system
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 
@@ -23,7 +23,7 @@ def check(world: World, context: Context) -> Findings:
     missing: dict[str, list[tuple[Robot, Sensor]]] = {}
     for model, sensor in world.sensors():
         system = sensor_system(context.release, sensor)
-        if system and not _is_loaded(world, system):
+        if system and not holds(world.systems, system):
             missing.setdefault(system, []).append((model, sensor))
     for system, sensors in missing.items():
         library = f"{_prefix(context.release)}-{system}-system"
@@ -33,10 +33,6 @@ def check(world: World, context: Context) -> Findings:
             key=f"{world.name} {system}",
             related=_here(world, sensors),
         )
-
-
-def _is_loaded(world: World, system: str) -> bool:
-    return system in world.systems or system.replace("-", "") in world.systems
 
 
 def _prefix(release: str) -> str:

@@ -8,7 +8,7 @@ Fix: name the missing plugin as well.
 Source: gz-sim, `SimulationRunner::LoadServerPlugins` and server.config.
 """
 
-from checker.model.sdf.world import World
+from checker.model.sdf.world import World, holds
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 _DEFAULTS = {
@@ -18,7 +18,6 @@ _DEFAULTS = {
 }
 _LESS = {"scene-broadcaster": Severity.INFO}
 """What a server without windows does without."""
-_WITH_POLICIES = ("ionic", "jetty")
 
 
 @rule("WLD002", "default-systems-lost", Severity.WARNING, Concern.INTERFACE)
@@ -26,10 +25,9 @@ def check(world: World, context: Context) -> Findings:
     """Report the usual systems that a list of plugins leaves out."""
     if not world.plugins:
         return
-    if context.release in _WITH_POLICIES and world.takes_server_plugins:
-        return
+    loaded = world.all_systems(context.release)
     for system, without in _DEFAULTS.items():
-        if system in world.systems or system.replace("-", "") in world.systems:
+        if holds(loaded, system):
             continue
         severe = system == "physics" and any(not model.is_static for model in world.models)
         yield finding(

@@ -420,12 +420,15 @@ class Visitor:
             if made.name == "RosGzBridge"
             else ("ros_gz_sim", "gzserver", "world_sdf_file")
         )
-        values = {
+        parameters: list[Value] = [{file: made.values[file]}] if file in made.values else []
+        if "bridge_params" in made.values:
+            parameters.append(Unknown("the bridge is given parameters in a text", made.span))
+        values: dict[str, Value] = {
             "package": package,
             "executable": executable,
             "name": made.values.get("bridge_name"),
             "namespace": made.values.get("namespace"),
-            "parameters": [{file: made.values[file]}] if file in made.values else [],
+            "parameters": parameters,
         }
         self.node(Made("Node", values, made.span), context)
 

@@ -61,6 +61,25 @@ class Passed(Record, eq=False):
     overrides_frame: bool = False
 
 
+class BridgedService(Record, eq=False):
+    """One service as an argument or an entry writes it.
+
+    Attributes:
+        name: On both sides.
+        ros_type: Such as `ros_gz_interfaces/srv/ControlWorld`.
+        gz_types: Gazebo's messages of request and reply, as far as they are stated.
+    """
+
+    name: Located[str]
+    ros_type: Located[str]
+    gz_types: tuple[Located[str], ...] = ()
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it is written in the package that is checked."""
+        return not self.ros_type.span.source.file.startswith("../")
+
+
 class BridgeEntry(Record, eq=False):
     """One topic that a bridge passes.
 
@@ -105,8 +124,8 @@ def gz_name(gz_type: str) -> str:
     return gz_type.removeprefix(prefix)
 
 
-def read_argument(word: Located[str]) -> Passed | BridgeFault | None:
-    """Read an argument of `parameter_bridge`; None for a service."""
+def read_argument(word: Located[str]) -> Passed | BridgedService | BridgeFault:
+    """Read an argument of `parameter_bridge`."""
 
     def fault(reason: str) -> BridgeFault:
         return BridgeFault(
@@ -122,7 +141,8 @@ def read_argument(word: Located[str]) -> Passed | BridgeFault | None:
     if not topic:
         return fault("it names no topic")
     if _SERVICE.search(rest):
-        return None
+        kind, *messages = (Located(text, word.span) for text in rest.split("@"))
+        return BridgedService(Located(topic, word.span), kind, tuple(messages))
     # The program looks for a second @ first, then for [, then for ].
     mark = next((mark for mark in _MARKS if rest.find(mark) > 0), None)
     if mark is None:

@@ -1,4 +1,4 @@
-"""The YAML file of a bridge between Gazebo and ROS 2: a sequence of topics."""
+"""The YAML file of a bridge between Gazebo and ROS 2: a sequence of topics and services."""
 
 from __future__ import annotations
 
@@ -6,7 +6,12 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.words import Suggestions
 from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridge_entry import BridgeFault, BridgeFaultKind, Passed
+from checker.expand.ros2_launch.bridge_entry import (
+    BridgedService,
+    BridgeFault,
+    BridgeFaultKind,
+    Passed,
+)
 from checker.source.text import Located
 from checker.source.yaml import YamlDocument, YamlNode
 
@@ -34,7 +39,7 @@ _NEAR = {
     **_OLD,
 }
 
-Item = Passed | BridgeFault
+Item = Passed | BridgedService | BridgeFault
 
 
 def is_bridge_file(document: YamlDocument) -> bool:
@@ -47,7 +52,7 @@ def is_bridge_file(document: YamlDocument) -> bool:
 
 
 def read_bridge_file(document: YamlDocument) -> Iterator[Item]:
-    """Yield the topics that a file names, and what is wrong with it."""
+    """Yield the topics and services that a file names, and what is wrong with it."""
     for fault in document.faults:
         if document.root is None:
             yield BridgeFault(
@@ -74,7 +79,9 @@ def _entry(entry: YamlNode, suggestions: Suggestions) -> Iterator[Item]:
     unknown = [key for key, _ in entry.entries if _text(key) not in _KNOWN]
     meant = {_NEAR.get(_text(key)) or suggestions.near(_text(key)) or "": key for key in unknown}
     dropped: list[BridgeFault] = []
-    if all(entry.get(key) is None for key in _SERVICE):
+    if any(entry.get(key) is not None for key in _SERVICE):
+        yield from _service(entry)
+    else:
         dropped += _dropped(entry, meant)
         if not dropped and all(entry.get(key) is None for key in _OLD):
             yield from _passed(entry)
@@ -142,6 +149,15 @@ def _passed(entry: YamlNode) -> Iterator[Passed]:
         direction.span if direction is not None else gz_name.span,
         overrides_frame=entry.get("frame_id") is not None,
     )
+
+
+def _service(entry: YamlNode) -> Iterator[BridgedService]:
+    """Yield a service; of one without its name or type, it is not known what becomes."""
+    name, ros_type = entry.get("service_name"), entry.get("ros_type_name")
+    if name is not None and ros_type is not None and _text(ros_type):
+        stated = (entry.get(key) for key in _SERVICE[1:])
+        gz_types = tuple(_located(node) for node in stated if node is not None)
+        yield BridgedService(_located(name), _located(ros_type), gz_types)
 
 
 def _text(node: YamlNode | None) -> str:

@@ -13,6 +13,7 @@ from checker.base.record import Record
 from checker.expand.launch.bridge import Direction
 from checker.expand.launch.graph import Remap, resolve_name
 from checker.expand.ros2_launch.bridge_entry import (
+    BridgedService,
     BridgeEntry,
     BridgeFault,
     BridgeFaultKind,
@@ -22,6 +23,7 @@ from checker.expand.ros2_launch.bridge_entry import (
 from checker.expand.ros2_launch.bridge_file import is_bridge_file, read_bridge_file
 from checker.expand.ros2_launch.graph import (
     Component,
+    Include,
     LaunchGraph,
     Node,
     Parameter,
@@ -41,7 +43,12 @@ _BRIDGES = ("ros_gz_bridge", "ros_ign_bridge")
 _IMAGES = ("ros_gz_image", "ros_ign_image")
 _PROGRAM = "parameter_bridge"
 _PLUGINS = ("ros_gz_bridge::RosGzBridge", "RosGzBridge")
-_INCLUDED = "launch/ros_gz_bridge.launch"
+_INCLUDED = (
+    "ros_gz_bridge/launch/ros_gz_bridge.launch",
+    "ros_gz_sim/launch/ros_gz_sim.launch",
+    "ros_gz_sim/launch/ros_gz_spawn_model.launch",
+)
+"""Launch files that start a bridge, given a `config_file`."""
 _ROS_ARGS = "--ros-args"
 _EXPAND = "expand_gz_topic_names"
 _LOOSE = re.compile(r"bridge[^/]{0,80}\.ya?ml\Z")
@@ -56,17 +63,19 @@ class Bridges(Record, eq=False):
         faults: What is wrong with arguments and files.
         unread: Why some topics are not known.
         files: Paths of the YAML files that are read, as the package lists them.
+        services: The services.
     """
 
     entries: tuple[BridgeEntry, ...] = ()
     faults: tuple[BridgeFault, ...] = ()
     unread: tuple[str, ...] = ()
     files: frozenset[str] = field(default_factory=frozenset)
+    services: tuple[BridgedService, ...] = ()
 
     @property
     def is_there(self) -> bool:
         """Whether something is bridged, or was meant to be."""
-        return bool(self.entries or self.faults or self.unread)
+        return bool(self.entries or self.services or self.faults or self.unread)
 
 
 class _At(Record, eq=False):
@@ -117,12 +126,7 @@ def read_bridges(package: Package, graph: LaunchGraph) -> Bridges:
         for component in loaded.components:
             reader.component(component, None)
     for include in graph.includes:
-        target = share_path(include.target.value)
-        if target and target.package in _BRIDGES and target.path.startswith(_INCLUDED):
-            file = include.arguments.get("config_file")
-            if file is not None:
-                at = _At("/", "", (), False, None)
-                reader.file(file.value, at)
+        reader.include(include)
     return reader.bridges()
 
 
@@ -152,6 +156,7 @@ class _Reader:
         self._faults: list[BridgeFault] = []
         self._unread: list[str] = []
         self._files: set[str] = set()
+        self._services: list[BridgedService] = []
 
     def bridges(self) -> Bridges:
         return Bridges(
@@ -159,6 +164,7 @@ class _Reader:
             tuple(self._faults),
             tuple(dict.fromkeys(self._unread)),
             frozenset(self._files),
+            tuple(self._services),
         )
 
     def node(self, node: Node) -> None:
@@ -174,6 +180,18 @@ class _Reader:
             for word in own:
                 self._argument(word, at)
             self._configured(node.parameters, given, at)
+
+    def include(self, include: Include) -> None:
+        """Read the file that an include of the bridge's own launch files is given."""
+        target = share_path(include.target.value)
+        if target is None or not f"{target.package}/{target.path}".startswith(_INCLUDED):
+            return
+        given = include.arguments
+        if "bridge_params" in given:
+            self._unread.append("the bridge is given parameters in a text")
+        if (file := given.get("config_file")) is not None:
+            namespace = given["namespace"].value if "namespace" in given else ""
+            self.file(file.value, _At(resolve_name(namespace, "/"), "", (), False, None))
 
     def process(self, process: Process) -> None:
         """Read `ros2 run ros_gz_bridge parameter_bridge …`."""
@@ -199,11 +217,12 @@ class _Reader:
         read = read_argument(word)
         if isinstance(read, Passed):
             self._entries.append(at.entry(read))
-        elif isinstance(read, BridgeFault):
-            if is_known(word.value):
-                self._faults.append(read)
-            else:
-                self._unread.append(f"the argument {shown(word.value)[:80]!r} is not known")
+        elif isinstance(read, BridgedService):
+            self._services.append(read)
+        elif is_known(word.value):
+            self._faults.append(read)
+        else:
+            self._unread.append(f"the argument {shown(word.value)[:80]!r} is not known")
 
     def _configured(self, parameters: Parameters, given: dict[str, Located[str]], at: _At) -> None:
         """Read the files that parameters name."""
@@ -235,6 +254,8 @@ class _Reader:
         for item in read_bridge_file(document):
             if isinstance(item, Passed):
                 self._entries.append(at.entry(item))
+            elif isinstance(item, BridgedService):
+                self._services.append(item)
             else:
                 self._faults.append(item)
                 if item.kind is BridgeFaultKind.UNREADABLE:

@@ -351,6 +351,7 @@ _TAGS: Mapping[str, Callable[[Markup, Entity], Made]] = MappingProxyType(
             bridge_name="bridge_name",
             config_file="config_file",
             namespace="namespace",
+            bridge_params="bridge_params",
         ),
         "gz_server": _simple("GzServer", world_sdf_file="world_sdf_file"),
     }

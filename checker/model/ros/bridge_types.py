@@ -49,3 +49,14 @@ def all_ros_types() -> tuple[str, ...]:
 def is_ros_type(text: str) -> bool:
     """Whether a text is spelled as a message of ROS 2: `sensor_msgs/msg/Imu`."""
     return _ROS_TYPE.match(text) is not None
+
+
+def service_messages(ros_type: str) -> Sequence[str] | None:
+    """Return Gazebo's messages of request and reply of a ROS service; None where not known."""
+    names: Sequence[str] | None = table("bridge_types")["services"].get(ros_type)
+    return names
+
+
+def meant_service(text: str) -> str:
+    """Return the service that another spelling means, by its last word; or nothing."""
+    return meant_ros_type(text, [*table("bridge_types")["services"]])

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Sequence
 from functools import cached_property
 
 from checker.base.cache import Cache
@@ -16,16 +15,20 @@ from checker.expand.ros2_launch.graph import (
     LaunchGraph,
     Node,
     Parameter,
-    Process,
     Ros2Launch,
     is_known,
-    share_path,
     shown,
 )
-from checker.expand.ros2_launch.package_files import local_file
 from checker.expand.xacro.expansion import Expansions, Wanted
 from checker.expand.xacro.files import local_path
 from checker.model.robot import Robot
+from checker.model.ros.servers import (
+    GAZEBO,
+    GazeboServer,
+    is_gazebo,
+    is_gazebo_include,
+    read_servers,
+)
 from checker.model.ros.simulated_topics import (
     SimulatedTopic,
     is_silent,
@@ -33,19 +36,20 @@ from checker.model.ros.simulated_topics import (
     unknown_owner,
 )
 from checker.model.ros.topics import comparable
+from checker.model.ros2_control.launched import launched_files
+from checker.model.ros2_control.robot_control import (
+    ControlReader,
+    RobotControl,
+    may_be_controlled,
+)
 from checker.model.sdf.includes import ModelIncludes
 from checker.model.sdf.reader import read_sdf
-from checker.model.sdf.world import World, read_worlds
+from checker.model.sdf.world import World, systems_of
 from checker.model.urdf.description import read_description
 from checker.package.package import Package
-from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
-GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
 STATE_PUBLISHER = "robot_state_publisher"
-_STARTS_ALL = ("gz_sim.launch", "gz_server.launch", "ign_gazebo.launch", "gz_gui.launch")
-"""Launch files of Gazebo's own packages that start it, and neither bridge nor spawn."""
-_WORLD_SUFFIXES = (".sdf", ".world")
 
 
 class SpawnedRobot(Record, eq=False):
@@ -53,14 +57,16 @@ class SpawnedRobot(Record, eq=False):
 
     Attributes:
         robot: The robot.
-        node: That spawns it.
+        control: Its ros2_control, if it has any.
         name: In Gazebo; empty when it is not known.
+        node: That spawns it.
         publisher: The node that publishes its transforms from the same description, if any.
     """
 
     robot: Robot
-    node: Node
+    control: RobotControl | None
     name: str
+    node: Node
     publisher: Node | None
 
 
@@ -72,23 +78,34 @@ class Simulation(Record, eq=False, dict=True):
         bridges: What is passed.
         robots: That it spawns.
         unknown_robots: Why some that it spawns are not among them.
-        worlds: That it loads.
-        unknown_worlds: Why the world is not known; empty where no Gazebo is started as well.
-        starts_gazebo: Whether it starts Gazebo.
+        servers: Gazebo, as often as it starts it.
     """
 
     graph: LaunchGraph | None
     bridges: Bridges
     robots: tuple[SpawnedRobot, ...] = ()
     unknown_robots: tuple[str, ...] = ()
-    worlds: tuple[World, ...] = ()
-    unknown_worlds: tuple[str, ...] = ()
-    starts_gazebo: bool = False
+    servers: tuple[GazeboServer, ...] = ()
 
     @property
     def entries(self) -> tuple[BridgeEntry, ...]:
         """The topics that are passed."""
         return self.bridges.entries
+
+    @property
+    def worlds(self) -> tuple[World, ...]:
+        """The worlds that Gazebo loads."""
+        return tuple(world for server in self.servers for world in server.worlds)
+
+    @property
+    def unknown_worlds(self) -> tuple[str, ...]:
+        """Why the world is not known; empty where no Gazebo is started as well."""
+        return tuple(server.unknown for server in self.servers if server.unknown)
+
+    @property
+    def starts_gazebo(self) -> bool:
+        """Whether it starts Gazebo for certain."""
+        return any(server.starts for server in self.servers)
 
     @cached_property
     def models(self) -> tuple[Robot, ...]:
@@ -145,18 +162,22 @@ class Simulation(Record, eq=False, dict=True):
         return all(is_silent(plugin) for plugin in plugins)
 
     @cached_property
+    def spawned_systems(self) -> frozenset[str]:
+        """What the robots that it spawns load: `sensors`, `imu`."""
+        plugins = (plugin for spawned in self.robots for plugin in spawned.robot.plugins)
+        return frozenset(name for plugin in plugins for name in systems_of(plugin))
+
+    @cached_property
     def unread(self) -> str:
         """Why it may start more than is known; empty where all was read."""
         if self.graph is None:
             return "no launch file names it"
-        if any(not _is_gazebo(process) for process in self.graph.processes):
+        if any(not is_gazebo(process) for process in self.graph.processes):
             return "a command may start anything"
         reasons = [*self.bridges.unread, *(unread.reason for unread in self.graph.unread)]
         reasons += [fault.message for fault in self.graph.faults]
         for include in self.graph.includes:
-            target = share_path(include.target.value)
-            own = target is not None and target.package in GAZEBO
-            if not include.path and not (own and _starts_gazebo(include.target.value)):
+            if not include.path and not is_gazebo_include(include):
                 reasons.append(f"{shown(include.target.value)} is not read")
         return next(iter(reasons), "")
 
@@ -174,42 +195,39 @@ class Simulations(Record, eq=False):
 
 
 def simulations(package: Package, launch: Ros2Launch | None, cache: Cache) -> Simulations:
-    """Read what the launch files of a package simulate and bridge.
+    """Read what the launch files of a package simulate, those that bridge something.
 
     Args:
         package: That is checked.
         launch: Its launch files.
         cache: Where what xacro makes is kept.
     """
-    reader = _Reader(package, cache)
-    launched = tuple(map(reader.simulation, launch.entries if launch is not None else ()))
+    graphs = launch.entries if launch is not None else ()
+    reader = _Reader(package, cache, graphs)
+    launched = tuple(map(reader.simulation, graphs))
     named = {file for each in launched for file in each.bridges.files}
     return Simulations(launched, Simulation(None, loose_bridges(package, named)))
 
 
+class _Described(Record, eq=False):
+    robot: Robot
+    control: RobotControl | None = None
+
+
 class _Reader:
-    def __init__(self, package: Package, cache: Cache) -> None:
+    def __init__(self, package: Package, cache: Cache, graphs: Sequence[LaunchGraph]) -> None:
         self._package = package
         self._cache = cache
-        self._known: dict[str, Robot | str] = {}
+        self._known: dict[str, _Described | str] = {}
+        self._control = ControlReader(package, launched_files(package, graphs))
 
     def simulation(self, graph: LaunchGraph) -> Simulation:
         bridges = read_bridges(self._package, graph)
-        starts = any(
-            _starts_gazebo(include.target.value) and include.starts for include in graph.includes
-        ) or any(_is_gazebo(process) and process.starts for process in graph.processes)
+        servers = tuple(read_servers(self._package, graph))
+        if not bridges.entries and not servers:
+            return Simulation(graph, bridges)
         robots, unknown = self._robots(graph)
-        # Who asks for the world asks what is behind a bridge.
-        worlds, unknown_worlds = self._worlds(graph) if bridges.entries else ([], [])
-        return Simulation(
-            graph,
-            bridges,
-            tuple(robots),
-            tuple(unknown),
-            tuple(worlds),
-            tuple(unknown_worlds),
-            starts,
-        )
+        return Simulation(graph, bridges, tuple(robots), tuple(unknown), servers)
 
     def _robots(self, graph: LaunchGraph) -> tuple[list[SpawnedRobot], list[str]]:
         loaded = [*loaded_descriptions(self._package, graph)]
@@ -224,15 +242,16 @@ class _Reader:
             if not given:
                 unknown.append(f"what {node.executable.value} spawns is not known")
             for description in given:
-                robot = self._robot(description)
-                if isinstance(robot, str):
-                    unknown.append(robot)
+                read = self._robot(description)
+                if isinstance(read, str):
+                    unknown.append(read)
                 else:
-                    publisher = _publisher(description, loaded)
-                    robots.append(SpawnedRobot(robot, node, _name(node, robot), publisher))
+                    publisher, name = _publisher(description, loaded), _name(node, read.robot)
+                    spawned = SpawnedRobot(read.robot, read.control, name, node, publisher)
+                    robots.append(spawned)
         return robots, unknown
 
-    def _robot(self, description: LoadedDescription) -> Robot | str:
+    def _robot(self, description: LoadedDescription) -> _Described | str:
         if description.unknown:
             return f"argument {description.unknown[0]!r} of the robot is not known"
         load = description.load
@@ -241,7 +260,7 @@ class _Reader:
             self._known[key] = self._read(load)
         return self._known[key]
 
-    def _read(self, load: Load) -> Robot | str:
+    def _read(self, load: Load) -> _Described | str:
         path = local_path(self._package, load.path)
         if path is None:
             return f"{shown(load.path)} is not at hand"
@@ -252,48 +271,12 @@ class _Reader:
         if not isinstance(document, XmlDocument):
             return f"{path} cannot be read"
         if document.root.tag == "robot":
-            return read_description(document, path, for_rviz=False).robot
+            description = read_description(document, path, for_rviz=False)
+            controlled = may_be_controlled(description)
+            control = self._control.control(description) if controlled else None
+            return _Described(description.robot, control)
         models = read_sdf(document, ModelIncludes(self._package))
-        return models[0] if models else f"{path} holds no model"
-
-    def _worlds(self, graph: LaunchGraph) -> tuple[list[World], list[str]]:
-        worlds: list[World] = []
-        unknown: list[str] = []
-        for include in graph.includes:
-            if not _starts_gazebo(include.target.value) or include.starts is False:
-                continue
-            words = [*_words(include.arguments)]
-            if any(word == "-g" for word in words):
-                continue
-            named = [word for word in words if word.lower().endswith(_WORLD_SUFFIXES)]
-            path = local_file(self._package, named[0]) if named else None
-            document = self._package.xml(path) if path is not None else None
-            if isinstance(document, XmlDocument):
-                worlds += read_worlds(document, ModelIncludes(self._package))
-            elif named != ["empty.sdf"]:
-                unknown.append("the world is not known")
-        if any(_is_gazebo(process) for process in graph.processes):
-            unknown.append("the world is not known")
-        return worlds, unknown
-
-
-def _words(arguments: Mapping[str, Located[str]]) -> Iterator[str]:
-    for name in ("gz_args", "ign_args", "world_sdf_file"):
-        if name in arguments:
-            try:
-                yield from shlex.split(arguments[name].value)
-            except ValueError:  # a quotation mark that nothing closes
-                return
-
-
-def _is_gazebo(process: Process) -> bool:
-    return bool(process.words) and process.words[0].value in ("gz", "ign")
-
-
-def _starts_gazebo(target: str) -> bool:
-    found = share_path(target)
-    file = found.path.rpartition("/")[2] if found is not None else ""
-    return found is not None and found.package in GAZEBO and file.startswith(_STARTS_ALL)
+        return _Described(models[0]) if models else f"{path} holds no model"
 
 
 def _given(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cached_property
 
 from checker.base.record import Record
@@ -17,6 +17,11 @@ from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
 
 _INCLUDES_LIMIT = 100
+DEFAULT_SYSTEMS = frozenset({"physics", "user-commands", "scene-broadcaster"})
+"""What Gazebo loads into a world that names no plugin: its server.config."""
+EMPTY_SYSTEMS = DEFAULT_SYSTEMS | {"contact"}
+"""What `empty.sdf` loads, Gazebo's own world; from memory."""
+_WITH_POLICIES = ("ionic", "jetty")
 _POLICIES = ("gz:policies", "ignition:policies")
 
 
@@ -51,9 +56,14 @@ class World(Record, eq=False, dict=True):
         plugins = (*self.plugins, *(plugin for model in self.models for plugin in model.plugins))
         return frozenset(name for plugin in plugins for name in systems_of(plugin))
 
+    def all_systems(self, release: str) -> frozenset[str]:
+        """What runs in it: what it names, and what Gazebo loads by itself."""
+        asked = release in _WITH_POLICIES and self.takes_server_plugins
+        return self.systems | (DEFAULT_SYSTEMS if asked or not self.plugins else frozenset())
+
     @property
     def takes_server_plugins(self) -> bool:
-        """Whether it asks for the server's own plugins beside its own."""
+        """Whether it asks for the server's own plugins beside its own; from Ionic on."""
         policies = (self.element.child(name) for name in _POLICIES)
         said = (it.child("include_server_config_plugins") for it in policies if it is not None)
         return any(it is not None and it.text.value.lower() in ("1", "true") for it in said)
@@ -63,6 +73,11 @@ class World(Record, eq=False, dict=True):
         for model in self.models:
             for sensor in model.sensors:
                 yield model, sensor
+
+
+def holds(systems: Collection[str], system: str) -> bool:
+    """Whether a system is among some, which are called by library or by class."""
+    return system in systems or system.replace("-", "") in systems
 
 
 def systems_of(plugin: Plugin) -> Iterator[str]:

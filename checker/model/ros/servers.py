@@ -1,0 +1,149 @@
+"""The Gazebo servers that ROS 2 launch files start, and the worlds that they load."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+
+from checker.base.record import Record
+from checker.expand.ros2_launch.graph import (
+    Include,
+    LaunchGraph,
+    Parameter,
+    Process,
+    is_known,
+    share_path,
+)
+from checker.expand.ros2_launch.package_files import local_file
+from checker.model.sdf.includes import ModelIncludes
+from checker.model.sdf.world import World, read_worlds
+from checker.package.package import Package
+from checker.source.text import Located, Span
+from checker.source.xml import XmlDocument
+
+GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
+_STARTS_SERVER = ("gz_sim.launch", "gz_server.launch", "ign_gazebo.launch", "ros_gz_sim.launch")
+_STARTS_WINDOW = "gz_gui.launch"
+"""Launch files of Gazebo's own packages that start it; all but the last one load a world."""
+_SERVER = "gzserver"
+_SERVER_PLUGIN = "ros_gz_sim::GzServer"
+_WORLD_FILE = "world_sdf_file"
+_COMMANDS = (("gz", "sim"), ("ign", "gazebo"))
+_WORLD_SUFFIXES = (".sdf", ".world")
+_EMPTY = "empty.sdf"
+"""A world of Gazebo's own."""
+_UNKNOWN = "the world is not known"
+
+
+class GazeboServer(Record, eq=False):
+    """A start of Gazebo.
+
+    Attributes:
+        span: Where its world is named, else where it is started.
+        starts: Whether it counts with the defaults of all arguments; None when not known.
+        worlds: That it loads.
+        own_world: The file of Gazebo's own that it loads; else empty.
+        unknown: Why its world is not known; else empty.
+    """
+
+    span: Span
+    starts: bool | None
+    worlds: tuple[World, ...] = ()
+    own_world: str = ""
+    unknown: str = ""
+
+
+def read_servers(package: Package, graph: LaunchGraph) -> Iterator[GazeboServer]:
+    """Yield the servers that a launch file starts; those that a condition leaves out are none.
+
+    Args:
+        package: That is checked.
+        graph: Of the launch file.
+    """
+    for include in graph.includes:
+        if is_gazebo_include(include) and include.starts is not False:
+            yield from _included(package, include)
+    for process in graph.processes:
+        if is_gazebo(process) and process.starts is not False:
+            yield from _commanded(package, process.words[2:], process.span, process.starts)
+    for node in graph.nodes:
+        if node.starts is False:
+            continue
+        if node.package.value in GAZEBO and node.executable.value == _SERVER:
+            yield _given(package, node.parameters, node.span, node.starts)
+        for component in node.components:
+            if component.plugin.value == _SERVER_PLUGIN:
+                yield _given(package, component.parameters, component.span, node.starts)
+
+
+def is_gazebo(process: Process) -> bool:
+    """Whether a command starts Gazebo."""
+    return tuple(word.value for word in process.words[:2]) in _COMMANDS
+
+
+def is_gazebo_include(include: Include) -> bool:
+    """Whether an include is one of the launch files that start Gazebo."""
+    return _file(include).startswith((*_STARTS_SERVER, _STARTS_WINDOW))
+
+
+def _file(include: Include) -> str:
+    """Return the name of an included launch file of Gazebo's own; empty for any other."""
+    found = share_path(include.target.value)
+    if found is None or found.package not in GAZEBO:
+        return ""
+    return found.path.rpartition("/")[2]
+
+
+def _included(package: Package, include: Include) -> Iterator[GazeboServer]:
+    if _file(include).startswith(_STARTS_WINDOW):
+        return
+    words = [*_words(include.arguments)]
+    span = next((word.span for word in words if _is_world(word)), include.span)
+    yield from _commanded(package, words, span, include.starts)
+
+
+def _words(arguments: Mapping[str, Located[str]]) -> Iterator[Located[str]]:
+    for name in ("gz_args", "ign_args", _WORLD_FILE):
+        if name in arguments:
+            given = arguments[name]
+            try:
+                words = shlex.split(given.value)
+            except ValueError:  # a quotation mark that nothing closes
+                return
+            yield from (Located(word, given.span) for word in words)
+
+
+def _is_world(word: Located[str]) -> bool:
+    return word.value.lower().endswith(_WORLD_SUFFIXES)
+
+
+def _commanded(
+    package: Package, words: Sequence[Located[str]], span: Span, starts: bool | None
+) -> Iterator[GazeboServer]:
+    """Yield the server of a command line; `-g` starts a window alone."""
+    if any(word.value == "-g" for word in words):
+        return
+    named = [word for word in words if _is_world(word)]
+    yield _loading(package, named[0].value if named else "", span, starts)
+
+
+def _given(
+    package: Package, parameters: Sequence[object], span: Span, starts: bool | None
+) -> GazeboServer:
+    """Return the server that a node is, by its parameters."""
+    files = [it for it in parameters if isinstance(it, Parameter) and it.name == _WORLD_FILE]
+    last = files[-1] if files else None
+    if last is None or not isinstance(last.value, str):
+        return GazeboServer(span, starts, unknown=_UNKNOWN)
+    return _loading(package, last.value, last.span, starts)
+
+
+def _loading(package: Package, path: str, span: Span, starts: bool | None) -> GazeboServer:
+    if path == _EMPTY:
+        return GazeboServer(span, starts, own_world=path)
+    local = local_file(package, path) if is_known(path) else None
+    document = package.xml(local) if local is not None else None
+    if not isinstance(document, XmlDocument):
+        return GazeboServer(span, starts, unknown=_UNKNOWN)
+    worlds = tuple(read_worlds(document, ModelIncludes(package)))
+    return GazeboServer(span, starts, worlds)

@@ -1,0 +1,159 @@
+"""A robot that a launch file spawns into a world which does not load what the robot needs.
+
+Gazebo's systems belong to the world. `create` asks UserCommands to spawn the robot, Physics moves
+it, and sensors give data only where their system runs: cameras and lidars need
+`gz-sim-sensors-system`, an IMU `gz-sim-imu-system`. A world that names no plugin gets physics, user
+commands and the scene broadcaster, and so does Gazebo's own `empty.sdf`: no sensor works there but
+those for contacts. Nobody says so when it is launched; the topics are merely silent.
+
+It is an error where all that the world and its robots load is known. It is a warning where a model
+is not at hand or a plugin is not Gazebo's, and where the world leaves the choice to Gazebo, for a
+server configuration of the user's own may load more.
+
+Fix: name the missing plugin in the world, or launch a world that has it.
+Source: gz-sim, server.config, `SimulationRunner::LoadServerPlugins` and worlds/empty.sdf (from
+memory); gazebosim/docs issue 433.
+"""
+
+from collections.abc import Iterator
+
+from checker.base.record import Record
+from checker.model.components import Sensor
+from checker.model.plugin_library import is_of_gazebo, library_stem
+from checker.model.ros.servers import GazeboServer
+from checker.model.ros.simulation import Simulation, Simulations, SpawnedRobot
+from checker.model.sdf.world import EMPTY_SYSTEMS, World, holds, sensor_system
+from checker.rule import Concern, Context, Findings, Severity, Where, finding, rule
+
+
+class _Loaded(Record, eq=False):
+    """A world that a server loads, and the systems that run in it."""
+
+    server: GazeboServer
+    world: World | None
+    systems: frozenset[str]
+
+    @property
+    def called(self) -> str:
+        """What a message calls it."""
+        return f"world {self.world.name!r}" if self.world is not None else self.server.own_world
+
+
+@rule("WLD004", "robot-in-world-without-system", Severity.ERROR, Concern.INTERFACE)
+def check(simulations: Simulations, context: Context) -> Findings:
+    """Report each system that a launched world lacks once, with the robots' parts that need it."""
+    for simulation in simulations.launched:
+        for loaded in _loaded(simulation, context.release):
+            for spawned in simulation.robots:
+                yield from _missing(simulation, loaded, spawned, context.release)
+
+
+def _loaded(simulation: Simulation, release: str) -> Iterator[_Loaded]:
+    for server in simulation.servers:
+        if server.own_world:
+            systems = EMPTY_SYSTEMS | simulation.spawned_systems
+            yield _Loaded(server, None, systems)
+        for world in server.worlds:
+            systems = world.all_systems(release) | simulation.spawned_systems
+            yield _Loaded(server, world, systems)
+
+
+def _missing(
+    simulation: Simulation, loaded: _Loaded, spawned: SpawnedRobot, release: str
+) -> Findings:
+    severity = Severity.ERROR if _is_certain(simulation, loaded, spawned) else Severity.WARNING
+    for system, effect, sensors in _effects(loaded, spawned, release):
+        library = f"{'ignition-gazebo' if release == 'fortress' else 'gz-sim'}-{system}-system"
+        yield finding(
+            loaded.server,
+            f"{effect}: {loaded.called} does not load {library}",
+            severity=severity,
+            key=f"{loaded.called} {system}",
+            related=_related(loaded, spawned, sensors),
+        )
+
+
+def _effects(
+    loaded: _Loaded, spawned: SpawnedRobot, release: str
+) -> Iterator[tuple[str, str, list[Sensor]]]:
+    """Yield each system that is missing, what comes of it, and the sensors that need it."""
+    name = spawned.name or spawned.robot.name.value
+    if not holds(loaded.systems, "user-commands"):
+        yield "user-commands", f"{name!r} is not spawned", []
+        return
+    if not holds(loaded.systems, "physics") and not spawned.robot.is_static:
+        yield "physics", f"{name!r} does not move", []
+    silent: dict[str, list[Sensor]] = {}
+    for sensor in spawned.robot.sensors:
+        system = sensor_system(release, sensor)
+        if system and not holds(loaded.systems, system):
+            silent.setdefault(system, []).append(sensor)
+    for system, sensors in silent.items():
+        gives = "give" if len(sensors) > 1 else "gives"
+        yield system, f"{_named(sensors)} of {name!r} {gives} no data", sensors
+
+
+def _related(
+    loaded: _Loaded, spawned: SpawnedRobot, sensors: list[Sensor]
+) -> Iterator[tuple[Where, str]]:
+    if loaded.world is not None:
+        yield loaded.world, "this world"
+    yield spawned.node, "spawned here"
+    for sensor in sensors:
+        yield sensor, "this sensor"
+
+
+def _named(sensors: list[Sensor]) -> str:
+    first = f"sensor {sensors[0].name.value!r}"
+    others = len(sensors) - 1
+    return f"{first} and {others} other{'s' if others > 1 else ''}" if others else first
+
+
+def _is_certain(simulation: Simulation, loaded: _Loaded, spawned: SpawnedRobot) -> bool:
+    """Whether nothing else can load a system: all is known, and the world makes its own choice."""
+    world = loaded.world
+    if world is None or not world.plugins or world.takes_server_plugins:
+        return False
+    if world.unknown or simulation.unknown_robots:
+        return False
+    robots = [*world.models, *(each.robot for each in simulation.robots)]
+    stems = [library_stem(plugin.filename.value) for plugin in world.plugins]
+    return (
+        all(is_of_gazebo(stem) for stem in stems)
+        and not any(robot.missing_parts or robot.unread_plugins for robot in robots)
+        and loaded.server.starts is True
+        and spawned.node.starts is True
+    )
+
+
+_EMPTY_WORLD = '("gz_args", "-r empty.sdf")'
+_WORLD = '("gz_args", ["-r ", os.path.join(HERE, "worlds", "hall.sdf")])'
+
+
+def _hall(*systems: str) -> str:
+    plugins = "\n    ".join(
+        f'<plugin filename="gz-sim-{system}-system" name=""/>' for system in systems
+    )
+    return f'<sdf version="1.9">\n  <world name="hall">\n    {plugins}\n  </world>\n</sdf>\n'
+
+
+def _launched(world: str, mark: str = "", gazebo: str = _WORLD) -> dict[str, object]:
+    old = f"launch_arguments=[{_EMPTY_WORLD}]),"
+    new = f"launch_arguments=[{gazebo}]),{mark}"
+    return {"@bridge": True, "@launch": {old: new}, "worlds/hall.sdf": world}
+
+
+_MARK = "  # ^ WLD004"
+_ALL = ("physics", "user-commands", "sensors")
+GOOD = [
+    _launched(_hall(*_ALL)),
+    _launched(_hall(), gazebo='("gz_args", "-g")'),
+    _launched(_hall("physics"), gazebo='("gz_args", "-r somewhere.sdf")'),
+]
+BAD = [
+    _launched(_hall("physics", "user-commands"), _MARK),
+    _launched(_hall("physics", "sensors"), _MARK),
+    _launched(_hall("user-commands", "sensors"), _MARK),
+    _launched('<sdf version="1.9"><world name="hall"/></sdf>', _MARK),
+    _launched(_hall(), _MARK, gazebo=_EMPTY_WORLD),
+]
