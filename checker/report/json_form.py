@@ -145,7 +145,7 @@ class TrialJson(TypedDict):
         ]
     ]
     not_driven: NotRequired[
-        Annotated[str, Meta(description="Why a robot with a drive was only let stand.")]
+        Annotated[str, Meta(description="Why a robot that moves was only let stand.")]
     ]
     drive: str
     versions: Annotated[Mapping[str, str], Meta(description="Of MuJoCo and of the course.")]

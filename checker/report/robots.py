@@ -57,9 +57,10 @@ class ReportedRobot(Record):
             return TrialVerdict("not driven" if why_not else "", why_not)
         if self.trial["refused"]:
             return TrialVerdict("error", "MuJoCo refuses the model")
-        if self.trial.get("not_driven"):
-            return TrialVerdict("not driven", self.trial["not_driven"])
-        return TrialVerdict(gravest(row.verdict for row in rows_of(self.trial["measurements"])))
+        word = gravest(row.verdict for row in rows_of(self.trial["measurements"]))
+        why_not = str(self.trial.get("not_driven", ""))
+        faultless = word in ("ok", "not judged")
+        return TrialVerdict("not driven", why_not) if why_not and faultless else TrialVerdict(word)
 
 
 def robots_of(package: PackageReport) -> list[ReportedRobot]:
