@@ -43,6 +43,7 @@ def golden(name: str) -> dict[str, Any]:
         package["path"] = package["name"]
         if package["trial"] is not None:
             package["trial"] = compact(package["trial"])
+        package["other_trials"] = [compact(trial) for trial in package["other_trials"]]
     plain: dict[str, Any] = json.loads(json.dumps(report))
     return plain
 

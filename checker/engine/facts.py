@@ -32,17 +32,41 @@ NOT_JUDGED = "not judged"
 _SERIES_DIGITS = 6
 
 
-def measured(driven: RobotTrial, outcome: Outcome) -> dict[str, Any]:
-    """Return what JSON can express of a trial and of what the rules said about its figures."""
+def trials_of(subject: Subject, outcome: Outcome) -> tuple[dict[str, Any], ...]:
+    """Return the trials of a package; of several robots, each says which one it is about."""
+    driven = subject.provided(RobotTrial)
+    robots = () if isinstance(subject.robots, NotAvailable) else subject.robots
+    if len(robots) < 2:
+        return tuple(measured(each, outcome) for each in driven)
+    numbers = {id(robot): number for number, robot in enumerate(robots)}
+    return tuple(
+        {"robot": numbers[id(each.robot)], **measured(each, outcome, alone=False)}
+        for each in driven
+    )
+
+
+def measured(driven: RobotTrial, outcome: Outcome, *, alone: bool = True) -> dict[str, Any]:
+    """Return what JSON can express of a trial and of what the rules said about its figures.
+
+    Args:
+        driven: The robot and its trial.
+        outcome: Of the rules.
+        alone: Whether all that they said is about this robot.
+    """
+    verdicts = _verdicts(outcome)
+    if not alone:
+        verdicts = _about(driven, verdicts)
     trial = driven.trial
     data = replace(trial, replay=None).as_json()
+    why_not = {"not_driven": trial.not_driven} if trial.not_driven else {}
     return {
+        **why_not,
         "drive": trial.drive,
         "versions": dict(trial.versions),
         "course": data["legs"],
         "refused": trial.refused,
         "refused_part": trial.refused_part,
-        "measurements": list(_measurements(driven, outcome)),
+        "measurements": list(_measurements(driven, outcome, verdicts)),
         "repairs": data["repairs"],
         "notes": list(trial.notes),
         "trouble": list(trial.trouble),
@@ -50,8 +74,9 @@ def measured(driven: RobotTrial, outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _measurements(driven: RobotTrial, outcome: Outcome) -> Iterator[dict[str, Any]]:
-    verdicts = _verdicts(outcome)
+def _measurements(
+    driven: RobotTrial, outcome: Outcome, verdicts: _Verdicts
+) -> Iterator[dict[str, Any]]:
     for measurement in driven.trial.measurements:
         measure = MEASURES.get(measurement.name, Measure(measurement.name.replace("_", " ")))
         if not math.isfinite(measurement.value):
@@ -84,6 +109,17 @@ def _verdicts(outcome: Outcome) -> _Verdicts:
             for name in finding.key.split():
                 verdicts.setdefault(name, []).append((finding.severity, places))
     return verdicts
+
+
+def _about(driven: RobotTrial, verdicts: _Verdicts) -> _Verdicts:
+    """Return what was said about one of several robots: some place of it is one of its parts."""
+    robot = driven.robot
+    parts = (driven.drive, robot, *robot.links, *robot.joints, *robot.all_plugins)
+    own = {_start(part.span.place()) for part in parts}
+    return {
+        name: [(severity, places) for severity, places in said if not own.isdisjoint(places)]
+        for name, said in verdicts.items()
+    }
 
 
 def _start(place: Place) -> tuple[str, int, int]:
@@ -159,8 +195,11 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
         for number, robot in enumerate(robots[:ROBOTS_LIMIT])
     ]
     if len(robots) > 1:
-        for known, robot in zip(facts, robots, strict=False):
+        undriven = subject.undriven
+        for number, (known, robot) in enumerate(zip(facts, robots, strict=False)):
             known["file"] = robot.document.source.file
+            if number in undriven:
+                known["not_driven"] = undriven[number]
     for known, robot in zip(facts, robots, strict=False):
         if assumed := _assumed(subject, robot):
             known["assumed"] = assumed

@@ -10,7 +10,7 @@ from checker.base.garbage_collection import collection_put_off
 from checker.base.output import Say, Stages
 from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
-from checker.engine.facts import facts_of, measured
+from checker.engine.facts import facts_of, trials_of
 from checker.engine.options import check_against_rules
 from checker.engine.run import Outcome, crashed, joined, needed_parts, run_rules
 from checker.engine.subject import Subject
@@ -153,7 +153,7 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         for fault in package.index.faults
     ]
     robots, trouble = _facts(subject)
-    driven = subject.provided(RobotTrial)
+    trials = trials_of(subject, outcome)
     display, undrawn = _display(subject) if settings.display else (None, ())
     return PackageReport(
         package.name,
@@ -169,11 +169,12 @@ def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
         settings.profile,
         settings.fail_on,
         settings.description,
-        measured(driven[0], outcome) if driven else None,
+        trials[0] if trials else None,
         suppressed=outcome.suppressed,
         looked=tuple(outcome.looked),
         display=display,
         other_robots=robots[1:],
+        other_trials=trials[1:],
     )
 
 

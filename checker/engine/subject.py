@@ -364,6 +364,12 @@ class Subject(Record, eq=False, dict=True):
         return RobotTrials(self.robots, self.cache, self.stages)
 
     @property
+    def undriven(self) -> Mapping[int, str]:
+        """Why robots have no trial, by their number; nothing where no rule asked for one."""
+        trials = self.__dict__.get("trials")
+        return trials.undriven if isinstance(trials, RobotTrials) else {}
+
+    @property
     def driven(self) -> tuple[RobotTrial, ...] | NotAvailable:
         """The robots and their trials."""
         return self.trials if isinstance(self.trials, NotAvailable) else self.trials.once

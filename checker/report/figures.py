@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from checker.base.record import Record
@@ -62,13 +62,18 @@ def rows_of(measurements: Sequence[Mapping[str, Any]]) -> list[Row]:
     return [_row(name, figures) for name, figures in by_name.items()]
 
 
+def gravest(verdicts: Iterable[str]) -> str:
+    """Return the gravest of some verdicts; `not judged` of none."""
+    return min(verdicts, key=_GRAVITY.index, default="not judged")
+
+
 def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
     first = figures[0]
     values = [figure["value"] for figure in figures]
     ends = dict.fromkeys(_number(value, first["unit"]) for value in (min(values), max(values)))
     unit = {"rad": "°", "rad or m": ""}.get(first["unit"], first["unit"])
     joint = "" if unit in ("", "°") else " "
-    verdict = str(min((figure["verdict"] for figure in figures), key=_GRAVITY.index))
+    verdict = gravest(str(figure["verdict"]) for figure in figures)
     return Row(
         label=first["label"],
         value=f"{'…'.join(ends)}{joint}{unit}",
@@ -96,6 +101,8 @@ def _number(value: float, unit: str) -> str:
     return f"{round(shown, 4) + 0.0:.3g}"
 
 
+_SAID_ELSEWHERE = ("not_driven",)
+"""Facts that reports tell with the trial."""
 UNITS = {"kg": "kg", "m": "m", "deg": "°", "s": "s"}
 """Units by the ends of the names of facts: `mass_kg`."""
 
@@ -125,7 +132,7 @@ def facts_in_words(facts: Mapping[str, Any]) -> Iterator[Fact]:
         elif isinstance(value, int):
             noun = name.replace("_", " ")
             yield Fact(noun, str(value), count(value, noun.removesuffix("s")))
-        elif isinstance(value, str):
+        elif isinstance(value, str) and name not in _SAID_ELSEWHERE:
             yield _stated(name.replace("_", " "), value)
 
 

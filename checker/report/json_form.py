@@ -7,7 +7,7 @@ chooses itself must look like such words, and line numbers like line numbers.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, TypedDict
+from typing import Annotated, Any, Literal, NotRequired, TypedDict
 
 import msgspec
 from msgspec import UNSET, Meta, UnsetType
@@ -135,6 +135,18 @@ class RepairJson(TypedDict):
 class TrialJson(TypedDict):
     """What was driven and measured."""
 
+    robot: NotRequired[
+        Annotated[
+            int,
+            Meta(
+                description="Which of several robots: 0 the first, whose `facts` those are,"
+                " 1 the first of `other_robots`."
+            ),
+        ]
+    ]
+    not_driven: NotRequired[
+        Annotated[str, Meta(description="Why a robot that moves was only let stand.")]
+    ]
     drive: str
     versions: Annotated[Mapping[str, str], Meta(description="Of MuJoCo and of the course.")]
     course: Annotated[
@@ -164,6 +176,7 @@ _TENSOR = {"type": "array", "minItems": 3, "maxItems": 3, "items": _VECTOR}
 _FACTS: Mapping[str, Any] = {
     "robot": {"type": "string"},
     "file": {"type": "string", "description": "Where several robots are in one package."},
+    "not_driven": {"type": "string", "description": "Why one of several robots has no trial."},
     "mass_kg": {"type": "number"},
     "links": {"type": "integer"},
     "joints": {"type": "integer"},
@@ -211,6 +224,9 @@ class PackageJson(Record, kw_only=True):
     timings: Annotated[Mapping[str, float], Meta(description="Seconds by stage.")]
     other_robots: Annotated[
         tuple[Mapping[str, Any], ...], Meta(description="Facts of the further robots.")
+    ] = ()
+    other_trials: Annotated[
+        tuple[TrialJson, ...], Meta(description="Of further robots that were driven.")
     ] = ()
 
 

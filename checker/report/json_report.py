@@ -83,6 +83,7 @@ def _package_json(package: PackageReport) -> PackageJson:
         facts=package.facts,
         timings={stage: round(seconds, 4) for stage, seconds in package.timings.items()},
         other_robots=package.other_robots,
+        other_trials=cast("tuple[TrialJson, ...]", package.other_trials),
     )
 
 
@@ -164,6 +165,7 @@ def _package(read: PackageJson) -> PackageReport:
         inherited=read.inherited,
         facts=_facts(read.facts),
         other_robots=tuple(map(_facts, read.other_robots)),
+        other_trials=cast("tuple[Mapping[str, Any], ...]", read.other_trials),
         timings=read.timings,
         profile=read.profile,
         fail_on=read.fail_on,

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from checker.base.words import count, shortened
 from checker.finding import Severity
@@ -19,6 +18,7 @@ from checker.report.report import (
     ReportedFinding,
     Suppressed,
 )
+from checker.report.robots import ReportedRobot, robots_of
 from checker.report.summary import ready_of_all, sentence, summary_markdown
 
 SIZE_LIMIT = 65_000
@@ -42,7 +42,7 @@ def to_markdown(report: Report) -> str:
         _folded("Why, and how to fix it", list(pages.values()), _page),
         _folded("Suppressed", _pairs(report, lambda package: package.suppressed), _aside),
         _folded("Not checked", _pairs(report, _unseen), _unseen_line),
-        _folded("Facts", _pairs(report, _facts), _facts_line),
+        _folded("Facts", _pairs(report, _robots), _robot_line),
     ]
     return "\n\n".join(filter(None, blocks)) + "\n"
 
@@ -125,13 +125,15 @@ def _unseen_line(pair: tuple[str, tuple[str, list[str]]]) -> str:
     return f"{_begin(name)}{_short(', '.join(rules))}: {_short(reason)}"
 
 
-def _facts(package: PackageReport) -> Iterable[Mapping[str, Any]]:
-    return [facts for facts in (package.facts, *package.other_robots) if facts]
+def _robots(package: PackageReport) -> Iterable[ReportedRobot]:
+    return [robot for robot in robots_of(package) if robot.facts]
 
 
-def _facts_line(pair: tuple[str, Mapping[str, Any]]) -> str:
-    name, facts = pair
-    return _begin(name) + _short(", ".join(fact.phrase for fact in facts_in_words(facts)))
+def _robot_line(pair: tuple[str, ReportedRobot]) -> str:
+    name, robot = pair
+    phrases = [fact.phrase for fact in facts_in_words(robot.facts)]
+    phrases += [f"trial {robot.verdict}"] if robot.verdict.word else []
+    return _begin(name) + _short(", ".join(phrases))
 
 
 def _folded(title: str, items: Sequence[T], line: Callable[[T], str]) -> str:

@@ -186,12 +186,14 @@ class PackageReport(Record):
         settings: What a settings file changed, in words; empty when there is none.
         facts: Mass, links, joints, … of the first robot, by name.
         trial: What was driven and measured, as the JSON report has it; None without a trial.
+            Of several robots, that of the first that was driven.
         timings: Seconds by stage.
         suppressed: What was found and does not count.
         display: None where nobody asked to see the robot, or where there is nothing to see.
         patch: What the safe fixes change, where somebody asked to see the robot.
         looked: Ids of the rules that had all they asked for.
         other_robots: Facts of the further robots of the package.
+        other_trials: The trials of further robots that were driven.
     """
 
     name: str
@@ -211,6 +213,7 @@ class PackageReport(Record):
     patch: str = ""
     looked: tuple[str, ...] = ()
     other_robots: tuple[Mapping[str, Any], ...] = ()
+    other_trials: tuple[Mapping[str, Any], ...] = ()
 
     @property
     def verdict(self) -> VerdictKind:

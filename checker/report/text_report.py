@@ -8,7 +8,7 @@ from typing import Any
 
 from checker.base.words import count, listed, plain, shortened
 from checker.finding import Severity
-from checker.report.figures import facts_in_words, rows_of
+from checker.report.figures import Row, facts_in_words, rows_of
 from checker.report.finding_text import MESSAGE_LIMIT, finding_text
 from checker.report.ownership import Identity, owners, share_of
 from checker.report.render_settings import Palette
@@ -24,6 +24,7 @@ from checker.report.report import (
     Suppressed,
     SuppressedBy,
 )
+from checker.report.robots import robots_of
 from checker.report.summary import sentence, summary_text
 
 # The trial for a person at a terminal: one line for each figure that matters.
@@ -44,7 +45,18 @@ def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
         yield plain(f"trial: MuJoCo refuses the model: {_short(trial['refused'])}")
         return
     yield plain(f"trial: {_course(trial)}")
-    rows = [row for row in rows_of(trial["measurements"]) if row.matters]
+    if trial.get("not_driven"):
+        yield plain(f"    not driven: {_short(trial['not_driven'])}")
+    yield from _table([row for row in rows_of(trial["measurements"]) if row.matters], palette)
+    for note in trial["notes"][:_NOTES_SHOWN]:
+        yield plain(f"    note: {_short(note)}")
+    if trial["repairs"]:
+        repaired = count(len(trial["repairs"]), "repair")
+        first = trial["repairs"][0]
+        yield plain(f"    {repaired} to make the trial possible: {_short(_repair(first))}")
+
+
+def _table(rows: Sequence[Row], palette: Palette) -> Iterator[str]:
     columns = [(row.label, row.value, row.verdict) for row in rows]
     widths = [max(map(len, column)) for column in zip(*columns, strict=True)]
     for row, texts in zip(rows, columns, strict=True):
@@ -53,12 +65,6 @@ def trial_text(trial: Mapping[str, Any], palette: Palette) -> Iterator[str]:
         )
         limits = row.limits if row.is_fault else ""
         yield f"    {label}  {value}  {_coloured(verdict, palette)}  {limits}".rstrip()
-    for note in trial["notes"][:_NOTES_SHOWN]:
-        yield plain(f"    note: {_short(note)}")
-    if trial["repairs"]:
-        repaired = count(len(trial["repairs"]), "repair")
-        first = trial["repairs"][0]
-        yield plain(f"    {repaired} to make the trial possible: {_short(_repair(first))}")
 
 
 def _course(trial: Mapping[str, Any]) -> str:
@@ -150,9 +156,7 @@ def _package(
     lines += suppressed_text(package.suppressed)
     lines += _inherited(package)
     lines += _not_checked(package.not_checked)
-    lines += trial_text(package.trial, palette) if package.trial else []
-    for facts in (package.facts, *package.other_robots):
-        lines += _facts(facts)
+    lines += _robots(package, palette)
     lines.append(_verdict(package, palette))
     return "\n".join(lines) + "\n"
 
@@ -192,10 +196,20 @@ def _not_checked(not_checked: Sequence[NotChecked]) -> Iterator[str]:
             yield f"not applicable: {count(len(rules), 'rule')}: {text}"
 
 
-def _facts(facts: Mapping[str, object]) -> Iterator[str]:
-    """Show what is known of a robot in one line."""
-    if shown := [fact.phrase for fact in facts_in_words(facts)]:
-        yield plain(", ".join(shown))
+def _robots(package: PackageReport, palette: Palette) -> Iterator[str]:
+    """Show the trial of the robot and what is known of it; of several robots, each in short."""
+    robots = robots_of(package)
+    for robot in robots:
+        facts = [fact.phrase for fact in facts_in_words(robot.facts)]
+        if len(robots) == 1 and robot.trial:
+            yield from trial_text(robot.trial, palette)
+        elif verdict := str(robot.verdict):
+            facts.append(f"trial {shortened(verdict, _TEXT_LIMIT)}")
+        if facts:
+            yield plain(", ".join(facts))
+        if len(robots) > 1 and robot.trial:
+            rows = rows_of(robot.trial["measurements"])
+            yield from _table([row for row in rows if row.is_fault], palette)
 
 
 def _verdict(package: PackageReport, palette: Palette) -> str:

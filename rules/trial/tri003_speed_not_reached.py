@@ -31,7 +31,7 @@ def check(
         yield unchecked(driven.robot.unread_plugins)
     if driven.others:
         yield unchecked(driven.others)
-    if driven.trial.not_driven:
+    if driven.trial.not_driven and driven.trial.drive not in _NOT_TRIED:
         yield unchecked(f"the robot was not driven: {driven.trial.not_driven}")
     ratio, leg = driven.trial.value("speed_ratio"), driven.leg("drive")
     if leg is None or driven.drives_backwards:
@@ -55,6 +55,10 @@ def check(
         severity=Severity.ERROR if simulated and off > error_beyond else Severity.WARNING,
         key="speed_ratio",
     )
+
+
+_NOT_TRIED = (DriveKind.NONE, DriveKind.LEGGED, DriveKind.MECANUM, DriveKind.OMNI)
+"""Drives that no trial knows; a robot without one may fly or swim."""
 
 
 def _cause(driven: SettledTrial, ratio: float, tolerance: float) -> str:

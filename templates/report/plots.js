@@ -1,6 +1,7 @@
-// The moment of the trial that the plots mark; a press on a plot chooses another one.
+// The moment of the trial that the plots mark; a press on a plot chooses another one. Of several
+// robots, these are the plots of the one in 3D.
 const subtPlots = (() => {
-  const fields = [...document.querySelectorAll(".plot .field")];
+  const fields = [...document.querySelectorAll(".in-view .plot .field")];
   const subtPlotsPublic = { onSeek: null, show };
 
   function show(share) {
@@ -18,5 +19,13 @@ const subtPlots = (() => {
     field.addEventListener("pointerdown", seek);
     field.addEventListener("pointermove", (event) => { if (event.buttons & 1) seek(event); });
   }
+
+  // A link to the trial of another robot unfolds it.
+  const unfold = () => {
+    const chosen = document.getElementById(location.hash.slice(1));
+    if (chosen?.matches("details")) chosen.open = true;
+  };
+  addEventListener("hashchange", unfold);
+  unfold();
   return subtPlotsPublic;
 })();

@@ -46,8 +46,8 @@
       [".play-button", ".time", ".moment", ".speed"].map(find);
     const duration = viewer.duration;
     // The plots go on to the end of the course, the replay to its last sample.
-    const seconds = Number(document.querySelector(".legs")?.dataset.seconds) || duration;
-    const legs = [...document.querySelectorAll(".legs .field span")].map((leg) => ({
+    const seconds = Number(document.querySelector(".in-view .legs")?.dataset.seconds) || duration;
+    const legs = [...document.querySelectorAll(".in-view .legs .field span")].map((leg) => ({
       name: leg.textContent, end: parseFloat(leg.style.left) + parseFloat(leg.style.width),
     }));
     find(".play").hidden = duration === 0;

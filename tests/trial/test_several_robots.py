@@ -19,17 +19,27 @@ ROBOT = """<robot name="{name}">
     </inertial>
     {collision}
   </link>
+  {plugin}
 </robot>
 """
+DRIVE = """<gazebo>
+    <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive"/>
+  </gazebo>"""
 BOX = '<collision><geometry><box size="0.4 0.4 0.2"/></geometry></collision>'
 
 
-def driven(folder: Path, *collisions: str) -> tuple[object, object]:
-    """Return the trials of robots with these collisions, those settled as the second."""
-    names = (f"urdf/r{number}.urdf" for number in range(len(collisions)))
+def driven(folder: Path, *collisions: str, last: str = "") -> tuple[object, object]:
+    """Return the trials of robots with these collisions, those settled as the second.
+
+    Args:
+        folder: For the package.
+        collisions: Of each robot.
+        last: What the last robot has besides.
+    """
+    plugins = ["" for _ in collisions[1:]] + [last]
     texts = {
-        name: ROBOT.format(name=Path(name).stem, collision=collision)
-        for name, collision in zip(names, collisions, strict=True)
+        f"urdf/r{number}.urdf": ROBOT.format(name=f"r{number}", collision=shape, plugin=plugin)
+        for number, (shape, plugin) in enumerate(zip(collisions, plugins, strict=True))
     }
     package = write_example({"@urdf": True, "urdf/arm.urdf": None, **texts}, folder)
     (package / "launch/spawn.launch").unlink()
@@ -58,9 +68,9 @@ def test_without_any_that_can_be_driven_there_is_none(tmp_path: Path) -> None:
     assert isinstance(settled, NotAvailable)
 
 
-def test_of_many_the_first_are_driven(tmp_path: Path) -> None:
-    trials, _ = driven(tmp_path, *([BOX] * 9))
+def test_of_many_those_with_a_drive_are_driven_before_the_others(tmp_path: Path) -> None:
+    trials, _ = driven(tmp_path, *([BOX] * 9), last=DRIVE)
 
     assert isinstance(trials, tuple)
-    assert len(trials) == 8
-    assert trials[0].others == "only the first 8 of 9 robots are driven"
+    assert [each.robot.name.value for each in trials] == [*(f"r{n}" for n in range(7)), "r8"]
+    assert trials[0].others == "only 8 of 9 robots are driven"

@@ -109,7 +109,7 @@ class WheelDrive(Record, eq=False):
         swaps: Whether the plugin takes the wheels that it names as left for those on the right.
         radius_tag: Parameter that holds the radius.
         base_tag: Parameter that holds the wheel base.
-        kingpin_tag: Parameter that holds the kingpin width.
+        kingpin_tag: Parameter that holds the kingpin width; of all tags, empty where there is none.
         slips: Whether its wheels may slip sideways in a turn, so that the separation is raised.
     """
 
@@ -250,6 +250,9 @@ class Locomotion(Record, eq=False):
         undriven: Of a robot that no plugin drives, the links that are called wheels and turn
             freely about an axis that lies. The side is the one that they stand on; casters are
             steered.
+        by_joint: How plugins together drive a robot of which each turns one wheel, as those of an
+            autopilot's rover do; the first of them stands for all.
+        doubt: Why that is not certain, as the end of a sentence.
     """
 
     kind: DriveKind
@@ -260,9 +263,16 @@ class Locomotion(Record, eq=False):
     copters: tuple[CopterControl, ...] = ()
     leg_joints: tuple[Joint, ...] = ()
     undriven: tuple[Wheel, ...] = ()
+    by_joint: WheelDrive | None = None
+    doubt: str = ""
+
+    @property
+    def drives(self) -> tuple[WheelDrive, ...]:
+        """What turns wheels, by a plugin for all of them or one by one."""
+        return self.wheel_drives or ((self.by_joint,) if self.by_joint is not None else ())
 
     @property
     def wheels(self) -> tuple[Wheel, ...]:
-        """The wheels of all drives, each once."""
+        """The wheels of the drives that name several, each once."""
         by_joint = {wheel.joint: wheel for drive in self.wheel_drives for wheel in drive.wheels}
         return tuple(by_joint.values())

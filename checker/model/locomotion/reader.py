@@ -11,7 +11,8 @@ from msgspec.structs import replace
 from checker.model.components import Joint, Plugin
 from checker.model.locomotion.classic import classic_drive, classic_drives
 from checker.model.locomotion.controlled import STEERING_CLASSES, controlled_drives
-from checker.model.locomotion.drive import is_legged
+from checker.model.locomotion.drive import WING_CLASSES, is_legged
+from checker.model.locomotion.joint_control import CommandedWheels, commanded_wheels
 from checker.model.locomotion.locomotion import (
     DriveKind,
     Locomotion,
@@ -127,6 +128,9 @@ def read_locomotion(robot: Robot) -> Locomotion:
     rotors = tuple(read_rotor(robot, p) for p in _of_class(robot, "MulticopterMotorModel"))
     copters = tuple(read_copter(p) for p in _of_class(robot, "MulticopterVelocityControl"))
     legs = tuple(_leg_joints(robot)) if is_legged(robot.plugins) else ()
+    wings = any(_of_class(robot, *WING_CLASSES))
+    known = drives or tracked or tracks or rotors or copters or wings
+    alone = CommandedWheels() if known else commanded_wheels(robot)
     kind = DriveKind.NONE
     if copters or any(rotor.lifts for rotor in rotors):
         kind = DriveKind.MULTICOPTER
@@ -134,15 +138,21 @@ def read_locomotion(robot: Robot) -> Locomotion:
         kind = DriveKind.TRACKED
     elif drives:
         kind = _wheeled_kind(drives)
+    elif alone.drive is not None:
+        kind = _wheeled_kind((alone.drive,))
     elif legs:
         kind = DriveKind.LEGGED
-    free = () if drives or kind is not DriveKind.NONE else tuple(undriven_wheels(robot))
-    return Locomotion(kind, drives, tracked, tracks, rotors, copters, legs, free)
+    unnamed = not drives and (alone.drive is not None or kind is DriveKind.NONE)
+    free = tuple(undriven_wheels(robot)) if unnamed else ()
+    return Locomotion(
+        kind, drives, tracked, tracks, rotors, copters, legs, free, alone.drive, alone.doubt
+    )
 
 
 def _wheeled_kind(drives: tuple[WheelDrive, ...]) -> DriveKind:
     classes = {drive.plugin.class_name for drive in drives}
-    if classes & STEERING_CLASSES or _ACKERMANN in classes:
+    steered = any(d.steering and d.plugin.class_name not in _WHEEL_CLASSES for d in drives)
+    if steered or classes & STEERING_CLASSES or _ACKERMANN in classes:
         return DriveKind.ACKERMANN
     if classes & {_MECANUM, "MecanumDriveController"}:
         return DriveKind.MECANUM

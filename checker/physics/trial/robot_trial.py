@@ -40,7 +40,7 @@ class RobotTrial(Record, eq=False, dict=True):
         """Where findings about its motion point: what drives it, else the robot."""
         locomotion = self.robot.locomotion
         plugins = [
-            *(drive.plugin for drive in locomotion.wheel_drives),
+            *(drive.plugin for drive in locomotion.drives),
             *(drive.plugin for drive in locomotion.tracked_drives),
             *(track.plugin for track in locomotion.tracks),
             *(copter.plugin for copter in locomotion.copters),
@@ -55,9 +55,7 @@ class RobotTrial(Record, eq=False, dict=True):
         Such a robot is drawn in RViz alone: in a simulator its wheels drag.
         """
         rolling = {tie.parent for tie in self.robot.tree.ties if tie.joint.type.value != "fixed"}
-        steered = {
-            joint for drive in self.robot.locomotion.wheel_drives for joint, _ in drive.steering
-        }
+        steered = {joint for drive in self.robot.locomotion.drives for joint, _ in drive.steering}
         for tie in self.robot.tree.ties:
             link = self.robot.links_by_name.get(tie.child)
             if tie.joint in steered and tie.child not in rolling and link and link.collisions:

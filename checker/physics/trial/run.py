@@ -14,6 +14,7 @@ from checker.base.child_process import Limits
 from checker.base.output import Stages
 from checker.base.parts import NotAvailable, WorkerFailed
 from checker.base.record import Record
+from checker.model.locomotion.locomotion import DriveKind
 from checker.model.robot import Robot
 from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.physics.trial.trial import Trial
@@ -71,7 +72,7 @@ class RobotTrials(Record, eq=False, dict=True):
         """
         # What goes wrong is said when a rule asks for the trial.
         with suppress(Exception):
-            if _obstacle(self.robots[0]) is None:
+            if _obstacle(self.robots[0]) is None and 0 not in self._left_out:
                 _ = self._first, twice and self._first_again
 
     def stop(self) -> None:
@@ -86,14 +87,18 @@ class RobotTrials(Record, eq=False, dict=True):
         """The robots that can be driven, and what their trials measured."""
         driven = [
             RobotTrial(robot, trial)
-            for robot, trial in zip(self.robots, self._collected, strict=False)
+            for robot, trial in zip(self.robots, self._collected, strict=True)
             if isinstance(trial, Trial)
         ]
-        missing = [trial for trial in self._collected if isinstance(trial, NotAvailable)]
+        missing = [
+            trial if number in self._left_out else self._told(self.robots[number], trial)
+            for number, trial in enumerate(self._collected)
+            if isinstance(trial, NotAvailable)
+        ]
         if not driven:
             return missing[0]
         first, *others = driven
-        left_out = self._left_out or next((m.reason for m in missing if m.applicable), "")
+        left_out = next((m.reason for m in missing if m.applicable), "")
         return (replace(first, others=left_out), *others)
 
     @cached_property
@@ -105,17 +110,28 @@ class RobotTrials(Record, eq=False, dict=True):
         for driven in self.once:
             again = self._trial(driven.robot, thorough=True)
             if isinstance(again, NotAvailable):
-                return again
+                return self._told(driven.robot, again)
             repeated.append(RepeatedTrial(driven.robot, driven.trial, again=again))
         return tuple(repeated)
 
     @property
-    def _left_out(self) -> str:
-        """Why not all robots are driven, as the end of a sentence; empty when they are."""
-        count = len(self.robots)
-        if count <= ROBOTS_LIMIT:
-            return ""
-        return f"only the first {ROBOTS_LIMIT} of {count} robots are driven"
+    def undriven(self) -> dict[int, str]:
+        """Why robots have no trial, by their number; nothing before somebody asked for one."""
+        collected: tuple[Trial | NotAvailable, ...] = self.__dict__.get("_collected", ())
+        return {
+            number: trial.reason
+            for number, trial in enumerate(collected)
+            if isinstance(trial, NotAvailable)
+        }
+
+    @cached_property
+    def _left_out(self) -> frozenset[int]:
+        """The numbers of robots that are too many: those without a drive before the others."""
+        driven_first = sorted(
+            range(len(self.robots)),
+            key=lambda number: self.robots[number].locomotion.kind is DriveKind.NONE,
+        )
+        return frozenset(driven_first[ROBOTS_LIMIT:])
 
     @cached_property
     def _first(self) -> Background[Trial] | str:
@@ -132,8 +148,13 @@ class RobotTrials(Record, eq=False, dict=True):
 
     @cached_property
     def _collected(self) -> tuple[Trial | NotAvailable, ...]:
-        """The trial of each robot, as many as are driven, or why it has none."""
-        return tuple(self._trial(robot, thorough=False) for robot in self.robots[:ROBOTS_LIMIT])
+        """The trial of each robot, or why it has none."""
+        count = len(self.robots)
+        too_many = NotAvailable(f"only {ROBOTS_LIMIT} of {count} robots are driven")
+        return tuple(
+            too_many if number in self._left_out else self._trial(robot, thorough=False)
+            for number, robot in enumerate(self.robots)
+        )
 
     def _trial(self, robot: Robot, *, thorough: bool) -> Trial | NotAvailable:
         obstacle = _obstacle(robot)
@@ -144,16 +165,18 @@ class RobotTrials(Record, eq=False, dict=True):
         else:
             begun = self._started(robot, thorough=thorough)
         if isinstance(begun, str):
-            return NotAvailable(self._told(robot, begun))
+            return NotAvailable(begun)
         with self.stages.stage("trial"):
             trial = begun.result()
         if isinstance(trial, WorkerFailed):
-            return NotAvailable(self._told(robot, f"the trial {trial.reason}"))
+            return NotAvailable(f"the trial {trial.reason}")
         return trial
 
-    def _told(self, robot: Robot, reason: str) -> str:
+    def _told(self, robot: Robot, missing: NotAvailable) -> NotAvailable:
         """Return a reason; of several robots, with the name of the one that it is about."""
-        return reason if len(self.robots) == 1 else f"{robot.name.value!r} is not driven: {reason}"
+        if len(self.robots) == 1 or not missing.applicable:
+            return missing
+        return NotAvailable(f"{robot.name.value!r} is not driven: {missing.reason}")
 
 
 def _obstacle(robot: Robot) -> NotAvailable | None:

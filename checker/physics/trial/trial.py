@@ -133,7 +133,7 @@ class Trial(Record):
         refused_part: Scoped name of the link or joint that the reason is about; empty if unknown.
         trouble: Solver warnings and NaN, as ends of sentences; empty for a sound run.
         notes: What was left out of the trial and why, as sentences.
-        not_driven: Why a robot that has a drive was only let stand, as the end of a sentence.
+        not_driven: Why a robot that moves was only let stand, as the end of a sentence.
         series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
             `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
             `torque:<joint>` (N·m), `joint:<joint>` (rad or m).

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from checker.base.record import Record
 from checker.base.words import plain, shortened
@@ -137,8 +137,13 @@ class RuleGroup(Record):
     hidden: int
 
 
-def groups_of(findings: Sequence[ReportedFinding]) -> list[RuleGroup]:
-    """Return findings by severity and rule, in the order of each rule's first finding."""
+def groups_of(findings: Sequence[ReportedFinding], unseen: Collection[str] = ()) -> list[RuleGroup]:
+    """Return findings by severity and rule, in the order of each rule's first finding.
+
+    Args:
+        findings: Of a package.
+        unseen: Files of robots that the 3D view does not show.
+    """
     by_rule: dict[tuple[Severity, str], list[ReportedFinding]] = {}
     for finding in findings:
         by_rule.setdefault((finding.severity, finding.rule), []).append(finding)
@@ -151,14 +156,15 @@ def groups_of(findings: Sequence[ReportedFinding]) -> list[RuleGroup]:
         groups.append(
             RuleGroup(
                 str(severity), str(first.concern), plain(first.rule), plain(first.name),
-                plain(first.why), plain(first.how), tuple(_shown(finding) for finding in shown),
+                plain(first.why), plain(first.how),
+                tuple(_shown(finding, unseen) for finding in shown),
                 len(of_rule) - len(shown),
             )
         )  # fmt: skip
     return groups
 
 
-def _shown(reported: ReportedFinding) -> ShownFinding:
+def _shown(reported: ReportedFinding, unseen: Collection[str]) -> ShownFinding:
     main, *others = reported.places
     return ShownFinding(
         anchor=f"f-{reported.fingerprint}",
@@ -167,7 +173,7 @@ def _shown(reported: ReportedFinding) -> ShownFinding:
         frame=frame_of(main),
         others=tuple(_spot(place) for place in others[:_PLACES_SHOWN]),
         more=max(0, len(others) - _PLACES_SHOWN),
-        elements=tuple(_elements(reported.places)),
+        elements=tuple(_elements(reported.places, unseen)),
         safety=str(reported.fix.safety) if reported.fix else "",
         changes=tuple(changes_of(reported.fix)) if reported.fix else (),
     )
@@ -179,7 +185,7 @@ def _spot(place: Place) -> Spot:
     return Spot(plain(where), plain(words), plain(place.element))
 
 
-def _elements(places: Sequence[Place]) -> Iterator[str]:
+def _elements(places: Sequence[Place], unseen: Collection[str]) -> Iterator[str]:
     """Yield paths of elements of the model; those of other files name nothing that is seen."""
-    seen = (place.element for place in places[: _PLACES_SHOWN + 1])
+    seen = (place.element for place in places[: _PLACES_SHOWN + 1] if place.file not in unseen)
     yield from dict.fromkeys(plain(element) for element in seen if element)

@@ -14,9 +14,8 @@ from checker.base.record import Record
 from checker.base.resources import templates
 from checker.base.words import count, plain, shortened
 from checker.finding import Severity
-from checker.report.figures import facts_in_words, rows_of
 from checker.report.html.findings import groups_of
-from checker.report.html.plots import plots_of, spans_of
+from checker.report.html.robots import files_out_of_view, shown_robots
 from checker.report.json_report import to_json
 from checker.report.render_settings import RenderSettings
 from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed, VerdictKind
@@ -111,24 +110,20 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings) -> s
         manner: Where the command was run, and which it was.
     """
     script = _script(with_viewer=package.display is not None)
-    trial, reasons = package.trial, reasons_of(package.not_checked)
+    robots, reasons = shown_robots(package), reasons_of(package.not_checked)
     return environment().get_template("report.html.j2").render(
         package=package,
         sentence=sentence(package),
-        groups=groups_of(package.findings),
+        groups=groups_of(package.findings, frozenset(files_out_of_view(robots))),
         counts=[(level, package.count(level)) for level in Severity],
-        facts=[(plain(fact.name), plain(fact.value)) for fact in facts_in_words(package.facts)],
+        robots=robots,
         reasons=reasons[:SHOWN],
         more_reasons=max(0, len(reasons) - SHOWN),
         unchecked=len({skipped.rule for skipped in package.not_checked}),
         suppressed=suppressed_of(package.suppressed),
         more_suppressed=max(0, len(package.suppressed) - SHOWN),
         not_opened=report.not_opened,
-        trial=trial,
         why_not_driven=why_not_driven(package.not_checked),
-        rows=rows_of(trial["measurements"]) if trial else [],
-        plots=plots_of(trial) if trial else [],
-        spans=spans_of(trial["course"]) if trial else [],
         downloads=_downloads(Report((package,), report.versions), manner.folder),
         has_viewer=package.display is not None and has_viewer(),
         command=manner.command,

@@ -23,7 +23,8 @@ WHEELED = "husky_migration_sensor_config_1"
 TRACKED = "subtcheck_crawler_sensor_config_1"
 COPTER = "subtcheck_quadro_sensor_config_1"
 BROKEN = "broken_rover_sensor_config_1"
-SHOWN = (WHEELED, TRACKED, COPTER, BROKEN)
+SEVERAL = "broken_ouster_description"
+SHOWN = (WHEELED, TRACKED, COPTER, BROKEN, SEVERAL)
 
 
 @pytest.fixture(scope="module")
@@ -185,7 +186,27 @@ def test_without_webgl_the_pictures_stay(chromium: Browser, report: Callable[[st
         assert not page.locator(".controls").is_visible()
 
 
-@pytest.mark.parametrize("name", [WHEELED, BROKEN])
+def test_of_several_robots_each_leads_to_its_trial(
+    chromium: Browser, report: Callable[[str], str]
+) -> None:
+    with watched_page(chromium) as page:
+        open_page(page, report(SEVERAL))
+        robots = page.locator("#robots tbody tr")
+        assert robots.count() == 3
+        assert "ouster_example" in page.locator(".stage .which").inner_text()
+        second = page.locator("#trial-2")
+        assert not second.locator("table").is_visible()
+        robots.nth(1).get_by_role("link").click()
+        second.locator("table").wait_for(state="visible")
+        put_at(page, 3.0)
+        marks = page.locator("#trial-1 .now").evaluate_all(
+            "all => all.map((each) => each.style.left)"
+        )
+        assert len(set(marks)) == 1
+        assert not second.locator(".now").first.is_visible()
+
+
+@pytest.mark.parametrize("name", [WHEELED, BROKEN, SEVERAL])
 @pytest.mark.parametrize("dark", [False, True])
 def test_axe_finds_nothing_serious(
     chromium: Browser, report: Callable[[str], str], name: str, dark: bool

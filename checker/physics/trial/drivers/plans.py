@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from msgspec.structs import replace
 
 from checker.model.geometry.transform import Transform, Vector
+from checker.model.locomotion.drive import WING_CLASSES
 from checker.model.locomotion.locomotion import (
     DriveKind,
     Locomotion,
@@ -224,10 +225,11 @@ def _of_kind(robot: Robot, locomotion: Locomotion) -> Plan:
         return plan_copter(robot, locomotion)
     if kind is DriveKind.TRACKED and any(drive.tracks for drive in locomotion.tracked_drives):
         return plan_tracks(robot, locomotion)
-    steers = any(drive.steering for drive in locomotion.wheel_drives)
-    if kind is DriveKind.ACKERMANN and locomotion.wheels and steers:
+    steers = any(drive.steering for drive in locomotion.drives)
+    has_wheels = any(drive.wheels for drive in locomotion.drives)
+    if kind is DriveKind.ACKERMANN and has_wheels and steers:
         return plan_ackermann(robot, locomotion)
-    if kind in (DriveKind.DIFFERENTIAL, DriveKind.SKID_STEER) and locomotion.wheels:
+    if kind in (DriveKind.DIFFERENTIAL, DriveKind.SKID_STEER) and has_wheels:
         return plan_wheels(locomotion)
     return _standing(robot, locomotion)
 
@@ -237,12 +239,25 @@ def _standing(robot: Robot, locomotion: Locomotion) -> Plan:
     kind = locomotion.kind
     plan = plan_hold(robot, kind)
     if kind in (DriveKind.LEGGED, DriveKind.NONE):
-        return plan
+        return replace(plan, not_driven=_out_of_reach(robot, locomotion))
     if kind in (DriveKind.MECANUM, DriveKind.OMNI):
-        wheels = kind.value.partition("-")[0].partition(" ")[0].capitalize()
-        return replace(plan, notes=(f"{wheels} wheels roll on rollers, which are not simulated.",))
+        return replace(plan, not_driven="its wheels roll on rollers, which are not simulated")
     what = "steer" if kind is DriveKind.ACKERMANN and locomotion.wheels else "drive"
     return replace(plan, not_driven=f"its plugins {what} no part of the model")
+
+
+_WATER = frozenset({"Buoyancy", "BuoyancyEngine", "Hydrodynamics", "Thruster"})
+"""Plugin classes of what swims."""
+
+
+def _out_of_reach(robot: Robot, locomotion: Locomotion) -> str:
+    """Say why a robot without a drive is not driven; empty where nothing says that it moves."""
+    classes = {plugin.class_name for plugin in robot.all_plugins}
+    if classes & _WATER:
+        return "it swims, and water is not simulated"
+    if classes & set(WING_CLASSES) or locomotion.rotors:
+        return "it flies on wings or blades, and air is not simulated"
+    return locomotion.doubt
 
 
 def _efforts(robot: Robot, joints: Iterable[str]) -> dict[str, float]:

@@ -28,7 +28,7 @@ from checker.source.text import Located
 
 def plan_wheels(locomotion: Locomotion) -> Plan:
     """Return the plan of a robot with DiffDrive plugins; several of them are driven together."""
-    drives = locomotion.wheel_drives
+    drives = locomotion.drives
     linear, angular = strictest(drives)
     legs = driving_legs(linear, (0.0, _turn_rate(drives, linear, angular)), angular)
     speeds: dict[str, Knots] = {}
@@ -114,7 +114,7 @@ _GRID = 0.05
 
 def plan_ackermann(robot: Robot, locomotion: Locomotion) -> Plan:
     """Return the plan of a robot whose wheels steer; it turns on a circle."""
-    drives = locomotion.wheel_drives
+    drives = locomotion.drives
     linear, _ = strictest(drives)
     steered = [drive for drive in drives if drive.steering]
     bend = _curvature(robot, steered[0])

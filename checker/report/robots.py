@@ -1,0 +1,72 @@
+"""The robots of a package, each with its facts, its trial and the trial's verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from checker.base.record import Record
+from checker.report.figures import gravest, rows_of
+from checker.report.report import PackageReport
+
+
+class TrialVerdict(Record):
+    """What came of a trial.
+
+    Attributes:
+        word: `ok`, `info`, `warning`, `error`; `not judged`; `not driven`; empty without a trial.
+        reason: Why it was not driven; may be empty.
+    """
+
+    word: str
+    reason: str = ""
+
+    def __str__(self) -> str:
+        """Give both in words."""
+        return f"{self.word}: {self.reason}" if self.reason else self.word
+
+
+class ReportedRobot(Record):
+    """One robot of a package.
+
+    Attributes:
+        number: 0 for the first.
+        facts: What is known of it.
+        trial: What was driven and measured; None where nothing was.
+    """
+
+    number: int
+    facts: Mapping[str, Any]
+    trial: Mapping[str, Any] | None
+
+    @property
+    def name(self) -> str:
+        """What the robot is called."""
+        return str(self.facts.get("robot", ""))
+
+    @property
+    def file(self) -> str:
+        """The file that describes it; empty where the package has one robot."""
+        return str(self.facts.get("file", ""))
+
+    @property
+    def verdict(self) -> TrialVerdict:
+        """What came of its trial."""
+        if self.trial is None:
+            why_not = str(self.facts.get("not_driven", ""))
+            return TrialVerdict("not driven" if why_not else "", why_not)
+        if self.trial["refused"]:
+            return TrialVerdict("error", "MuJoCo refuses the model")
+        word = gravest(row.verdict for row in rows_of(self.trial["measurements"]))
+        why_not = str(self.trial.get("not_driven", ""))
+        faultless = word in ("ok", "not judged")
+        return TrialVerdict("not driven", why_not) if why_not and faultless else TrialVerdict(word)
+
+
+def robots_of(package: PackageReport) -> list[ReportedRobot]:
+    """Return the robots of a package; one without facts where nothing is known of any."""
+    trials = {trial.get("robot", 0): trial for trial in package.other_trials}
+    if package.trial is not None:
+        trials[package.trial.get("robot", 0)] = package.trial
+    facts = (package.facts, *package.other_robots)
+    return [ReportedRobot(number, known, trials.get(number)) for number, known in enumerate(facts)]
