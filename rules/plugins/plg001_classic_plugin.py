@@ -27,7 +27,10 @@ from checker.source.xml_insertion import removal
 
 @rule("PLG001", "classic-plugin", Severity.ERROR, Concern.INTERFACE)
 def check(host: PluginHost, package: Package, context: Context) -> Findings:
-    """Report plugins whose library belongs to Gazebo Classic."""
+    """Report plugins whose library belongs to Gazebo Classic.
+
+    One of a world that nothing takes the place of is a warning: the world works without it.
+    """
     if host.unread:
         yield unchecked(host.unread)
     if host.robot is not None and (reason := classic_by_default(host.robot, package)):
@@ -37,10 +40,12 @@ def check(host: PluginHost, package: Package, context: Context) -> Findings:
         known = classic_plugin(plugin.filename.value)
         if known is None:
             continue
+        needless = host.robot is None and known.get("action") == "remove"
         advice = _advice(known) if context.of_submissions else _later_advice(known)
         yield finding(
             plugin.filename,
             f"{plugin.filename.value} is a plugin of Gazebo {_whose(context)}: {advice}",
+            severity=Severity.WARNING if needless else None,
             key=library_stem(plugin.filename.value),
             fix=Fix(Safety.UNSAFE, (removal(plugin.element),)) if _in_vain(plugin, known) else None,
         )
