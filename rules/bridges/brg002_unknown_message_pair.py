@@ -12,7 +12,7 @@ Source: ros_gz_bridge, mappings.py; gazebosim/ros_gz issues 383 and 558.
 from collections.abc import Iterator
 
 from checker.base.words import listed
-from checker.expand.ros2_launch.bridge_entry import GZ_PREFIXES, BridgeEntry
+from checker.expand.ros2_launch.bridges.entry import GZ_PREFIXES, BridgeEntry
 from checker.expand.ros2_launch.graph import is_known
 from checker.model.ros.bridge_types import (
     all_ros_types,

@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterable
 
 from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridge_entry import BridgeEntry
+from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.model.ros.simulated_topics import SimulatedTopic
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.package.package import Package

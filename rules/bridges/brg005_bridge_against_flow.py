@@ -9,7 +9,7 @@ Source: ros_gz_bridge; gz-sensors and Gazebo's systems.
 """
 
 from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridge_entry import BridgeEntry
+from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 

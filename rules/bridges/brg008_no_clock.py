@@ -9,7 +9,7 @@ Fix: bridge it: `/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock`.
 Source: ROS 2, design of clock and time; ros-controls/gz_ros2_control issue 443.
 """
 
-from checker.expand.ros2_launch.bridge_entry import BridgeFaultKind
+from checker.expand.ros2_launch.bridges.entry import BridgeFaultKind
 from checker.expand.ros2_launch.graph import Node
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule

@@ -14,7 +14,7 @@ Source: ros2_controllers, diff_drive_controller; gazebosim/gz-sim issue 2372.
 from collections.abc import Iterator
 
 from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridge_entry import BridgeEntry
+from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.model.components import Plugin
 from checker.model.ros.simulation import Simulation, Simulations, SpawnedRobot
 from checker.model.ros2_control.controllers import Controller

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator
 
 from checker.base.words import listed
-from checker.expand.ros2_launch.bridge_entry import BridgedService, gz_name
+from checker.expand.ros2_launch.bridges.entry import BridgedService, gz_name
 from checker.expand.ros2_launch.graph import is_known
 from checker.model.ros.bridge_types import meant_service, service_messages
 from checker.model.ros.simulation import Simulation, Simulations

@@ -9,13 +9,13 @@ import pytest
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridge_entry import (
+from checker.expand.ros2_launch.bridges.entry import (
     BridgeFault,
     BridgeFaultKind,
     Passed,
     read_argument,
 )
-from checker.expand.ros2_launch.bridge_file import read_bridge_file
+from checker.expand.ros2_launch.bridges.file import read_bridge_file
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.package.inputs import open_input
 from checker.rule_testing import write_example

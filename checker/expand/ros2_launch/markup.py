@@ -8,8 +8,8 @@ from typing import Protocol
 
 from checker.base.files import NotReadable
 from checker.base.record import Record
+from checker.expand.ros2_launch.actions.gathered import Gathered
 from checker.expand.ros2_launch.context import Context
-from checker.expand.ros2_launch.gathered import Gathered
 from checker.expand.ros2_launch.graph import LaunchFault, LaunchFaultKind, Unread
 from checker.expand.ros2_launch.substitution_text import AttributeText, split_words
 from checker.expand.ros2_launch.values import Made, Unknown, Value

@@ -9,9 +9,9 @@ from typing import TypeVar
 from msgspec.structs import replace
 
 from checker.expand.ros2_launch import package_files
-from checker.expand.ros2_launch.actions import Visitor
+from checker.expand.ros2_launch.actions.gathered import FileRead, Gathered
+from checker.expand.ros2_launch.actions.visitor import Visitor
 from checker.expand.ros2_launch.context import Context, State
-from checker.expand.ros2_launch.gathered import FileRead, Gathered
 from checker.expand.ros2_launch.graph import (
     FileUse,
     LaunchFault,

@@ -8,8 +8,8 @@ from functools import cached_property
 from checker.base.cache import Cache
 from checker.base.record import Record
 from checker.expand.launch.launch_file import Load
-from checker.expand.ros2_launch.bridge_entry import BridgeEntry
-from checker.expand.ros2_launch.bridges import Bridges, loose_bridges, read_bridges
+from checker.expand.ros2_launch.bridges.entry import BridgeEntry
+from checker.expand.ros2_launch.bridges.reader import Bridges, loose_bridges, read_bridges
 from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
 from checker.expand.ros2_launch.graph import (
     LaunchGraph,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Sequence
 
-from checker.expand.ros2_launch.gathered import Gathered
+from checker.expand.ros2_launch.actions.gathered import Gathered
 from checker.expand.ros2_launch.graph import LaunchFault, LaunchFaultKind, Unread
 from checker.expand.ros2_launch.package_files import holder_of
 from checker.expand.ros2_launch.python.expressions import evaluate

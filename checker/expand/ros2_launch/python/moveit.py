@@ -6,8 +6,8 @@ import ast
 import posixpath
 from typing import TYPE_CHECKING
 
+from checker.expand.ros2_launch.actions.node_parameters import MOVEIT
 from checker.expand.ros2_launch.graph import is_known
-from checker.expand.ros2_launch.node_parameters import MOVEIT
 from checker.expand.ros2_launch.values import FileText, Made, Unknown, Value, chosen
 from checker.expand.xacro.files import ROOT
 from checker.source.yaml import read_yaml

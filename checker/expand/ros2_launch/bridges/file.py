@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.words import Suggestions
 from checker.expand.launch.bridge import Direction
-from checker.expand.ros2_launch.bridge_entry import (
+from checker.expand.ros2_launch.bridges.entry import (
     BridgedService,
     BridgeFault,
     BridgeFaultKind,

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from checker.base.record import Record
 from checker.expand.launch.bridge import Direction
 from checker.expand.launch.graph import Remap, resolve_name
-from checker.expand.ros2_launch.bridge_entry import (
+from checker.expand.ros2_launch.bridges.entry import (
     BridgedService,
     BridgeEntry,
     BridgeFault,
@@ -20,7 +20,7 @@ from checker.expand.ros2_launch.bridge_entry import (
     Passed,
     read_argument,
 )
-from checker.expand.ros2_launch.bridge_file import is_bridge_file, read_bridge_file
+from checker.expand.ros2_launch.bridges.file import is_bridge_file, read_bridge_file
 from checker.expand.ros2_launch.graph import (
     Component,
     Include,

@@ -1,0 +1,183 @@
+"""Actions that start something: nodes, components and commands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from checker.expand.launch.graph import resolve_name
+from checker.expand.ros2_launch.actions.node_parameters import MOVEIT, UNKNOWN
+from checker.expand.ros2_launch.actions.parts import (
+    namespace_of,
+    parameters_of,
+    remaps_of,
+    text_of,
+    texts_of,
+    words_of,
+)
+from checker.expand.ros2_launch.context import Context
+from checker.expand.ros2_launch.graph import (
+    Component,
+    LaunchFaultKind,
+    LoadedComponents,
+    Node,
+    NodeKind,
+    Parameters,
+    Process,
+    Unread,
+)
+from checker.expand.ros2_launch.substitutions import perform
+from checker.expand.ros2_launch.values import Guarded, Made, Unknown, Value, chosen, span_of
+from checker.source.text import Located
+
+if TYPE_CHECKING:
+    from checker.expand.ros2_launch.actions.visitor import Visitor
+
+_OLD_KEYWORDS = frozenset({"node_name", "node_executable", "node_namespace"})
+"""Of `Node` until Foxy."""
+_NODES: Mapping[str, NodeKind] = MappingProxyType(
+    {
+        "Node": NodeKind.NODE,
+        "LifecycleNode": NodeKind.LIFECYCLE,
+        "ComposableNodeContainer": NodeKind.CONTAINER,
+    }
+)
+
+
+def node(visitor: Visitor, made: Made, context: Context) -> None:
+    """Gather a node or container."""
+    parameters, unread = _parameters(made, context)
+    arguments = [*words_of(made.values.get("arguments"), context, made.span, unread)]
+    rest = words_of(made.values.get("ros_arguments"), context, made.span, unread)
+    arguments += [Located("--ros-args", made.span, stated=False)] if (ros := [*rest]) else []
+    remaps = remaps_of(made, context, unread)
+    name = made.values.get("name")
+    environment = chosen(made.values.get("additional_env"))
+    visitor.found.nodes.append(
+        Node(
+            kind=_NODES[made.name],
+            package=text_of(made, "package", context, unread),
+            executable=text_of(made, "executable", context, unread),
+            name=text_of(made, "name", context, unread) if name is not None else None,
+            namespace=namespace_of(made, context),
+            arguments=(*arguments, *ros),
+            parameters=(*context.state.parameters, *parameters),
+            remaps=remaps,
+            components=tuple(_components(made, context, unread)),
+            environment=texts_of(environment, context, made.span),
+            unread=tuple(unread),
+            conditions=context.conditions,
+            after=context.after,
+            span=made.span,
+        )
+    )
+    visitor.found.unread += (item for item in unread if item.reason != MOVEIT)
+    _keywords(made, context)
+    visitor.later_events(made, context)
+
+
+def load(visitor: Visitor, made: Made, context: Context) -> None:
+    """Gather components that are loaded into a container."""
+    unread: list[Unread] = []
+    target = chosen(made.values.get("target_container"))
+    name = UNKNOWN
+    if isinstance(target, Made) and target.name == "ComposableNodeContainer":
+        target = target.values.get("name")
+    text = perform(target, context, made.span)
+    if not isinstance(text, Unknown):
+        name = resolve_name(str(text), context.state.namespace)
+    components = tuple(_components(made, context, unread))
+    visitor.found.components.append(
+        LoadedComponents(
+            container=name,
+            components=components,
+            conditions=context.conditions,
+            after=context.after,
+            span=made.span,
+        )
+    )
+    visitor.found.unread += unread
+
+
+def process(visitor: Visitor, made: Made, context: Context) -> None:
+    """Gather a command."""
+    unread: list[Unread] = []
+    words = tuple(words_of(made.values.get("cmd"), context, made.span, unread))
+    visitor.found.processes.append(
+        Process(
+            words=words,
+            in_shell=chosen(made.values.get("shell")) in (True, "true", "True"),
+            conditions=context.conditions,
+            after=context.after,
+            span=made.span,
+        )
+    )
+    visitor.found.unread += unread
+    visitor.later_events(made, context)
+
+
+def bridge(visitor: Visitor, made: Made, context: Context) -> None:
+    """Gather the node that a special action starts."""
+    package, executable, file = (
+        ("ros_gz_bridge", "bridge_node", "config_file")
+        if made.name == "RosGzBridge"
+        else ("ros_gz_sim", "gzserver", "world_sdf_file")
+    )
+    parameters: list[Value] = [{file: made.values[file]}] if file in made.values else []
+    if "bridge_params" in made.values:
+        parameters.append(Unknown("the bridge is given parameters in a text", made.span))
+    values: dict[str, Value] = {
+        "package": package,
+        "executable": executable,
+        "name": made.values.get("bridge_name"),
+        "namespace": made.values.get("namespace"),
+        "parameters": parameters,
+    }
+    node(visitor, Made("Node", values, made.span), context)
+
+
+def component_node(visitor: Visitor, made: Made, _: Context) -> None:
+    """Note a component that stands where an action is expected."""
+    visitor.unread("a ComposableNode is no action of its own", made.span)
+
+
+def _components(made: Made, context: Context, unread: list[Unread]) -> Iterator[Component]:
+    value = chosen(made.values.get("composable_node_descriptions"))
+    if isinstance(value, Unknown):
+        unread.append(Unread(value.reason, value.span))
+    given = value if isinstance(value, list | tuple) else ()
+    there = (v for v in given if not (isinstance(v, Guarded) and v.holds is False))
+    for item in map(chosen, there):
+        if not isinstance(item, Made):
+            reason = item.reason if isinstance(item, Unknown) else "it is no component"
+            unread.append(Unread(reason, span_of(item, made.span)))
+            continue
+        parameters = parameters_of(item.values.get("parameters"), context, item.span, unread)
+        yield Component(
+            text_of(item, "package", context, unread),
+            text_of(item, "plugin", context, unread),
+            text_of(item, "name", context, unread).value,
+            namespace_of(item, context),
+            (*context.state.parameters, *parameters),
+            remaps_of(item, context, unread),
+            item.span,
+        )
+
+
+def _parameters(made: Made, context: Context) -> tuple[Parameters, list[Unread]]:
+    unread: list[Unread] = []
+    value = made.values.get("parameters")
+    return parameters_of(value, context, made.span, unread), unread
+
+
+def _keywords(made: Made, context: Context) -> None:
+    for name in _OLD_KEYWORDS.intersection(made.values):
+        where = made.keywords.get(name, made.span)
+        message = f"{made.name} takes no keyword {name!r}"
+        context.fault(LaunchFaultKind.ATTRIBUTE, where, message, name)
+    # Containers have a usual program in newer releases.
+    stated = {"executable", "node_executable"}.intersection(made.values)
+    if not stated and made.name != "ComposableNodeContainer":
+        message = f"{made.name} has no executable"
+        context.fault(LaunchFaultKind.ATTRIBUTE, made.span, message, "executable")

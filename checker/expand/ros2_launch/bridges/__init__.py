@@ -1,0 +1,1 @@
+"""Bridges of ros_gz: what passes between ROS and Gazebo."""
