@@ -14,7 +14,7 @@ from typing import Any
 from checker.base.record import Record
 from checker.rule import Rule
 from checker.rulebook.options import told_options, work_of
-from checker.rulebook.profiles import profile, profile_names
+from checker.rulebook.profiles import Profile, profile, profile_names
 
 # The page of a rule, from the docstring of its module.
 #
@@ -155,11 +155,23 @@ def told(rule: Rule) -> Iterator[str]:
 
 
 def _profiles(rule: Rule) -> Iterator[str]:
-    """Yield the profiles that a rule belongs to, each with its severity where it differs."""
-    for judge in map(profile, profile_names()):
-        if judge.includes(rule):
-            other = judge.severity.get(rule.id, rule.severity)
-            yield f"`{judge.name}`" + (f" ({other})" if other != rule.severity else "")
+    """Yield the profiles that a rule belongs to, each with its severity where it differs.
+
+    Those of a family are one where they agree: `gazebo-*`.
+    """
+    judges = [*map(profile, profile_names())]
+    for family, members in groupby(judges, lambda judge: judge.name.partition("-")[0]):
+        said = {member.name: _judged(member, rule) for member in members}
+        if len(said) > 1 and len({*said.values()}) == 1:
+            said = {f"{family}-*": next(iter(said.values()))}
+        yield from (f"`{name}`{words}" for name, words in said.items() if words is not None)
+
+
+def _judged(judge: Profile, rule: Rule) -> str | None:
+    """Return the severity of a rule in a profile where it differs; None where it does not count."""
+    other = judge.severity.get(rule.id, rule.severity)
+    different = f" ({other})" if other != rule.severity else ""
+    return different if judge.includes(rule) else None
 
 
 def _options(rule: Rule) -> Iterator[str]:
