@@ -24,7 +24,7 @@ BOOK = {
     "BRD": 3,
     "ROS": 15,
     "DOC": 9,
-    "URD": 20,
+    "URD": 21,
     "CTL": 8,
     "BRG": 11,
     "LCH": 11,
