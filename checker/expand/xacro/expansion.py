@@ -68,11 +68,14 @@ class Wanted(Record):
         path: As the package lists it.
         args: Arguments by name.
         as_melodic: Whether as xacro 1.13 of ROS Melodic does it.
+        call: What is added to it: `text`, a robot whose elements come last; `number`, the element
+            of the file where they stand; `name`, of the robot, where the file has none.
     """
 
     path: str
     args: Mapping[str, str]
     as_melodic: bool = False
+    call: Mapping[str, str | int] | None = None
 
 
 class Unread(Record):
@@ -94,6 +97,7 @@ class Expansions:
         self._jobs: list[dict[str, Any]] = [
             {"file": path_of(package, wish.path), "args": dict(wish.args)}
             | ({"as_melodic": True} if wish.as_melodic else {})
+            | ({"call": dict(wish.call)} if wish.call is not None else {})
             for wish in wanted
         ]
         self._gathered.follow(job["file"] for job in self._jobs)

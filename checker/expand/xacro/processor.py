@@ -59,7 +59,12 @@ class _Stopped(BaseException):
 
 
 def expand(
-    request: Mapping[str, Any], file: str, args: Mapping[str, str], *, as_melodic: bool = False
+    request: Mapping[str, Any],
+    file: str,
+    args: Mapping[str, str],
+    *,
+    as_melodic: bool = False,
+    call: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Expand one file.
 
@@ -68,6 +73,7 @@ def expand(
         file: The one to expand.
         args: Arguments by name.
         as_melodic: As xacro 1.13 of ROS Melodic does, see `checker.expand.xacro.melodic`.
+        call: What is added to the file, see `Wanted`.
 
     Returns:
         `xml` and `origins` (file and element number of each element, in order) with `files`; or
@@ -77,7 +83,7 @@ def expand(
     """
     expansion = _Expansion(request, as_melodic=as_melodic)
     try:
-        return expansion.run(file, dict(args))
+        return expansion.run(file, dict(args), call)
     except _Stopped as stopped:
         return stopped.outcome
     except RecursionError:
@@ -138,11 +144,15 @@ class _Expansion:
         self._through: list[str] = []
         self._allowance = Allowance()
 
-    def run(self, file: str, args: dict[str, str]) -> dict[str, Any]:
+    def run(
+        self, file: str, args: dict[str, str], call: Mapping[str, Any] | None = None
+    ) -> dict[str, Any]:
         """Expand the file with arguments by name."""
         self._lead_here()
         xacro.init_stacks(file)
         document = self._parse(None, file)
+        if call is not None:
+            self._add(document, file, call)
         xacro.process_doc(document, mappings=args, verbosity=0)
         root = document.documentElement
         text = root.toxml()
@@ -220,6 +230,19 @@ class _Expansion:
         for index, element in enumerate(_elements(document.documentElement)):
             element.setUserData(_ORIGIN, (number, index), self)
         return document
+
+    def _add(self, document: Any, file: str, call: Mapping[str, Any]) -> None:
+        """Add a call of a macro to its file; what it makes stands where the macro does."""
+        root = document.documentElement
+        if not root.getAttribute("name"):
+            root.setAttribute("name", call["name"])
+        number = self._numbers[posixpath.normpath(file)]
+        added: Any = minidom.parseString(call["text"])  # noqa: S318 - our own text
+        for child in added.documentElement.childNodes:
+            node = document.importNode(child, True)
+            for element in _elements(node):
+                element.setUserData(_ORIGIN, (number, call["number"]), self)
+            root.appendChild(node)
 
     def handle(self, _: int, key: str, data: tuple[int, int], __: Any, copy: Any) -> None:
         """Hand an element's origin on to its copy: what minidom calls for every clone."""

@@ -63,7 +63,7 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     Args:
         request: JSON: `texts` by path, `absent` paths, `faulty` paths with what is wrong there,
             `beyond` names of unavailable packages, and `items`: each a `file` and `args`,
-            and whether it is expanded `as_melodic`.
+            whether it is expanded `as_melodic`, and the `call` that is added to it.
 
     Returns:
         JSON: what became of each job (see `checker.expand.xacro.processor`), in the same order.
@@ -76,7 +76,8 @@ def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
     def work(job: Any) -> bytes:
         put_up()
         as_melodic = bool(job.get("as_melodic"))
-        done = processor.expand(data, job["file"], job["args"], as_melodic=as_melodic)
+        call = job.get("call")
+        done = processor.expand(data, job["file"], job["args"], as_melodic=as_melodic, call=call)
         return json.dumps(done).encode()
 
     done = []

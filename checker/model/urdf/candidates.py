@@ -153,17 +153,25 @@ def unread_models(package: Package, seen: frozenset[str]) -> Iterator[str]:
         package: To look into.
         seen: Files that were read, or are parts of what was.
     """
-    others = [path for path in _files(package) if path not in seen]
-    for path in others:
-        if isinstance(source := package.read(path), NotReadable):
+    for path in _files(package):
+        if path not in seen and isinstance(source := package.read(path), NotReadable):
             yield f"{path} {source.reason}"
-    left = [path for path in others if _holds_parts(package, path)]
+    for path in unused_parts(package, seen):
+        yield f"{path} is not read: no file that stands for a robot includes it"
+
+
+def unused_parts(package: Package, seen: frozenset[str]) -> Iterator[str]:
+    """Yield the files that hold links, joints or macros and are part of no robot.
+
+    Args:
+        package: To look into.
+        seen: Files that were read, or are parts of what was.
+    """
+    left = [path for path in _files(package) if path not in seen and _holds_parts(package, path)]
     if not left:
         return
     elsewhere = _with_their_parts(package, left, set(_included_elsewhere(package)))
-    for path in left:
-        if posixpath.basename(path) not in elsewhere:
-            yield f"{path} is not read: no file that stands for a robot includes it"
+    yield from (path for path in left if posixpath.basename(path) not in elsewhere)
 
 
 def _made_of(package: Package) -> Iterator[str]:

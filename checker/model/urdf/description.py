@@ -7,6 +7,7 @@ from functools import cached_property
 
 from checker.base.record import Record
 from checker.model.robot import Robot
+from checker.model.urdf.macro_calls import MacroCall
 from checker.model.urdf.reader import read_urdf
 from checker.source.text import Located, Span
 from checker.source.xml import Element, XmlDocument
@@ -62,6 +63,7 @@ class UrdfDescription(Record, eq=False, dict=True):
         transmissions: In order.
         gazebo: In order.
         for_rviz: Whether it accompanies an SDF model, only to be looked at.
+        call: Of the macro that makes the robot, where the file itself makes none.
     """
 
     file: str
@@ -69,6 +71,7 @@ class UrdfDescription(Record, eq=False, dict=True):
     transmissions: tuple[Transmission, ...]
     gazebo: tuple[GazeboTag, ...]
     for_rviz: bool
+    call: MacroCall | None = None
 
     @cached_property
     def robot(self) -> Robot:

@@ -20,9 +20,11 @@ from checker.model.urdf.candidates import (
     candidates,
     may_hold_description,
     unread_models,
+    unused_parts,
 )
-from checker.model.urdf.description import read_description
+from checker.model.urdf.description import UrdfDescription, read_description
 from checker.model.urdf.files import UrdfFiles
+from checker.model.urdf.macro_calls import MacroCall, minimal_call
 from checker.model.urdf.started_loads import started_loads
 from checker.package.kind import PackageKind
 from checker.package.package import Package
@@ -33,6 +35,8 @@ from checker.source.xml_positions import XmlFault
 _URDF_KINDS = (PackageKind.URDF_DESCRIPTION, PackageKind.SINGLE_FILE)
 _CHOICES_LIMIT = 10
 """Choices for an argument that are tried."""
+_CALLS_LIMIT = 20
+"""Macros that are called though no file does so."""
 _XACRO = re.compile(r"\bxacro:|\bxmlns:xacro\b")
 
 
@@ -106,7 +110,11 @@ class PackageDescriptions:
                 faults.append(replace(outcome, loaded=candidate.loaded))
         reasons = [reason for file, reason in unread if file.loaded or not self._for_rviz]
         if not self._for_rviz:
-            reasons += unread_models(self._package, self._seen)
+            holding = {description.file for description in descriptions}
+            called = [*self._called(holding)]
+            descriptions += called
+            made = (description.file for description in called)
+            reasons += unread_models(self._package, self._seen.union(made))
         return UrdfFiles(
             tuple(descriptions),
             tuple(faults),
@@ -115,6 +123,23 @@ class PackageDescriptions:
             old,
             assumed,
         )
+
+    def _called(self, holding: set[str]) -> Iterator[UrdfDescription]:
+        """Yield the robots of macros that nobody calls: each is called with what it must have."""
+        empty = {it.path for it in self._candidates if it.path not in holding and not it.loaded}
+        paths = [*unused_parts(self._package, self._seen - empty)][:_CALLS_LIMIT]
+        found = ((path, minimal_call(self._package, path)) for path in paths)
+        calls: dict[str, MacroCall] = {path: call for path, call in found if call is not None}
+        wanted = [
+            Wanted(path, {**SAMPLE_ARGUMENTS, **self._args}, call=call.added)
+            for path, call in calls.items()
+        ]
+        outcomes = Expansions(self._package, wanted, self._cache).outcomes() if wanted else []
+        for path, outcome in zip(calls, outcomes, strict=True):
+            # What a macro takes from the file that includes it is not known: that is no fault.
+            if isinstance(outcome, XmlDocument) and _holds_robot(outcome, Candidate(path)):
+                read = read_description(outcome, path, for_rviz=False)
+                yield replace(read, call=calls[path])
 
     @property
     def _seen(self) -> frozenset[str]:

@@ -1,0 +1,114 @@
+"""The smallest call of a macro that makes a robot, for files that hold macros and no robot."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from xml.sax.saxutils import quoteattr
+
+from checker.base.record import Record
+from checker.package.package import Package
+from checker.source.text import Span
+from checker.source.xml import Element, XmlDocument
+
+_MACRO = "xacro:macro"
+_NAME = re.compile(r"[A-Za-z_][\w.-]{0,100}")
+_PARAMETER = re.compile(r"(?P<block>\*{0,2})(?P<name>[A-Za-z_]\w{0,100})(?P<default>:?=)?")
+_VALUE = re.compile(r"""\^\|?|'[^']{0,500}'|"[^"]{0,500}"|[^\s'"]{1,500}""")
+_PARENTS = ("parent", "parent_link")
+_PREFIXES = ("prefix", "tf_prefix")
+_ORIGIN = "origin"
+WORLD = "world"
+"""The link that a macro is hung on; Gazebo holds it in its place."""
+
+
+class MacroCall(Record, eq=False):
+    """A call that gives a macro nothing but what it must have.
+
+    Attributes:
+        name: Of the macro.
+        arguments: By name.
+        blocks: Names of the blocks, all of them origins.
+        number: Of the macro's element in its file.
+        span: The start tag of the macro.
+    """
+
+    name: str
+    arguments: Mapping[str, str]
+    blocks: tuple[str, ...]
+    number: int
+    span: Span
+
+    @property
+    def shown(self) -> str:
+        """The start tag of the call."""
+        stated = "".join(f" {name}={quoteattr(value)}" for name, value in self.arguments.items())
+        return f"<xacro:{self.name}{stated}>"
+
+    @property
+    def added(self) -> dict[str, str | int]:
+        """What is added to the file before it is expanded."""
+        return {"text": self.text, "number": self.number, "name": self.name}
+
+    @property
+    def text(self) -> str:
+        """What a robot's file would hold: the link that it hangs on, and the call."""
+        link = f'<link name="{WORLD}"/>' if WORLD in self.arguments.values() else ""
+        blocks = '<origin xyz="0 0 0" rpy="0 0 0"/>' * len(self.blocks)
+        call = f"{self.shown}{blocks}</xacro:{self.name}>"
+        return f'<robot xmlns:xacro="http://ros.org/wiki/xacro">{link}{call}</robot>'
+
+
+def minimal_call(package: Package, path: str) -> MacroCall | None:
+    """Return how to call the one macro of a file that makes links; None where that is not clear.
+
+    Args:
+        package: That is checked.
+        path: Of the file, as the package lists it.
+    """
+    document = package.xml(path)
+    if not isinstance(document, XmlDocument) or document.root.tag != "robot":
+        return None
+    macros = [it for it in document.root.all(_MACRO) if next(it.descendants("link"), None)]
+    called = {child.tag.removeprefix("xacro:") for macro in macros for child in macro.descendants()}
+    outer = [macro for macro in macros if _name(macro) not in called]
+    if len(outer) != 1 or not _NAME.fullmatch(_name(outer[0])):
+        return None
+    number = next(i for i, it in enumerate(document.elements) if it.node is outer[0].node)
+    return _call(outer[0], number)
+
+
+def _name(macro: Element) -> str:
+    return (macro.get("name") or "").removeprefix("xacro:")
+
+
+def _call(macro: Element, number: int) -> MacroCall | None:
+    """Return the call of a macro; None when it needs what only its user can know."""
+    arguments: dict[str, str] = {}
+    blocks: list[str] = []
+    rest = (macro.get("params") or "").strip()
+    while rest:
+        parameter = _PARAMETER.match(rest)
+        if parameter is None:
+            return None
+        rest = rest[parameter.end() :]
+        name = parameter["name"]
+        if parameter["default"]:
+            value = _VALUE.match(rest)
+            if value is None or value.group() == "^":
+                return None
+            rest = rest[value.end() :]
+            if value.group() == "^|" and (fallback := _VALUE.match(rest)):
+                rest = rest[fallback.end() :]
+        elif parameter["block"]:
+            if not name.endswith(_ORIGIN):
+                return None
+            blocks.append(name)
+        elif name in _PARENTS:
+            arguments[name] = WORLD
+        elif name in _PREFIXES:
+            arguments[name] = ""
+        else:
+            return None
+        rest = rest.lstrip()
+    return MacroCall(_name(macro), arguments, tuple(blocks), number, macro.span)
