@@ -11,9 +11,9 @@ Source: ament_cmake user documentation; RobotecAI/ROSCon2023Demo#116.
 """
 
 from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.ros2_launch.named_paths import is_left_out, named_paths
+from checker.expand.ros2_launch.named_paths import named_paths
 from checker.expand.ros2_launch.package_files import holder_of
-from checker.package.installed import USUAL_FOLDERS, instead, left_out_folder
+from checker.package.installed import left_out
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -23,18 +23,15 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
     """Report files in share folders that exist in the source alone."""
     for graph in launch.entries:
         for named in named_paths(graph):
-            if not is_left_out(package, named.path):
-                continue
-            holder = holder_of(package, named.path.package) or package
-            folder = left_out_folder(holder, named.path.path)
-            if holder is package and folder in USUAL_FOLDERS:
-                continue
-            yield finding(
-                named,
-                f"{named.path} is not installed: {instead(holder, named.path.path)}",
-                severity=None if named.needed else Severity.WARNING,
-                key=f"{holder.name}/{folder or named.path.path}",
-            )
+            holder = holder_of(package, named.path.package)
+            left = left_out(package, holder, named.path.path) if holder is not None else None
+            if left is not None:
+                yield finding(
+                    named,
+                    f"{named.path} is not installed: {left.instead}",
+                    severity=None if named.needed else Severity.WARNING,
+                    key=left.around,
+                )
 
 
 _CMAKE = """project(acme_arm_bringup)

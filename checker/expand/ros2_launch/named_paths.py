@@ -16,7 +16,7 @@ from checker.expand.ros2_launch.graph import (
     share_path,
 )
 from checker.expand.ros2_launch.package_files import holder_of
-from checker.package.installed import leaves_out, may_be_made, source_of
+from checker.package.installed import may_be_made, source_of
 from checker.package.package import Package
 from checker.source.text import Located, Span
 
@@ -109,9 +109,3 @@ def lies_elsewhere(package: Package, path: SharePath) -> str:
     files = holder.index.files if holder is not None else ()
     found = [file.path for file in files if posixpath.basename(file.path) == name]
     return found[0] if len(found) == 1 else ""
-
-
-def is_left_out(package: Package, path: SharePath) -> bool:
-    """Whether a package at hand has a file, and certainly does not install it there."""
-    holder = holder_of(package, path.package)
-    return holder is not None and leaves_out(holder, path.path)
