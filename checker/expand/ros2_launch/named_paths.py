@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import (
+    Include,
     LaunchGraph,
     Parameter,
     ParameterFile,
@@ -21,6 +22,7 @@ from checker.package.package import Package
 from checker.source.text import Located, Span
 
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
+_GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
 
@@ -48,6 +50,8 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
     for include in graph.includes:
         needed = include.starts is True
         yield from _named(include.target.value, include.target.span, needed=needed, include=True)
+        if include.reason:
+            yield from _handed_over(include)
     for node in graph.nodes:
         starts = node.starts is True
         shows = node.executable.value in ("rviz", "rviz2", "rqt_gui")
@@ -56,6 +60,15 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
             yield from _in_parameter(parameter, needed=starts)
     for process in graph.processes:
         yield from _in_words(process.words, needed=_starts(process))
+
+
+def _handed_over(include: Include) -> Iterator[NamedPath]:
+    """Yield what a launch file is given that is not read; only Gazebo's certainly opens it."""
+    target = share_path(include.target.value)
+    needed = include.starts is True and target is not None and target.package in _GAZEBO
+    for value in include.arguments.values():
+        for word in value.value.split():
+            yield from _named(word, value.span, needed=needed)
 
 
 def _starts(started: Started) -> bool:
