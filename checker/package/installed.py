@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 USUAL_FOLDERS = ("launch", "meshes", "materials", "urdf", "config", "worlds", "thumbnails")
 """Folders that a package installs, whether anything at hand names their files or not."""
+MANIFEST = "package.xml"
+"""It is installed by `ament_package()`."""
 _SHARE = "share/"
 _PATTERN_LIMIT = 200
 _WORD = re.compile(r"[\w-]+")
@@ -79,7 +81,7 @@ def left_out(package: Package, holder: Package, path: str) -> LeftOut | None:
         holder: That ought to install it.
         path: Below the folder of the installed package.
     """
-    if not holder.exists(path) or source_of(holder, path) is not None:
+    if path == MANIFEST or not holder.exists(path) or source_of(holder, path) is not None:
         return None
     if not _tells_all(holder) or may_be_made(holder, path):
         return None
