@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
 
+from checker.base.record import Record
 from checker.source.cmake import AUTO_PACKAGE, CMakeFile, Install
 from checker.source.setup_py import Pattern, SetupFile
 from checker.source.text import SourceText
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 USUAL_FOLDERS = ("launch", "meshes", "materials", "urdf", "config", "worlds", "thumbnails")
 """Folders that a package installs, whether anything at hand names their files or not."""
+MANIFEST = "package.xml"
+"""It is installed by `ament_package()`."""
 _SHARE = "share/"
 _PATTERN_LIMIT = 200
 _WORD = re.compile(r"[\w-]+")
@@ -55,16 +58,50 @@ def _only_one(package: Package, path: str) -> str | None:
     return found[0] if len(found) == 1 else None
 
 
-def leaves_out(package: Package, path: str) -> bool:
-    """Whether a package has a file at a path, and certainly installs none there.
+class LeftOut(Record):
+    """A file of the source that its package does not install.
+
+    Attributes:
+        instead: Where it is, as the end of a sentence.
+        around: What is left out with it: a folder, or the file alone.
+    """
+
+    instead: str
+    around: str
+
+
+def left_out(package: Package, holder: Package, path: str) -> LeftOut | None:
+    """Return a file that is there in the source, and that certainly nothing installs there.
+
+    None for what lies in one of the usual folders of the checked package if nothing of that is
+    installed: it is reported as such, whoever names its files.
 
     Args:
-        package: That ought to install it.
-        path: Below the installed package's folder.
+        package: That is checked.
+        holder: That ought to install it.
+        path: Below the folder of the installed package.
     """
-    if not package.exists(path) or source_of(package, path) is not None:
-        return False
-    return _tells_all(package) and not may_be_made(package, path)
+    if path == MANIFEST or not holder.exists(path) or source_of(holder, path) is not None:
+        return None
+    if not _tells_all(holder) or may_be_made(holder, path):
+        return None
+    folder = _left_out_folder(holder, path)
+    if holder is package and folder in USUAL_FOLDERS:
+        return None
+    instead = f"folder {folder}/ exists in the source alone"
+    if not folder:
+        target = installed_as(holder, path)
+        instead = (
+            f"the file {f'is installed as {target}' if target else 'exists in the source alone'}"
+        )
+    return LeftOut(instead, f"{holder.name}/{folder or path}")
+
+
+def listed(package: Package, path: str) -> tuple[Package, str]:
+    """Return the package that a listed path lies in, and its path there: `../arm/urdf/a.urdf`."""
+    name, _, inside = path.removeprefix("../").partition("/")
+    holder = package.workspace.package(name) if path.startswith("../") else None
+    return (holder, inside) if holder is not None else (package, path)
 
 
 def installed_as(package: Package, path: str) -> str:
@@ -75,7 +112,7 @@ def installed_as(package: Package, path: str) -> str:
     return ""
 
 
-def left_out_folder(package: Package, path: str) -> str:
+def _left_out_folder(package: Package, path: str) -> str:
     """Return the outermost folder around a file of which nothing is installed; else nothing."""
     if installed_as(package, path):
         return ""
@@ -86,14 +123,6 @@ def left_out_folder(package: Package, path: str) -> str:
         if not any(origin == folder or origin.startswith(f"{folder}/") for origin in origins):
             return folder
     return ""
-
-
-def instead(package: Package, path: str) -> str:
-    """Say where a file is that is left out, as the end of a sentence."""
-    if folder := left_out_folder(package, path):
-        return f"folder {folder}/ exists in the source alone"
-    target = installed_as(package, path)
-    return f"the file is installed as {target}" if target else "the file exists in the source alone"
 
 
 def _tells_all(package: Package) -> bool:

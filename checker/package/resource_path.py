@@ -15,12 +15,10 @@ from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
 from checker.source.xml import XmlDocument
 
-VARIABLES = (
-    *("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"),
-    *("SDF_PATH", "GZ_FILE_PATH", "IGN_FILE_PATH"),
+_NAMED = re.compile(
+    r"\b(?:GZ_SIM_RESOURCE_PATH|IGN_GAZEBO_RESOURCE_PATH|SDF_PATH|GZ_FILE_PATH|IGN_FILE_PATH)\b"
 )
 """The resource path, and what gz-sim copies it into when it starts."""
-NAMED = re.compile(rf"\b(?:{'|'.join(VARIABLES)})\b")
 _TEXTS = (
     *(".md", ".rst", ".txt", ".sh", ".bash", ".zsh", ".env", ".dsv", ".in", ".py", ".xml"),
     *(".launch", ".yaml", ".yml", ".json", ".toml", ".cmake", "file"),
@@ -31,6 +29,11 @@ _IN_SHELL = re.compile(
     r"(?:\$\{?(?:AMENT|COLCON)_CURRENT_PREFIX\}?|@CMAKE_INSTALL_PREFIX@)/([^\s:;\"']{1,300})"
 )
 _EXPORTS = ("gazebo_model_path", "gazebo_media_path")
+
+
+def sets_path(variable: str) -> bool:
+    """Whether a variable is the resource path, or searched like it."""
+    return _NAMED.fullmatch(variable) is not None
 
 
 class SearchedFolder(Record, eq=False):
@@ -70,7 +73,7 @@ def _of_hook(source: SourceText, name: str) -> Iterator[SearchedFolder]:
     for line in source.text.splitlines(keepends=True):
         span = Span(source, at, at + len(line.rstrip()))
         at += len(line)
-        if line.lstrip().startswith("#") or not NAMED.search(line):
+        if line.lstrip().startswith("#") or not _NAMED.search(line):
             continue
         text = line.replace("@PROJECT_NAME@", name) if source.file.endswith(".in") else line
         if ".dsv" in posixpath.basename(source.file):
@@ -123,5 +126,5 @@ def mentions(package: Package) -> Iterator[Span]:
     known = frozenset(hooks(package))
     for file in package.index.with_suffix(*_TEXTS):
         if file.path not in known and isinstance(source := package.read(file.path), SourceText):
-            for match in NAMED.finditer(source.text):
+            for match in _NAMED.finditer(source.text):
                 yield Span(source, *match.span())

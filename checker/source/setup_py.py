@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import posixpath
+from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
@@ -85,16 +86,36 @@ def _calls(tree: ast.Module) -> Iterator[ast.Call]:
 
 
 def _constants(tree: ast.Module) -> dict[str, ast.expr]:
-    """Return the names that are set at the top of the file, but for those that are set twice."""
+    """Return the names that are set at the top of the file, but for those that change."""
     values: dict[str, ast.expr] = {}
-    twice = set()
     for statement in tree.body:
         if isinstance(statement, ast.Assign):
             for target in statement.targets:
                 if isinstance(target, ast.Name):
-                    twice |= {target.id} & values.keys()
                     values[target.id] = statement.value
-    return {name: value for name, value in values.items() if name not in twice}
+    times = Counter(name for node in ast.walk(tree) for name in _set_by(node))
+    plain = (ast.Constant, ast.JoinedStr)
+    handed = {name for node in ast.walk(tree) for name in _handed_over(node)}
+    return {
+        name: value
+        for name, value in values.items()
+        if times[name] == 1 and (isinstance(value, plain) or name not in handed)
+    }
+
+
+def _set_by(node: ast.AST) -> Iterator[str]:
+    """Yield the name that an assignment sets or adds to, whether at the top or in a loop."""
+    if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+        yield node.id
+
+
+def _handed_over(node: ast.AST) -> Iterator[str]:
+    """Yield the names of what a call may change: `files.append(…)`, `add_folder(files, "x")`."""
+    if not isinstance(node, ast.Call) or _name(node.func) in (*_JOINS, *_GLOBS):
+        return
+    if isinstance(node.func, ast.Attribute) and isinstance(node.func.value, ast.Name):
+        yield node.func.value.id
+    yield from (word.id for word in node.args if isinstance(word, ast.Name))
 
 
 def _name(node: ast.expr) -> str:

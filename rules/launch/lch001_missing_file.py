@@ -3,7 +3,8 @@
 What is included or read does not start; a node that is given the path ends, or runs without its
 parameters. The name of an included file is written in full, `robot.launch.py` and not `robot`.
 Files of packages that are not at hand, and files that the build makes, are not judged. Where a
-condition leaves the action out, and for what is only shown in RViz, this is a warning.
+condition leaves the action out, for what is only shown in RViz, and for what is handed to a launch
+file that is not at hand, unless it starts Gazebo, this is a warning.
 
 Fix: correct the path, or add the file.
 Source: launch, `PythonLaunchDescriptionSource`: a file that does not exist raises an error;
@@ -34,10 +35,21 @@ def check(launch: Ros2Launch, package: Package) -> Findings:
 
 _STATE = """        Node(package='p', executable='e', parameters=[
             in_package('config', 'arm.yaml')]),"""
+_WORLD = """        IncludeLaunchDescription(PathJoinSubstitution([
+            FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']), launch_arguments={
+                'gz_args': ['-r ', in_package('worlds', 'hall.sdf')]}.items()),"""
 
 GOOD = [
     {"@ros2": True},
     {"@ros2": _STATE},
+    {
+        "@ros2": _WORLD,
+        "worlds/hall.sdf": '<sdf version="1.9"><world name="hall"/></sdf>',
+        "CMakeLists.txt": """project(acme_arm_bringup)
+install(DIRECTORY config launch urdf worlds DESTINATION share/${PROJECT_NAME})
+ament_package()
+""",
+    },
     {"@ros2": _STATE.replace("'config', 'arm.yaml'", "'maps', 'saved'")},
     {
         "@ros2": """        IncludeLaunchDescription(PythonLaunchDescriptionSource(
@@ -45,6 +57,7 @@ GOOD = [
     },
 ]
 BAD = [
+    {"@ros2": f"{_WORLD}  # ^ LCH001"},
     {"@ros2": _STATE.replace("arm.yaml')]),", "arms.yaml')]),  # ^ LCH001")},
     {
         "@ros2": """        IncludeLaunchDescription(PythonLaunchDescriptionSource(

@@ -10,31 +10,61 @@ Fix: add the file or its folder to `install(…)`, to `ament_auto_package(INSTAL
 Source: ament_cmake user documentation; RobotecAI/ROSCon2023Demo#116.
 """
 
-from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.ros2_launch.named_paths import is_left_out, named_paths
-from checker.expand.ros2_launch.package_files import holder_of
-from checker.package.installed import USUAL_FOLDERS, instead, left_out_folder
+from collections.abc import Iterator
+
+from checker.expand.ros2_launch.graph import Ros2Launch, SharePath, share_path
+from checker.expand.ros2_launch.named_paths import NamedPath, named_paths
+from checker.expand.ros2_launch.package_files import holder_of, local_file
+from checker.expand.xacro.expanded import ExpandedText
+from checker.model.urdf.files import UrdfFiles
+from checker.package.installed import installed_as, left_out
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("LCH002", "launch-names-uninstalled-file", Severity.ERROR, Concern.INTERFACE)
-def check(launch: Ros2Launch, package: Package) -> Findings:
+def check(launch: Ros2Launch, package: Package, urdf: UrdfFiles | None) -> Findings:
     """Report files in share folders that exist in the source alone."""
-    for graph in launch.entries:
-        for named in named_paths(graph):
-            if not is_left_out(package, named.path):
-                continue
-            holder = holder_of(package, named.path.package) or package
-            folder = left_out_folder(holder, named.path.path)
-            if holder is package and folder in USUAL_FOLDERS:
-                continue
+    parts = dict(_parts(package, urdf)) if urdf is not None else {}
+    named = [named for graph in launch.entries for named in named_paths(graph)]
+    for name, path in (
+        (each, path) for each in named for path in _with_parts(package, each, parts)
+    ):
+        holder = holder_of(package, path.package)
+        left = left_out(package, holder, path.path) if holder is not None else None
+        if left is not None:
+            what = f"{path.path}, a part of {name.path}," if path != name.path else str(path)
             yield finding(
-                named,
-                f"{named.path} is not installed: {instead(holder, named.path.path)}",
-                severity=None if named.needed else Severity.WARNING,
-                key=f"{holder.name}/{folder or named.path.path}",
+                name,
+                f"{what} is not installed: {left.instead}",
+                severity=None if name.needed else Severity.WARNING,
+                key=left.around,
             )
+
+
+_Parts = dict[str, list[SharePath]]
+
+
+def _with_parts(package: Package, named: NamedPath, parts: _Parts) -> list[SharePath]:
+    """Return a path, and the files that a description there includes."""
+    return [named.path, *parts.get(local_file(package, named.path.whole) or "", ())]
+
+
+def _parts(package: Package, urdf: UrdfFiles) -> Iterator[tuple[str, list[SharePath]]]:
+    """Yield each description with the files that it includes and that nothing installs at all.
+
+    What is installed elsewhere may be found by a relative path: the description is moved as well.
+    """
+    for description in urdf.descriptions:
+        source = description.document.source
+        parts = source.parts if isinstance(source, ExpandedText) else ()
+        paths = [path for part in parts if (path := share_path(part)) is not None]
+        yield description.file, [path for path in paths if not _is_installed(package, path)]
+
+
+def _is_installed(package: Package, path: SharePath) -> bool:
+    holder = holder_of(package, path.package)
+    return holder is None or bool(installed_as(holder, path.path))
 
 
 _CMAKE = """project(acme_arm_bringup)
@@ -55,6 +85,10 @@ setup(name="acme_arm_bringup", data_files=[
     ("share/acme_arm_bringup/urdf", glob("urdf/*")),
     ("share/acme_arm_bringup/config", glob("config/*")),
 ])
+"""
+_XACRO = """<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:include filename="$(find acme_arm_bringup)/parts/hand.xacro"/>
+</robot>
 """
 _NODE = """        Node(package='p', executable='e', parameters=[
             in_package('config', 'arm.yaml')]),"""
@@ -78,6 +112,13 @@ BAD = [
         "config/other/a.yaml": "a: 1\n",
     },
     {**_MARKED, "CMakeLists.txt": _AUTO},
+    {
+        "@ros2": """        Node(package='p', executable='e', parameters=[{'robot_description':
+            Command(['xacro ', in_package('urdf', 'arm.urdf.xacro')])}]),  # ^ LCH002""",
+        "urdf/arm.urdf.xacro": _XACRO,
+        "parts/hand.xacro": '<robot><link name="hand"/></robot>',
+        "CMakeLists.txt": _AUTO,
+    },
     {**_MARKED, "CMakeLists.txt": None, "setup.py": _SETUP},
     {
         "@ros2": f"{_NODE}  # ^ LCH002",

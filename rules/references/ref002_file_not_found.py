@@ -16,7 +16,7 @@ resource_retriever: the share folder of the installed package.
 from collections.abc import Iterator
 
 from checker.model.robot import Robot
-from checker.package.installed import USUAL_FOLDERS, instead, leaves_out, left_out_folder
+from checker.package.installed import left_out, listed
 from checker.package.package import Package
 from checker.package.uris import Unknown, path_behind
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
@@ -48,19 +48,14 @@ def check(package: Package, robot: Robot) -> Findings:
 
 def _not_installed(package: Package, uri: Located[str], path: str, mesh: bool) -> Iterator[Finding]:
     """Report a file that its package has and does not install."""
-    _, name, inside = path.split("/", 2) if path.startswith("../") else ("", "", path)
-    holder = package.workspace.package(name) if name else package
-    if holder is None or not leaves_out(holder, inside):
-        return
-    folder = left_out_folder(holder, inside)
-    if holder is package and folder in USUAL_FOLDERS:
-        return
-    yield finding(
-        uri,
-        f"{uri.value} is not installed: {instead(holder, inside)}",
-        severity=None if mesh else Severity.WARNING,
-        key=f"{name}/{folder or inside}",
-    )
+    left = left_out(package, *listed(package, path))
+    if left is not None:
+        yield finding(
+            uri,
+            f"{uri.value} is not installed: {left.instead}",
+            severity=None if mesh else Severity.WARNING,
+            key=left.around,
+        )
 
 
 def _hint(package: Package, path: str) -> str:

@@ -1,4 +1,4 @@
-"""A file of parameters that Gazebo's plugin names and that is not there, or no YAML.
+"""A file of parameters that Gazebo's plugin names and that is not there, not installed, or no YAML.
 
 The plugin gives the file of `<parameters>` to the controller manager that it starts. Without it the
 manager does not start, or knows no controller. When a package is renamed, `$(find …)` is often
@@ -10,6 +10,7 @@ Source: gz_ros2_control, `GazeboSimROS2ControlPlugin::Configure`.
 
 from checker.expand.xacro.files import ROOT
 from checker.model.ros2_control.robot_control import ParametersFile, RobotControl
+from checker.package.installed import left_out, listed
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
 from checker.rule import Concern, Findings, Severity, finding, rule, unchecked
@@ -39,6 +40,11 @@ def check(control: RobotControl, package: Package, papers: Paperwork) -> Finding
                 yield from _elsewhere(file, package, papers)
             elif file.path is not None and not file.exists:
                 yield finding(file.text, f"{_shown(file)} does not exist (looked for {file.path})")
+            elif file.path is not None and file.package:
+                left = left_out(package, *listed(package, file.path))
+                if left is not None:
+                    message = f"{_shown(file)} is not installed: {left.instead}"
+                    yield finding(file.text, message, key=left.around)
 
 
 def _elsewhere(file: ParametersFile, package: Package, papers: Paperwork) -> Findings:
@@ -79,8 +85,17 @@ def _arm(parameters: str) -> dict[str, str]:
 _MARK = "  <!-- ^ R2C006 -->"
 _HERE = "$(find acme_arm_description)/config/control.yaml"
 _SELDOM = "$(find other_arm)/config"
+_BUILD = """project(acme_arm_description)
+install(DIRECTORY config/other urdf DESTINATION share/${PROJECT_NAME}/config)
+ament_package()
+"""
 GOOD = [_arm(f"<parameters>{_HERE}</parameters>")]
 BAD = [
+    {
+        **_arm(f"<parameters>{_HERE}</parameters>{_MARK}"),
+        "CMakeLists.txt": _BUILD,
+        "config/other/a.yaml": "a: 1\n",
+    },
     _arm(f"<parameters>$(find acme_arm_description)/config/none.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/control.yaml</parameters>{_MARK}"),
     _arm(f"<parameters>{_SELDOM}/other.yaml</parameters>{_MARK}"),

@@ -9,7 +9,7 @@ import pytest
 from checker.base.parts import NotAvailable
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
-from checker.package.installed import installed_as, leaves_out, left_out_folder, source_of
+from checker.package.installed import installed_as, left_out, source_of
 from tests.package.conftest import Write
 
 CMAKE = """project(crane)
@@ -65,28 +65,47 @@ setup(data_files=[("share/hoist/urdf", glob("description/urdf/*")), ("share/hois
 """
 
 
+ALONE = "exists in the source alone"
+
+
 @pytest.mark.parametrize(
-    ("build", "path", "left_out", "folder", "target"),
+    ("build", "path", "expected"),
     [
-        (("CMakeLists.txt", AUTO), "description/urdf/crane.xacro", True, "", "urdf/crane.xacro"),
-        (("CMakeLists.txt", AUTO), "urdf/crane.xacro", False, "urdf", ""),
-        (("CMakeLists.txt", AUTO), "notes.txt", True, "", ""),
-        (("CMakeLists.txt", AUTO), "description/parts/hook.xacro", True, "description/parts", ""),
-        (("CMakeLists.txt", f"include(x)\n{AUTO}"), "notes.txt", False, "", ""),
-        (("CMakeLists.txt", f"configure_file(a b)\n{AUTO}"), "notes.txt", False, "", ""),
-        (("CMakeLists.txt", f"set(A notes)\n{AUTO}"), "notes.txt", False, "", ""),
-        (("setup.py", SETUP), "description/parts/hook.xacro", True, "description/parts", ""),
-        (("setup.py", SETUP.replace("[(", "x + [(")), "notes.txt", False, "", ""),
-        (("setup.py", SETUP), "absent.txt", False, "", ""),
+        (
+            ("CMakeLists.txt", AUTO),
+            "description/urdf/crane.xacro",
+            "is installed as urdf/crane.xacro",
+        ),
+        (("CMakeLists.txt", AUTO), "urdf/crane.xacro", None),
+        (("CMakeLists.txt", AUTO), "notes.txt", f"the file {ALONE}"),
+        (
+            ("CMakeLists.txt", AUTO),
+            "description/parts/hook.xacro",
+            f"folder description/parts/ {ALONE}",
+        ),
+        (("CMakeLists.txt", AUTO), "config/a.yaml", None),
+        (("CMakeLists.txt", f"include(x)\n{AUTO}"), "notes.txt", None),
+        (("CMakeLists.txt", f"configure_file(a b)\n{AUTO}"), "notes.txt", None),
+        (("CMakeLists.txt", f"set(A notes)\n{AUTO}"), "notes.txt", None),
+        (("setup.py", SETUP), "description/parts/hook.xacro", f"folder description/parts/ {ALONE}"),
+        (("setup.py", SETUP.replace("[(", "x + [(")), "notes.txt", None),
+        (("setup.py", SETUP), "absent.txt", None),
     ],
 )
 def test_what_is_left_out(
-    write: Write, build: tuple[str, str], path: str, left_out: bool, folder: str, target: str
+    write: Write, build: tuple[str, str], path: str, expected: str | None
 ) -> None:
     files = ("description/urdf/crane.xacro", "description/parts/hook.xacro", "notes.txt", "a.txt")
     texts = {**dict.fromkeys(files, "<robot/>"), "package.xml": "<package/>", build[0]: build[1]}
+    texts["config/a.yaml"] = "a: 1\n"
     with open_input(write({f"crane/{name}": text for name, text in texts.items()}) / "crane") as it:
-        package = it.packages[0]
-        assert leaves_out(package, path) is left_out
-        assert left_out_folder(package, path) == folder
-        assert installed_as(package, path) == target
+        left = left_out(it.packages[0], it.packages[0], path)
+        assert (left is None) is (expected is None)
+        assert left is None or left.instead.endswith(str(expected))
+
+
+def test_where_a_file_is_installed(crane: Path) -> None:
+    with open_input(crane) as opened:
+        package = opened.packages[0]
+        assert installed_as(package, "description/parts/hook.xacro") == "hook.xacro"
+        assert installed_as(package, "package.xml") == ""

@@ -57,6 +57,29 @@ def test_what_is_computed_is_incomplete(given_files: str) -> None:
     assert not setup.complete
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        "files += [('share/arm', ['a'])]",
+        "files.append(('share/arm', ['a']))",
+        "for x in os.walk('meshes'):\n    files.append((x[0], x[2]))",
+        "add_folder(files, 'meshes')",
+        "if True:\n    files = found()",
+    ],
+)
+def test_a_list_that_changes_is_incomplete(change: str) -> None:
+    text = (
+        "name = 'arm'\nfiles = [('share/' + name, ['b'])]\n@\nprint(name)\nsetup(data_files=files)"
+    )
+    plain, changed = (
+        read_setup(SourceText("setup.py", text.replace("@", x))) for x in ("", change)
+    )
+    assert plain is not None
+    assert plain.complete
+    assert changed is not None
+    assert not changed.complete
+
+
 @pytest.mark.parametrize("text", ["", "def setup(:", "print('é')", "x = setup", "\0"])
 def test_what_calls_no_setup_is_none(text: str) -> None:
     assert read(text) is None

@@ -83,3 +83,40 @@ def test_settings_give_arguments(tmp_path: Path, value: str) -> None:
     (package / "urdf/sizes.yaml").write_text(text)
     (package / "subt-check.toml").write_text(f"[xacro-args]\nkind = {value}\n")
     assert judged(package).facts["links"] == 2
+
+
+def test_of_an_argument_without_default_the_first_choice_is_taken(tmp_path: Path) -> None:
+    report = judged(package_with(tmp_path, ", choices=['small', 'large']"))
+    assert (report.facts["links"], report.facts["assumed"]) == (2, "kind:=small")
+    assert not [each for each in report.not_checked if "kind" in each.reason]
+
+
+def test_a_choice_whose_files_are_not_there_gives_way_to_the_next_one(tmp_path: Path) -> None:
+    package = package_with(tmp_path, ", choices=['huge', 'small']")
+    file = package / "urdf/r.urdf.xacro"
+    file.write_text(
+        XACRO.replace("'sizes.yaml'", "'$(arg kind)/sizes.yaml'").replace("['$(arg kind)']", "")
+    )
+    (package / "urdf/small").mkdir()
+    (package / "urdf/sizes.yaml").rename(package / "urdf/small/sizes.yaml")
+    report = judged(package)
+    assert report.facts["assumed"] == "kind:=small"
+    reasons = {skipped.reason for skipped in report.not_checked}
+    (told,) = (reason for reason in reasons if "huge" in reason)
+    assert told.endswith("kind:=small is taken instead")
+
+
+def test_a_launch_file_of_another_package_gives_arguments(tmp_path: Path) -> None:
+    package = package_with(tmp_path)
+    bringup = tmp_path / "acme_bringup"
+    (bringup / "launch").mkdir(parents=True)
+    (bringup / "package.xml").write_text(PACKAGE.replace("acme_description", "acme_bringup"))
+    given = LAUNCH.replace("@", ", default_value='large'")
+    (bringup / "launch/bringup.launch.py").write_text(given)
+    assert judged(package).facts["links"] == 2
+    (package / "launch/view.launch.py").unlink()
+    assert judged(package).facts["links"] == 2
+    (bringup / "launch/bringup.launch.py").write_text(LAUNCH.replace("@", ""))
+    reasons = {skipped.reason for skipped in judged(package).not_checked}
+    (told,) = (reason for reason in reasons if "leaves kind:=…" in reason)
+    assert "../acme_bringup/launch/bringup.launch.py" in told

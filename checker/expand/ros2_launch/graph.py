@@ -39,6 +39,11 @@ class SharePath(Record):
     package: str
     path: str
 
+    @property
+    def whole(self) -> str:
+        """The path below `ROOT`, see `share_path`."""
+        return f"{ROOT}/{self.package}/{self.path}"
+
     def __str__(self) -> str:
         """Return it as a launch file in XML writes it."""
         return f"$(find-pkg-share {self.package})/{self.path}".rstrip("/")

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import (
+    Include,
     LaunchGraph,
     Parameter,
     ParameterFile,
@@ -16,15 +17,14 @@ from checker.expand.ros2_launch.graph import (
     share_path,
 )
 from checker.expand.ros2_launch.package_files import holder_of
-from checker.package.installed import leaves_out, may_be_made, source_of
+from checker.package.installed import may_be_made, source_of
 from checker.package.package import Package
 from checker.source.text import Located, Span
 
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
+_GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
-_GAZEBO_ARGUMENTS = ("gz_args", "ign_args")
-"""Arguments of `gz_sim.launch.py` that hold the words of a command."""
 
 
 class NamedPath(Record, eq=False):
@@ -50,8 +50,8 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
     for include in graph.includes:
         needed = include.starts is True
         yield from _named(include.target.value, include.target.span, needed=needed, include=True)
-        for name, text in include.arguments.items():
-            yield from _in_argument(name, text, needed=needed)
+        if include.reason:
+            yield from _handed_over(include)
     for node in graph.nodes:
         starts = node.starts is True
         shows = node.executable.value in ("rviz", "rviz2", "rqt_gui")
@@ -62,17 +62,17 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
         yield from _in_words(process.words, needed=_starts(process))
 
 
+def _handed_over(include: Include) -> Iterator[NamedPath]:
+    """Yield what a launch file is given that is not read; only Gazebo's certainly opens it."""
+    target = share_path(include.target.value)
+    needed = include.starts is True and target is not None and target.package in _GAZEBO
+    for value in include.arguments.values():
+        for word in value.value.split():
+            yield from _named(word, value.span, needed=needed)
+
+
 def _starts(started: Started) -> bool:
     return started.starts is True
-
-
-def _in_argument(name: str, text: Located[str], *, needed: bool) -> Iterator[NamedPath]:
-    """Yield the files that an included launch file is given; only Gazebo's world is known to be."""
-    if name in _GAZEBO_ARGUMENTS:
-        words = (Located(word, text.span) for word in text.value.split())
-        yield from _in_words(words, needed=needed)
-    else:
-        yield from _named(text.value, text.span, needed=False)
 
 
 def _in_words(words: Iterable[Located[str]], *, needed: bool) -> Iterator[NamedPath]:
@@ -122,9 +122,3 @@ def lies_elsewhere(package: Package, path: SharePath) -> str:
     files = holder.index.files if holder is not None else ()
     found = [file.path for file in files if posixpath.basename(file.path) == name]
     return found[0] if len(found) == 1 else ""
-
-
-def is_left_out(package: Package, path: SharePath) -> bool:
-    """Whether a package at hand has a file, and certainly does not install it there."""
-    holder = holder_of(package, path.package)
-    return holder is not None and leaves_out(holder, path.path)

@@ -19,6 +19,7 @@ _PYTHON = re.compile(r"^def generate_launch_description\b", re.MULTILINE)
 _YAML = re.compile(r"^launch\s{0,8}:", re.MULTILINE)
 _ROS_1 = re.compile(r"""<node\b[^>]{0,1000}\stype\s{0,8}=""")
 _ROS_2 = re.compile(r"""\$\((?:find-pkg-share|var)\s|<node\b[^>]{0,1000}\sexec\s{0,8}=""")
+_WORD = re.compile(r"[\w-]+")
 _CATKIN = re.compile(r"\bcatkin\b")
 _BUILT_BY_AMENT = re.compile(r"\bament_(?:cmake|python)\b|<build_type>\s{0,20}(?:ament_|cmake)")
 
@@ -64,15 +65,21 @@ def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
     Args:
         package: That ought to be named, as in `FindPackageShare("arm_description")`.
     """
-    word = re.compile(rf"(?<![\w-]){re.escape(package.declared_name)}(?![\w-])")
     left = OTHERS_LIMIT
     for other in package.workspace.packages.values() if not package.only else ():
         if other is package:
             continue
-        files = [file for file in launch_files(other) if _holds(other, file, word)][:left]
+        files = [file for file in launch_files(other) if _names(other, file, package)][:left]
         left -= len(files)
         graphs = {file: read_launch(other, file) for file in files}
         yield from ((other, graph) for graph in _outermost(graphs))
+
+
+def _names(holder: Package, file: str, package: Package) -> bool:
+    source, name = holder.read(file), package.declared_name
+    if not isinstance(source, SourceText) or name not in source.text:
+        return False
+    return name in _WORD.findall(source.text)
 
 
 def launch_files(package: Package) -> Iterator[str]:

@@ -39,6 +39,13 @@ class ExpandedText(SourceText, dict=True, kw_only=True):
         pieces = tuple(_pieces(self.plain, origins, self.written))
         return EmittedText(self.file, self.text, origin=self.written.whole(), pieces=pieces)
 
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The files that its elements were written in, as xacro sees them."""
+        files = self.answer["files"]
+        numbers = dict.fromkeys(number for number, _ in self.answer["origins"])
+        return tuple(str(files[number]) for number in numbers if 0 <= number < len(files))
+
     def states_path(self, uri: str) -> bool:
         """Whether a `package://` URI stands for the path of a file, `file://$(find p)/x`."""
         path = f"file://{ROOT}/{uri.removeprefix('package://')}"

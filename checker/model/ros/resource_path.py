@@ -17,9 +17,11 @@ from checker.expand.ros2_launch.graph import (
 )
 from checker.expand.ros2_launch.package_launch import launch_files
 from checker.package.package import Package
-from checker.package.resource_path import VARIABLES, SearchedFolder, mentions, searched_folders
+from checker.package.resource_path import SearchedFolder, mentions, searched_folders, sets_path
 
-_PREFIX = re.compile(rf"(?:{SHARE}-prefix/|\$\(find-pkg-prefix )[\w.-]{{1,200}}\)?/share(?:/|\Z)")
+_PREFIX = re.compile(
+    r"(?:/subt-check-packages-prefix/|\$\(find-pkg-prefix )[\w.-]{1,200}\)?/share(?:/|\Z)"
+)
 """The folder of all share folders, below the prefix that a package is installed in."""
 
 _SETS_NOTHING = ("ros_gz_sim", "ros_gz_bridge", "ros_ign_gazebo", "ros_ign_bridge")
@@ -56,7 +58,7 @@ def resource_path(package: Package, graph: LaunchGraph) -> ResourcePath:
     """
     packages = (package, *(p for p in package.workspace.packages.values() if p is not package))
     folders = [folder for each in packages for folder in searched_folders(each)]
-    changes = [change for change in graph.environment if change.name in VARIABLES]
+    changes = [change for change in graph.environment if sets_path(change.name)]
     folders += (folder for change in changes for folder in _changed(change))
     complete = all(folder.known for folder in folders)
     elsewhere = any(_others_name_it(package, each, graph, changes) for each in packages)
