@@ -68,6 +68,7 @@ bench: .venv/tested $(VIEWER)
 	$(BIN)/python -m bench.uploads --postgres
 	$(PACKAGES) $(BIN)/python -m bench.batch
 	$(PACKAGES) $(BIN)/python -m bench.xacro
+	$(PACKAGES) $(BIN)/python -m bench.repository
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import enum
 import itertools
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
 from msgspec import field
@@ -14,6 +15,9 @@ from checker.base.record import Record
 
 # Readers of mesh files, which run in children, load this module and no robot.
 if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
     from checker.model.components import Collision, Visual
     from checker.model.geometry.shapes import Geometry
     from checker.model.geometry.transform import Vector
@@ -50,7 +54,7 @@ class MeshFault(Record):
     reason: str
 
 
-class Mesh(Record):
+class Mesh(Record, dict=True):
     """What a mesh file holds, in metres: its own unit is honoured, the model's `<scale>` is not.
 
     Attributes:
@@ -95,6 +99,13 @@ class Mesh(Record):
         """Points around the mesh, metres: of its hull; where that is flat, of its box."""
         sides = zip(self.low, self.high, strict=True)
         return self.hull or tuple((x, y, z) for x, y, z in itertools.product(*sides))
+
+    @cached_property
+    def columns(self) -> NDArray[float64]:
+        """The x, the y and the z of its corners (3 × n)."""
+        import numpy as np
+
+        return np.array(self.corners).T.copy()
 
 
 class Meshes(Protocol):

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.model.mesh import Mesh
+from checker.physics.mesh import measure
 from checker.physics.mesh.reader import read_mesh
 from tests.effort import examples
 from tests.mesh.files import Triangle, binary_stl, box, cylinder, dae, obj, text_stl
@@ -142,3 +143,10 @@ def test_a_unit_that_is_none_counts_as_a_metre(meter: str) -> None:
     read = mesh(dae(box(1, 1, 1), asset=f'<unit meter="{meter}"/>'), "a.dae")
     assert read.volume == pytest.approx(1.0)
     assert meter in read.defects[0]
+
+
+def test_corners_whose_numbers_fall_together_stay_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    data = binary_stl(ball(2))
+    known = mesh(data, "a.stl")
+    monkeypatch.setattr(measure, "_MIX", (0, 0, 0))
+    assert mesh(data, "a.stl") == known

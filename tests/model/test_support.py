@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from checker.model.geometry.convex import extent, support
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Transform, Vector
+from checker.model.mesh import Mesh
+from checker.source.text import Located
 from tests.model.robots import sdf
 
 SHAPES = {
@@ -117,3 +119,29 @@ def test_an_extent_is_the_support_both_ways(shape: str, pose: Transform, directi
 @pytest.mark.parametrize("shape", ["mesh", "plane", "heightmap", "empty"])
 def test_what_has_no_known_bounds_has_no_support(shape: str) -> None:
     assert support(geometry(shape, ""), AT_HOME, UP) is None
+
+
+class OneMesh:
+    """A mesh that has no file."""
+
+    def __init__(self, hull: tuple[Vector, ...]) -> None:
+        self.mesh = Mesh("a.stl", "stl", 1, (-1, -1, -1), (1, 1, 1), hull=hull)
+
+    def of(self, uri: Located[str]) -> Mesh:  # noqa: ARG002 - as a `Meshes` has it
+        return self.mesh
+
+
+@given(
+    pose=poses,
+    direction=directions(),
+    few=st.lists(st.tuples(lengths, lengths, lengths), min_size=4, max_size=50).map(tuple),
+)
+def test_a_mesh_of_many_corners_reaches_exactly_as_far_as_the_farthest(
+    pose: Transform, direction: Vector, few: tuple[Vector, ...]
+) -> None:
+    body = geometry("mesh", "<uri>a.stl</uri><scale>0.1 -2 3</scale>")
+    # The same corners again and again are more than are gone through one by one.
+    many = few * 51
+    assert extent(body, pose, direction, OneMesh(many)) == extent(
+        body, pose, direction, OneMesh(few)
+    )

@@ -87,9 +87,17 @@ def _extent_of(mesh: Mesh, geometry: Geometry, local: Vector) -> Extent:
     """Return the extent of a mesh with its `<scale>`, which mirrors where it is negative."""
     # d · (s p) = (s d) · p: one vector is scaled instead of all corners.
     x, y, z = (a * b for a, b in zip(local, _lengths(geometry, "scale"), strict=True))
-    # A list: a generator takes half as long again, and hulls have hundreds of corners.
+    if len(mesh.hull) > _MANY:
+        a, b, c = mesh.columns
+        along = x * a + y * b + z * c
+        return float(along.min()), float(along.max())
+    # A list: a generator takes half as long again.
     reaches = [x * a + y * b + z * c for a, b, c in mesh.corners]
     return min(reaches), max(reaches)
+
+
+_MANY = 200
+"""Corners from which on it pays to load numpy."""
 
 
 def _lengths(geometry: Geometry, name: str) -> tuple[float, ...]:
