@@ -99,7 +99,8 @@ def kind_of(package: Package) -> PackageKind:
     submission = SUBMISSION_NAME.search(package.name) is not None
     if submission or package.exists(SPAWNER) or package.exists("launch/vehicle_topics.launch"):
         return PackageKind.ROBOT
-    if own_model(package) is not None:
+    model = own_model(package)
+    if model is not None and not model.lower().endswith((".urdf", ".urdf.xacro")):
         return PackageKind.BASE_MODEL
     if package.index.with_suffix(".urdf", ".xacro"):
         return PackageKind.URDF_DESCRIPTION

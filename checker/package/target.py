@@ -22,7 +22,7 @@ def usual_profile(package: Package) -> str:
 
     A submission is one by its name, its spawner or its bridges; a package of ROS 2 by its build
     type or its dependencies. A model, a world or a single file is judged as the package around it
-    is; without one, it is Gazebo's.
+    is; without one, it is Gazebo's, even where model.config names a URDF file.
     """
     if package.kind in _SUBMISSIONS:
         return SUBMISSION
@@ -30,7 +30,7 @@ def usual_profile(package: Package) -> str:
     if isinstance(manifest, XmlDocument):
         return _of_manifest(package, manifest)
     around = _usual_around(package)
-    if package.is_urdf:
+    if package.is_urdf and not package.exists("model.config"):
         return around if around in (ROS_1, ROS_2) else ROS_1
     if package.only and around == SUBMISSION:
         return SUBMISSION

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from checker.package.package import Package
 
 _SCHEME = re.compile(r"(?:model|package)://([^/]+)/?(.*)", re.DOTALL)
+_RELATIVE_FILE = re.compile(r"file://([^/].*)", re.DOTALL)
+"""A path on the resource path of Gazebo, which may hold the folder of the model."""
 _ELSEWHERE = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:|/")
 
 
@@ -44,6 +46,9 @@ def path_behind(package: Package, folder: str, uri: str) -> str | Unknown:
     if is_on_fuel(uri):
         on_fuel = path_from_fuel(package, uri)
         return on_fuel or Unknown("is on Fuel, in a model that is not available")
+    beside = _RELATIVE_FILE.match(uri)
+    if beside and package.exists(near := posixpath.normpath(posixpath.join(folder, beside[1]))):
+        return near
     if _ELSEWHERE.match(uri) or not uri:
         return Unknown("is outside the workspace")
     path = posixpath.normpath(posixpath.join(folder, uri))

@@ -32,11 +32,13 @@ def check(masses: MassProperties, *, least: float = 1e-14, relative: float = 1e-
             continue
         moments = ", ".join(f"{abs(moment):.4g}" for moment in inertia.principal)
         alone = body[name] not in sound
+        bound = max(least, relative * inertia.principal[2])
+        expected = f"{bound:.1g} kg·m²" if inertia.principal[0] > 0.0 else "zero"
         tied = "" if alone else "; the link is fixed to links that have inertia"
         yield finding(
             inertia.moments_span,
             f"link {inertia.link.name.value!r} has principal moments of inertia of {moments} kg·m²,"
-            f" expected all above zero{tied}",
+            f" expected all above {expected}{tied}",
             severity=Severity.ERROR if alone else Severity.INFO,
         )
 

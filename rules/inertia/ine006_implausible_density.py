@@ -42,7 +42,7 @@ def check(
         heaviest: Density in kg/m³, for the volume of all collisions of the link, or of all its
             visuals if that is more; more is a warning.
         impossible: Density in kg/m³, for the same volume as for `heaviest`; more is an error,
-            because no metal is so dense.
+            because no metal is so dense, but for the foot of a robot that only stands.
         metal: Density in kg/m³, for the same volume; a whole link that is denser is a warning if
             the rest of the robot is not.
         contrast: How many times denser than the rest of the robot such a link is.
@@ -72,7 +72,7 @@ def check(
             continue
         most = max(collisions[1], visuals[1] if visuals is not None else 0.0)
         if most > 0.0 and inertia.mass / most > heaviest:
-            grave = inertia.mass / most > impossible
+            grave = inertia.mass / most > impossible and not _stands(masses, inertia.link)
             severity = Severity.ERROR if grave else Severity.WARNING
             yield from _say(inertia, most, f"at most {heaviest:g}", severity)
         elif most > 0.0 and inertia.mass / most > max(metal, contrast * others.density(name)):
@@ -132,6 +132,13 @@ def _large(masses: MassProperties, share: float) -> set[str]:
     least = {name: known[0] for name, known in bounds.items() if known is not None}
     total = sum(least.values())
     return {name for name, volume in least.items() if volume > share * total}
+
+
+def _stands(masses: MassProperties, link: Link) -> bool:
+    """Whether a link is the foot of a robot without wheels, made heavy so that it stands."""
+    robot = masses.robot
+    moved = {joint.child.value for joint in robot.joints}
+    return link.name.value not in moved and not robot.locomotion.wheel_drives
 
 
 def _say(

@@ -73,6 +73,7 @@ def _too_high(joint: Joint, axis: Axis, highest: dict[str, float]) -> Iterator[F
                 limit,
                 f"joint {joint.name.value!r} has the {kind} limit {limit.value:g} "
                 f"{_unit(joint)[kind]}, expected at most {highest[kind]:g}",
+                key=f"{kind} {limit.value:g}",
             )
 
 

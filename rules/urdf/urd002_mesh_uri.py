@@ -21,19 +21,24 @@ from checker.source.text import Located
 
 _PACKAGE = re.compile(r"package://([^/]+)/(.*)", re.DOTALL)
 _FETCHED = ("http://", "https://")
+_ABSOLUTE = ("/", "file:///")
 
 
 @rule("URD002", "mesh-uri", Severity.WARNING, Concern.ROBOT)
 def check(package: Package, description: UrdfDescription) -> Findings:
     """Report meshes without `package://`; for RViz, also those that do not exist.
 
-    In a URDF package REF002 reports missing files.
+    In a URDF package REF002 reports missing files. A model folder of Gazebo may have `model://` and
+    relative paths.
     """
+    in_model = package.is_urdf and package.exists("model.config")
     missing: dict[str, list[Located[str]]] = defaultdict(list)
     for uri in description.robot.file_uris:
         if uri.value.startswith(_FETCHED):
             continue
         named = _PACKAGE.match(uri.value)
+        if named is None and in_model and not uri.value.startswith(_ABSOLUTE):
+            continue
         if named is None:
             yield finding(
                 uri,
