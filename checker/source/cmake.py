@@ -111,7 +111,8 @@ class CMakeFile(Record, eq=False):
             items = list(takewhile(lambda word: word not in _KEYWORDS, words[1:]))
             if words[:1] == ["TARGETS"] and name in items:
                 behind = words[words.index("LIBRARY") :] if "LIBRARY" in words else words
-                if "DESTINATION" in behind[:-1]:
+                of_others = behind is words and not {"ARCHIVE", "RUNTIME"}.isdisjoint(words)
+                if "DESTINATION" in behind[:-1] and not of_others:
                     yield behind[behind.index("DESTINATION") + 1]
 
 
