@@ -84,6 +84,19 @@ def test_nothing_puts_the_packages_on_the_path(tmp_path: Path) -> None:
     assert "package.xml of arm_description" in message
 
 
+def test_gazebo_without_its_launch_file_reads_no_package_xml(tmp_path: Path) -> None:
+    started = LAUNCH.replace(
+        "IncludeLaunchDescription(PathJoinSubstitution(\n"
+        "            [FindPackageShare('ros_gz_sim'), 'launch', 'gz_sim.launch.py']))",
+        "ExecuteProcess(cmd=['gz', 'sim', '-r', 'empty.sdf'])",
+    )
+    assert started != LAUNCH
+    files = {"arm_bringup/launch/arm.launch.py": started.replace("BEFORE", "")}
+    (message,) = found(tmp_path, "", files)
+    assert "environment hook" in message
+    assert "package.xml" not in message
+
+
 @pytest.mark.parametrize(
     "before",
     [

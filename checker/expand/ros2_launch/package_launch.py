@@ -66,9 +66,7 @@ def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
         package: That ought to be named, as in `FindPackageShare("arm_description")`.
     """
     left = OTHERS_LIMIT
-    for other in package.workspace.packages.values() if not package.only else ():
-        if other is package:
-            continue
+    for other in package.others if not package.only else ():
         files = [file for file in launch_files(other) if _names(other, file, package)][:left]
         left -= len(files)
         graphs = {file: read_launch(other, file) for file in files}

@@ -75,6 +75,8 @@ class Simulation(Record, eq=False, dict=True):
         worlds: That it loads.
         unknown_worlds: Why the world is not known; empty where no Gazebo is started as well.
         starts_gazebo: Whether it starts Gazebo.
+        reads_exports: Whether Gazebo is told of `<gazebo_ros>` in package.xml, as the launch files
+            of ros_gz_sim do.
     """
 
     graph: LaunchGraph | None
@@ -84,6 +86,7 @@ class Simulation(Record, eq=False, dict=True):
     worlds: tuple[World, ...] = ()
     unknown_worlds: tuple[str, ...] = ()
     starts_gazebo: bool = False
+    reads_exports: bool = False
 
     @property
     def entries(self) -> tuple[BridgeEntry, ...]:
@@ -195,9 +198,8 @@ class _Reader:
 
     def simulation(self, graph: LaunchGraph) -> Simulation:
         bridges = read_bridges(self._package, graph)
-        starts = any(
-            _starts_gazebo(include.target.value) and include.starts for include in graph.includes
-        ) or any(_is_gazebo(process) and process.starts for process in graph.processes)
+        included = any(_starts_gazebo(each.target.value) and each.starts for each in graph.includes)
+        called = any(_is_gazebo(process) and process.starts for process in graph.processes)
         robots, unknown = self._robots(graph)
         # Who asks for the world asks what is behind a bridge.
         worlds, unknown_worlds = self._worlds(graph) if bridges.entries else ([], [])
@@ -208,7 +210,8 @@ class _Reader:
             tuple(unknown),
             tuple(worlds),
             tuple(unknown_worlds),
-            starts,
+            included or called,
+            included,
         )
 
     def _robots(self, graph: LaunchGraph) -> tuple[list[SpawnedRobot], list[str]]:
