@@ -93,6 +93,12 @@ class Package(Record, eq=False, dict=True):
         name = manifest.root.child("name") if isinstance(manifest, XmlDocument) else None
         return (name.text.value if name is not None else "") or self.root.name
 
+    @property
+    def others(self) -> tuple[Package, ...]:
+        """The other packages at hand; what is edited in memory is the same package."""
+        packages = self.workspace.packages.values()
+        return tuple(package for package in packages if package.root != self.root)
+
     @cached_property
     def index(self) -> FileIndex:
         """All files, folders and links."""

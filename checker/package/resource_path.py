@@ -15,6 +15,8 @@ from checker.package.package import Package
 from checker.source.text import Located, SourceText, Span
 from checker.source.xml import XmlDocument
 
+_PLUGINS_NAMED = re.compile(r"\b(?:GZ_SIM|IGN_GAZEBO)_SYSTEM_PLUGIN_PATH\b|\bplugin_path\b")
+"""The path of plugins, and the attribute of `<gazebo_ros>` that adds to it."""
 _NAMED = re.compile(
     r"\b(?:GZ_SIM_RESOURCE_PATH|IGN_GAZEBO_RESOURCE_PATH|SDF_PATH|GZ_FILE_PATH|IGN_FILE_PATH)\b"
 )
@@ -128,3 +130,10 @@ def mentions(package: Package) -> Iterator[Span]:
         if file.path not in known and isinstance(source := package.read(file.path), SourceText):
             for match in _NAMED.finditer(source.text):
                 yield Span(source, *match.span())
+
+
+def names_plugin_path(package: Package) -> bool:
+    """Whether anything in a package names the path on which Gazebo searches plugins."""
+    texts = (package.read(file.path) for file in package.index.with_suffix(*_TEXTS))
+    found = (text.text for text in texts if isinstance(text, SourceText))
+    return any(_PLUGINS_NAMED.search(text) for text in found)

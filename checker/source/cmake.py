@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import takewhile
 
 from checker.base.record import Record
 from checker.source.cmake_calls import Call, evaluate
@@ -102,6 +103,17 @@ class CMakeFile(Record, eq=False):
         calls = self.calls_of("install", "catkin_install_python", AUTO_PACKAGE)
         name = self.project.value if self.project is not None else ""
         return tuple(install for call in calls if (install := _install(call, name)))
+
+    def library_destinations(self, name: str) -> Iterator[str]:
+        """Yield where a library is installed, below the prefix: `lib`; may hold a variable."""
+        for call in self.calls_of("install"):
+            words = [word.value for word in call.arguments]
+            items = list(takewhile(lambda word: word not in _KEYWORDS, words[1:]))
+            if words[:1] == ["TARGETS"] and name in items:
+                behind = words[words.index("LIBRARY") :] if "LIBRARY" in words else words
+                of_others = behind is words and not {"ARCHIVE", "RUNTIME"}.isdisjoint(words)
+                if "DESTINATION" in behind[:-1] and not of_others:
+                    yield behind[behind.index("DESTINATION") + 1]
 
 
 def read_cmake(source: SourceText) -> CMakeFile:

@@ -21,12 +21,18 @@ from collections.abc import Iterator
 
 from checker.expand.ros2_launch.package_files import holder_of
 from checker.expand.xacro.expanded import ExpandedText
+from checker.finding import Fix
 from checker.model.robot import Robot
 from checker.model.ros.resource_path import resource_path
 from checker.model.ros.simulation import Simulations
 from checker.package.package import Package
-from checker.rule import Concern, Findings, Severity, finding, rule
+from checker.rule import Concern, Findings, Safety, Severity, finding, rule
+from checker.source.xml import XmlDocument
+from checker.source.xml_insertion import append_to
 
+_LINE = '<gazebo_ros gazebo_model_path="${prefix}/.."/>'
+_EXPORT = f"{_LINE} in <export> of the package.xml of"
+_HOOK = "an environment hook with prepend-non-duplicate;GZ_SIM_RESOURCE_PATH;share in"
 _NAMED = re.compile(r"(?:package|model)://([^/]+)/.")
 
 
@@ -50,10 +56,19 @@ def check(simulations: Simulations, package: Package) -> Findings:
                 yield finding(
                     deep or spawned.node,
                     f"{uri} is visible in RViz and missing in Gazebo: {reason}; expected "
-                    f'<gazebo_ros gazebo_model_path="${{prefix}}/.."/> in <export> of the '
-                    f"package.xml of {name}",
+                    f"{_EXPORT if simulation.reads_exports else _HOOK} {name}",
                     key=name,
+                    fix=_fix(package, name) if simulation.reads_exports else None,
                 )
+
+
+def _fix(package: Package, name: str) -> Fix | None:
+    """Return what adds the line to the checked package's own manifest."""
+    manifest = package.xml("package.xml") if holder_of(package, name) is package else None
+    export = manifest.root.child("export") if isinstance(manifest, XmlDocument) else None
+    if export is None or any(child.tag == "gazebo_ros" for child in export.children):
+        return None
+    return Fix(Safety.UNSAFE, (append_to(export, [_LINE]),))
 
 
 def _packages(package: Package, robot: Robot) -> dict[str, str]:

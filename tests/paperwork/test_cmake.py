@@ -199,3 +199,29 @@ def test_every_real_file_is_read_without_fault(corpus: Path):
         directories = [item.value for item in file.installs[0].items]
         assert "launch" in directories
         assert all((path.parent / directory).is_dir() for directory in directories)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("install(TARGETS a DESTINATION lib)", ["lib"]),
+        ("install(TARGETS b a ARCHIVE DESTINATION x LIBRARY DESTINATION lib/p)", ["lib/p"]),
+        (
+            "install(TARGETS a RUNTIME DESTINATION bin)\ninstall(TARGETS a DESTINATION y)",
+            ["y"],
+        ),
+        ("install(TARGETS b EXPORT a LIBRARY DESTINATION lib)", []),
+        ("install(FILES a DESTINATION lib)", []),
+        ("install(TARGETS a LIBRARY DESTINATION)", []),
+    ],
+)
+def test_where_a_library_is_installed(text, expected):
+    assert list(read(text).library_destinations("a")) == expected
+
+
+def test_folders_that_ament_auto_installs():
+    text = "project(p)\nament_auto_package(USE_SCOPED INSTALL_TO_SHARE launch urdf OTHER x)"
+    (install,) = read(text).installs
+    assert [item.value for item in install.items] == ["launch", "urdf"]
+    assert (install.kind, install.destination) == ("DIRECTORY", "share/p")
+    assert read("ament_auto_package()").installs == ()

@@ -56,7 +56,7 @@ def resource_path(package: Package, graph: LaunchGraph) -> ResourcePath:
         package: That is checked.
         graph: Of the launch file that starts Gazebo.
     """
-    packages = (package, *(p for p in package.workspace.packages.values() if p is not package))
+    packages = (package, *package.others)
     folders = [folder for each in packages for folder in searched_folders(each)]
     changes = [change for change in graph.environment if sets_path(change.name)]
     folders += (folder for change in changes for folder in _changed(change))

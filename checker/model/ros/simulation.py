@@ -107,6 +107,12 @@ class Simulation(Record, eq=False, dict=True):
         """Whether it starts Gazebo for certain."""
         return any(server.starts for server in self.servers)
 
+    @property
+    def reads_exports(self) -> bool:
+        """Whether Gazebo is told of `<gazebo_ros>` in package.xml, as ros_gz_sim's files do."""
+        includes = self.graph.includes if self.graph is not None else ()
+        return any(is_gazebo_include(include) and include.starts for include in includes)
+
     @cached_property
     def models(self) -> tuple[Robot, ...]:
         """Robots that are spawned, and the models of the world."""

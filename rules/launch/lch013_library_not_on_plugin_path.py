@@ -1,0 +1,97 @@
+"""Gazebo does not find a plugin that a package here builds.
+
+Gazebo looks for the library of a plugin in its own folder and in those of
+`GZ_SIM_SYSTEM_PLUGIN_PATH`; `gz_sim.launch.py` adds the folders of `LD_LIBRARY_PATH`, among them
+`lib`. A library that is installed into `lib/<package>` is in none of them: Gazebo prints one line
+and goes on without the plugin.
+
+It is reported of a robot that a launch file spawns, which starts Gazebo itself, when no hook,
+package.xml, launch file, document or script of the packages at hand names that path.
+
+Fix: install the library into `lib`, or register an environment hook with the line
+`prepend-non-duplicate;GZ_SIM_SYSTEM_PLUGIN_PATH;lib/@PROJECT_NAME@`.
+Source: gz-sim, SystemLoader.cc; ros_gz_sim, gz_sim.launch.py; ros_gz_project_template, hooks.
+"""
+
+from collections.abc import Iterator
+
+from checker.model.components import Plugin
+from checker.model.plugin_library import library_stem
+from checker.model.ros.simulation import Simulation, Simulations
+from checker.package.package import Package
+from checker.package.resource_path import names_plugin_path
+from checker.rule import Concern, Findings, Severity, finding, rule
+
+
+@rule("LCH013", "library-not-on-plugin-path", Severity.WARNING, Concern.INTERFACE)
+def check(simulations: Simulations, package: Package) -> Findings:
+    """Report each library once."""
+    packages = (package, *package.others)
+    named = [
+        (plugin, holder, folder)
+        for simulation in simulations.launched
+        for plugin in _plugins(simulation)
+        for holder in packages
+        for folder in _private_folder(holder, library_stem(plugin.filename.value))
+    ]
+    if not named or any(map(names_plugin_path, packages)):
+        return
+    for plugin, holder, folder in named:
+        yield finding(
+            plugin.filename,
+            f"{plugin.filename.value} is installed into {folder} of {holder.name}, where Gazebo "
+            "does not look: nothing sets GZ_SIM_SYSTEM_PLUGIN_PATH",
+            key=plugin.filename.value,
+        )
+
+
+def _plugins(simulation: Simulation) -> Iterator[Plugin]:
+    """Yield the plugins of what a launch file spawns into a Gazebo of its own."""
+    if simulation.starts_gazebo and not simulation.unread:
+        for spawned in simulation.robots:
+            yield from (p for p in spawned.robot.all_plugins if "/" not in p.filename.value)
+
+
+def _private_folder(package: Package, library: str) -> Iterator[str]:
+    """Yield the folder of its own into which a package installs a library that it builds."""
+    build = package.build
+    if build is None or build.faults:
+        return
+    if any(each.name.value == library and not each.conditional for each in build.libraries):
+        folders = {*build.library_destinations(library)}
+        if folders == {f"lib/{package.declared_name}"}:
+            yield from folders
+
+
+_BUILD = """project(acme_rover_bringup)
+find_package(ament_cmake REQUIRED)
+add_library(acme_drive SHARED src/drive.cpp)
+install(TARGETS acme_drive ARCHIVE DESTINATION lib LIBRARY DESTINATION lib/${PROJECT_NAME})
+install(DIRECTORY config launch urdf DESTINATION share/${PROJECT_NAME})
+ament_package()
+"""
+_URDF = """<robot name="rover">
+  <link name="base_link"/>
+  <gazebo>
+    <plugin filename="acme_drive" name="acme::Drive"/>  <!-- ^ LCH013 -->
+  </gazebo>
+</robot>
+"""
+_PLAIN = _URDF.replace("  <!-- ^ LCH013 -->", "")
+_FILES = {"@bridge": True, "urdf/rover.urdf": _PLAIN, "CMakeLists.txt": _BUILD}
+_HOOK = "prepend-non-duplicate;GZ_SIM_SYSTEM_PLUGIN_PATH;lib/@PROJECT_NAME@\n"
+
+GOOD = [
+    {"@bridge": True},
+    {**_FILES, "hooks/rover.dsv.in": _HOOK},
+    {**_FILES, "CMakeLists.txt": _BUILD.replace("lib/${PROJECT_NAME}", "lib")},
+    {**_FILES, "CMakeLists.txt": _BUILD.replace("acme_drive SHARED", "other SHARED")},
+]
+BAD = [
+    {**_FILES, "urdf/rover.urdf": _URDF},
+    {
+        **_FILES,
+        "urdf/rover.urdf": _URDF,
+        "CMakeLists.txt": _BUILD.replace("ARCHIVE DESTINATION lib LIBRARY ", ""),
+    },
+]
