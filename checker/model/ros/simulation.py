@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
+from itertools import pairwise
 
 from checker.base.cache import Cache
 from checker.base.record import Record
@@ -17,6 +18,7 @@ from checker.expand.ros2_launch.graph import (
     Parameter,
     Ros2Launch,
     is_known,
+    share_path,
     shown,
 )
 from checker.expand.xacro.expansion import Expansions, Wanted
@@ -49,6 +51,7 @@ from checker.model.urdf.description import read_description
 from checker.package.package import Package
 from checker.source.xml import XmlDocument
 
+_SPAWNS = tuple((package, "create") for package in GAZEBO)
 STATE_PUBLISHER = "robot_state_publisher"
 
 
@@ -232,7 +235,7 @@ class _Reader:
     def _robots(self, graph: LaunchGraph) -> tuple[list[SpawnedRobot], list[str]]:
         loaded = [*loaded_descriptions(self._package, graph)]
         robots: list[SpawnedRobot] = []
-        unknown: list[str] = []
+        unknown: list[str] = [*_spawned_otherwise(graph)]
         for node in graph.nodes:
             if node.package.value not in GAZEBO or node.executable.value != "create":
                 continue
@@ -277,6 +280,18 @@ class _Reader:
             return _Described(description.robot, control)
         models = read_sdf(document, ModelIncludes(self._package))
         return _Described(models[0]) if models else f"{path} holds no model"
+
+
+def _spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
+    """Yield what spawns robots of which nothing is known: launch files of Gazebo's, commands."""
+    for include in graph.includes:
+        target = share_path(include.target.value)
+        if target and target.package in GAZEBO and not is_gazebo_include(include):
+            yield f"what {target} spawns is not known"
+    for process in graph.processes:
+        words = [word.value for word in process.words]
+        if any(pair in _SPAWNS for pair in pairwise(words)):
+            yield "what a command spawns is not known"
 
 
 def _given(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:
