@@ -20,7 +20,8 @@ from collections.abc import Iterator
 from checker.base.record import Record
 from checker.model.components import Sensor
 from checker.model.ros.servers import GazeboServer
-from checker.model.ros.simulation import Simulation, Simulations, SpawnedRobot
+from checker.model.ros.simulation import Simulation, Simulations
+from checker.model.ros.spawned import SpawnedRobot
 from checker.model.sdf.world import EMPTY_SYSTEMS, World, holds, sensor_system
 from checker.rule import Concern, Context, Findings, Severity, Where, finding, rule
 
