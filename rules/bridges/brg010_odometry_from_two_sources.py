@@ -16,7 +16,8 @@ from collections.abc import Iterator
 from checker.expand.launch.bridge import Direction
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.model.components import Plugin
-from checker.model.ros.simulation import Simulation, Simulations, SpawnedRobot
+from checker.model.ros.simulation import Simulation, Simulations
+from checker.model.ros.spawned import SpawnedRobot
 from checker.model.ros2_control.controllers import Controller
 from checker.model.ros2_control.launched import spawner_of
 from checker.rule import Concern, Findings, Severity, finding, rule

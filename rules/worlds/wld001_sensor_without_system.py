@@ -3,7 +3,9 @@
 Sensors are data until a system of the world works them out: cameras and lidars need
 `gz-sim-sensors-system`, an IMU `gz-sim-imu-system`. Without it the topic of the sensor does not
 exist, and Gazebo says nothing. By itself, Gazebo loads only physics, user commands and the scene
-broadcaster; who starts the server with a configuration of their own may load more.
+broadcaster, into worlds that name no plugin; who starts the server with a configuration of their
+own may load more there. So it is a warning there, and where a model is not at hand or a plugin is
+not Gazebo's own; elsewhere it is an error.
 
 Fix: add the plugin to the world.
 Source: gz-sim, server.config and the tutorial "Sensors"; gazebosim/docs issue 433.
@@ -17,7 +19,7 @@ from checker.model.sdf.world import World, holds, sensor_system
 from checker.rule import Concern, Context, Findings, Severity, finding, rule
 
 
-@rule("WLD001", "sensor-without-system", Severity.WARNING, Concern.INTERFACE)
+@rule("WLD001", "sensor-without-system", Severity.ERROR, Concern.INTERFACE)
 def check(world: World, context: Context) -> Findings:
     """Report each system that is missing once, with the sensors that need it."""
     missing: dict[str, list[tuple[Robot, Sensor]]] = {}
@@ -25,11 +27,13 @@ def check(world: World, context: Context) -> Findings:
         system = sensor_system(context.release, sensor)
         if system and not holds(world.systems, system):
             missing.setdefault(system, []).append((model, sensor))
+    settled = world.is_settled and not world.takes_server_plugins
     for system, sensors in missing.items():
         library = f"{_prefix(context.release)}-{system}-system"
         yield finding(
             world,
             f"{_named(sensors)} no data: no plugin in world {world.name!r} loads {library}",
+            severity=None if settled else Severity.WARNING,
             key=f"{world.name} {system}",
             related=_here(world, sensors),
         )

@@ -19,11 +19,14 @@ from collections.abc import Iterator
 
 from checker.base.record import Record
 from checker.model.components import Sensor
-from checker.model.plugin_library import is_of_gazebo, library_stem
 from checker.model.ros.servers import GazeboServer
-from checker.model.ros.simulation import Simulation, Simulations, SpawnedRobot
+from checker.model.ros.simulation import Simulation, Simulations
+from checker.model.ros.spawned import SpawnedRobot
 from checker.model.sdf.world import EMPTY_SYSTEMS, World, holds, sensor_system
 from checker.rule import Concern, Context, Findings, Severity, Where, finding, rule
+
+_CONFIGURATIONS = ("GZ_SIM_SERVER_CONFIG_PATH", "IGN_GAZEBO_SERVER_CONFIG_PATH")
+"""Variables that name another choice of systems for worlds that name none."""
 
 
 class _Loaded(Record, eq=False):
@@ -49,11 +52,15 @@ def check(simulations: Simulations, context: Context) -> Findings:
 
 
 def _loaded(simulation: Simulation, release: str) -> Iterator[_Loaded]:
+    changes = simulation.graph.environment if simulation.graph is not None else ()
+    configured = any(change.name in _CONFIGURATIONS for change in changes)
     for server in simulation.servers:
         if server.own_world:
             systems = EMPTY_SYSTEMS | simulation.spawned_systems
             yield _Loaded(server, None, systems)
         for world in server.worlds:
+            if not world.plugins and configured:
+                continue
             systems = world.all_systems(release) | simulation.spawned_systems
             yield _Loaded(server, world, systems)
 
@@ -112,15 +119,11 @@ def _named(sensors: list[Sensor]) -> str:
 def _is_certain(simulation: Simulation, loaded: _Loaded, spawned: SpawnedRobot) -> bool:
     """Whether nothing else can load a system: all is known, and the world makes its own choice."""
     world = loaded.world
-    if world is None or not world.plugins or world.takes_server_plugins:
+    if world is None or not world.is_settled or world.takes_server_plugins:
         return False
-    if world.unknown or simulation.unknown_robots:
-        return False
-    robots = [*world.models, *(each.robot for each in simulation.robots)]
-    stems = [library_stem(plugin.filename.value) for plugin in world.plugins]
     return (
-        all(is_of_gazebo(stem) for stem in stems)
-        and not any(robot.missing_parts or robot.unread_plugins for robot in robots)
+        not simulation.unknown_robots
+        and not any(each.robot.missing_parts for each in simulation.robots)
         and loaded.server.starts is True
         and spawned.node.starts is True
     )
@@ -143,12 +146,22 @@ def _launched(world: str, mark: str = "", gazebo: str = _WORLD) -> dict[str, obj
     return {"@bridge": True, "@launch": {old: new}, "worlds/hall.sdf": world}
 
 
+def _configured(example: dict[str, object]) -> dict[str, object]:
+    """Return the example with systems of the user's own for worlds that name none."""
+    start, imported = "LaunchDescription([\n", "from launch.actions import "
+    variable = f'SetEnvironmentVariable("{_CONFIGURATIONS[0]}", HERE),\n'
+    changes = {start: start + variable, imported: f"{imported}SetEnvironmentVariable, "}
+    launch = example["@launch"]
+    return {**example, "@launch": {**launch, **changes}} if isinstance(launch, dict) else example
+
+
 _MARK = "  # ^ WLD004"
 _ALL = ("physics", "user-commands", "sensors")
 GOOD = [
     _launched(_hall(*_ALL)),
     _launched(_hall(), gazebo='("gz_args", "-g")'),
     _launched(_hall("physics"), gazebo='("gz_args", "-r somewhere.sdf")'),
+    _configured(_launched(_hall())),
 ]
 BAD = [
     _launched(_hall("physics", "user-commands"), _MARK),

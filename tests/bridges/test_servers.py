@@ -119,3 +119,17 @@ def test_services_are_read(tmp_path: Path) -> None:
 
     assert [each.name.value for each in found.bridges.services] == ["/world/hall/control"]
     assert not found.entries
+
+
+@pytest.mark.parametrize(
+    "action",
+    [
+        included("ros_gz_spawn_model.launch.py", '("topic", "robot_description")'),
+        'ExecuteProcess(cmd=["ros2", "run", "ros_gz_sim", "create", "-file", URDF])',
+    ],
+)
+def test_robots_that_are_spawned_otherwise_are_not_known(action: str, tmp_path: Path) -> None:
+    found = started(f"{GAZEBO} {action}", tmp_path)
+
+    assert len(found.robots) == 1
+    assert "spawns is not known" in found.unknown_robots[0]

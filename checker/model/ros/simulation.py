@@ -2,72 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 
 from checker.base.cache import Cache
 from checker.base.record import Record
-from checker.expand.launch.launch_file import Load
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.expand.ros2_launch.bridges.reader import Bridges, loose_bridges, read_bridges
-from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
-from checker.expand.ros2_launch.graph import (
-    LaunchGraph,
-    Node,
-    Parameter,
-    Ros2Launch,
-    is_known,
-    shown,
-)
-from checker.expand.xacro.expansion import Expansions, Wanted
-from checker.expand.xacro.files import local_path
+from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, shown
 from checker.model.robot import Robot
-from checker.model.ros.servers import (
-    GAZEBO,
-    GazeboServer,
-    is_gazebo,
-    is_gazebo_include,
-    read_servers,
-)
+from checker.model.ros.servers import GazeboServer, is_gazebo, is_gazebo_include, read_servers
 from checker.model.ros.simulated_topics import (
     SimulatedTopic,
     is_silent,
     simulated_topics,
     unknown_owner,
 )
+from checker.model.ros.spawned import SpawnedReader, SpawnedRobot
 from checker.model.ros.topics import comparable
-from checker.model.ros2_control.launched import launched_files
-from checker.model.ros2_control.robot_control import (
-    ControlReader,
-    RobotControl,
-    may_be_controlled,
-)
-from checker.model.sdf.includes import ModelIncludes
-from checker.model.sdf.reader import read_sdf
 from checker.model.sdf.world import World, systems_of
-from checker.model.urdf.description import read_description
 from checker.package.package import Package
-from checker.source.xml import XmlDocument
-
-STATE_PUBLISHER = "robot_state_publisher"
-
-
-class SpawnedRobot(Record, eq=False):
-    """A robot that a launch file puts into Gazebo.
-
-    Attributes:
-        robot: The robot.
-        control: Its ros2_control, if it has any.
-        name: In Gazebo; empty when it is not known.
-        node: That spawns it.
-        publisher: The node that publishes its transforms from the same description, if any.
-    """
-
-    robot: Robot
-    control: RobotControl | None
-    name: str
-    node: Node
-    publisher: Node | None
 
 
 class Simulation(Record, eq=False, dict=True):
@@ -201,7 +154,7 @@ class Simulations(Record, eq=False):
 
 
 def simulations(package: Package, launch: Ros2Launch | None, cache: Cache) -> Simulations:
-    """Read what the launch files of a package simulate, those that bridge something.
+    """Read what the launch files of a package simulate, those that start Gazebo or a bridge.
 
     Args:
         package: That is checked.
@@ -209,111 +162,16 @@ def simulations(package: Package, launch: Ros2Launch | None, cache: Cache) -> Si
         cache: Where what xacro makes is kept.
     """
     graphs = launch.entries if launch is not None else ()
-    reader = _Reader(package, cache, graphs)
-    launched = tuple(map(reader.simulation, graphs))
+    reader = SpawnedReader(package, cache, graphs)
+    launched = tuple(_simulation(package, graph, reader) for graph in graphs)
     named = {file for each in launched for file in each.bridges.files}
     return Simulations(launched, Simulation(None, loose_bridges(package, named)))
 
 
-class _Described(Record, eq=False):
-    robot: Robot
-    control: RobotControl | None = None
-
-
-class _Reader:
-    def __init__(self, package: Package, cache: Cache, graphs: Sequence[LaunchGraph]) -> None:
-        self._package = package
-        self._cache = cache
-        self._known: dict[str, _Described | str] = {}
-        self._control = ControlReader(package, launched_files(package, graphs))
-
-    def simulation(self, graph: LaunchGraph) -> Simulation:
-        bridges = read_bridges(self._package, graph)
-        servers = tuple(read_servers(self._package, graph))
-        if not bridges.entries and not servers:
-            return Simulation(graph, bridges)
-        robots, unknown = self._robots(graph)
-        return Simulation(graph, bridges, tuple(robots), tuple(unknown), servers)
-
-    def _robots(self, graph: LaunchGraph) -> tuple[list[SpawnedRobot], list[str]]:
-        loaded = [*loaded_descriptions(self._package, graph)]
-        robots: list[SpawnedRobot] = []
-        unknown: list[str] = []
-        for node in graph.nodes:
-            if node.package.value not in GAZEBO or node.executable.value != "create":
-                continue
-            if node.starts is False:
-                continue
-            given = _given(node, loaded)
-            if not given:
-                unknown.append(f"what {node.executable.value} spawns is not known")
-            for description in given:
-                read = self._robot(description)
-                if isinstance(read, str):
-                    unknown.append(read)
-                else:
-                    publisher, name = _publisher(description, loaded), _name(node, read.robot)
-                    spawned = SpawnedRobot(read.robot, read.control, name, node, publisher)
-                    robots.append(spawned)
-        return robots, unknown
-
-    def _robot(self, description: LoadedDescription) -> _Described | str:
-        if description.unknown:
-            return f"argument {description.unknown[0]!r} of the robot is not known"
-        load = description.load
-        key = f"{load.path} {sorted(load.args.items())}"
-        if key not in self._known:
-            self._known[key] = self._read(load)
-        return self._known[key]
-
-    def _read(self, load: Load) -> _Described | str:
-        path = local_path(self._package, load.path)
-        if path is None:
-            return f"{shown(load.path)} is not at hand"
-        document: object = self._package.xml(path)
-        if load.by_xacro:
-            wanted = [Wanted(path, load.args)]
-            (document,) = Expansions(self._package, wanted, self._cache).outcomes()
-        if not isinstance(document, XmlDocument):
-            return f"{path} cannot be read"
-        if document.root.tag == "robot":
-            description = read_description(document, path, for_rviz=False)
-            controlled = may_be_controlled(description)
-            control = self._control.control(description) if controlled else None
-            return _Described(description.robot, control)
-        models = read_sdf(document, ModelIncludes(self._package))
-        return _Described(models[0]) if models else f"{path} holds no model"
-
-
-def _given(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:
-    """Return the descriptions that a node spawns: its own, or what is published on a topic."""
-    own = [description for description in loaded if description.node is node]
-    words = [word.value for word in node.arguments]
-    if own or "-topic" not in words:
-        return own
-    return [
-        description
-        for description in loaded
-        if _publishes(description) and description.node.starts is not False
-    ]
-
-
-def _publishes(description: LoadedDescription) -> bool:
-    return description.node.executable.value == STATE_PUBLISHER
-
-
-def _publisher(description: LoadedDescription, loaded: list[LoadedDescription]) -> Node | None:
-    """Return the node that publishes transforms of the same file with the same arguments."""
-    same = (each for each in loaded if _publishes(each) and each.load == description.load)
-    return next((each.node for each in same), None)
-
-
-def _name(node: Node, robot: Robot) -> str:
-    """Return the name that a model gets in Gazebo; empty when it is not known."""
-    words = [word.value for word in node.arguments]
-    name = robot.name.value
-    if "-name" in words[:-1]:
-        name = words[words.index("-name") + 1]
-    renamed = any(isinstance(p, Parameter) and p.name == "name" for p in node.parameters)
-    free = "-allow_renaming" in words or "--allow_renaming" in words
-    return name if is_known(name) and not renamed and not free else ""
+def _simulation(package: Package, graph: LaunchGraph, reader: SpawnedReader) -> Simulation:
+    bridges = read_bridges(package, graph)
+    servers = tuple(read_servers(package, graph))
+    if not bridges.entries and not servers:
+        return Simulation(graph, bridges)
+    robots, unknown = reader.robots(graph)
+    return Simulation(graph, bridges, tuple(robots), tuple(unknown), servers)

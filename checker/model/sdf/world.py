@@ -8,7 +8,7 @@ from functools import cached_property
 from checker.base.record import Record
 from checker.base.resources import table
 from checker.model.components import Plugin, Sensor
-from checker.model.plugin_library import library_stem
+from checker.model.plugin_library import is_of_gazebo, library_stem
 from checker.model.robot import Robot
 from checker.model.sdf.includes import IncludeReader, included_model
 from checker.model.sdf.links import read_plugin
@@ -67,6 +67,16 @@ class World(Record, eq=False, dict=True):
         policies = (self.element.child(name) for name in _POLICIES)
         said = (it.child("include_server_config_plugins") for it in policies if it is not None)
         return any(it is not None and it.text.value.lower() in ("1", "true") for it in said)
+
+    @cached_property
+    def is_settled(self) -> bool:
+        """Whether all that it loads is known.
+
+        It names plugins, so that Gazebo adds none; they are Gazebo's own; its models are at hand.
+        """
+        stems = (library_stem(plugin.filename.value) for plugin in self.plugins)
+        whole = not any(model.missing_parts for model in self.models) and not self.unknown
+        return whole and bool(self.plugins) and all(map(is_of_gazebo, stems))
 
     def sensors(self) -> Iterator[tuple[Robot, Sensor]]:
         """Yield the sensors of its models."""

@@ -13,13 +13,19 @@ from checker.source.xml import Element, XmlDocument
 
 _MACRO = "xacro:macro"
 _NAME = re.compile(r"[A-Za-z_][\w.-]{0,100}")
-_PARAMETER = re.compile(r"(?P<block>\*{0,2})(?P<name>[A-Za-z_]\w{0,100})(?P<default>:?=)?")
-_VALUE = re.compile(r"""\^\|?|'[^']{0,500}'|"[^"]{0,500}"|[^\s'"]{1,500}""")
-_PARENTS = ("parent", "parent_link")
-_PREFIXES = ("prefix", "tf_prefix")
+_PARAMETER = re.compile(
+    r"""(?P<block>\*{0,2})(?P<name>[A-Za-z_]\w{0,100})
+    (?::?=(?P<default>(?:\^\|)?(?:'[^']{0,500}'|"[^"]{0,500}"|[^\s'"]{1,500})))?(?:\s+|\Z)""",
+    re.VERBOSE,
+)
+_PARAMETERS_LIMIT = 5000
+"""Characters; real macros have a tenth of that."""
+_FROM_OUTSIDE = "^"
+"""In place of a default: the property of whoever calls."""
 _ORIGIN = "origin"
 WORLD = "world"
 """The link that a macro is hung on; Gazebo holds it in its place."""
+_GIVEN = {"parent": WORLD, "parent_link": WORLD, "prefix": "", "tf_prefix": ""}
 
 
 class MacroCall(Record, eq=False):
@@ -86,29 +92,18 @@ def _call(macro: Element, number: int) -> MacroCall | None:
     """Return the call of a macro; None when it needs what only its user can know."""
     arguments: dict[str, str] = {}
     blocks: list[str] = []
-    rest = (macro.get("params") or "").strip()
-    while rest:
-        parameter = _PARAMETER.match(rest)
+    text, at = (macro.get("params") or "").strip(), 0
+    while at < len(text) <= _PARAMETERS_LIMIT:
+        parameter = _PARAMETER.match(text, at)
         if parameter is None:
             return None
-        rest = rest[parameter.end() :]
-        name = parameter["name"]
-        if parameter["default"]:
-            value = _VALUE.match(rest)
-            if value is None or value.group() == "^":
-                return None
-            rest = rest[value.end() :]
-            if value.group() == "^|" and (fallback := _VALUE.match(rest)):
-                rest = rest[fallback.end() :]
-        elif parameter["block"]:
-            if not name.endswith(_ORIGIN):
-                return None
+        at, name, default = parameter.end(), parameter["name"], parameter["default"]
+        if parameter["block"] and name.endswith(_ORIGIN) and default is None:
             blocks.append(name)
-        elif name in _PARENTS:
-            arguments[name] = WORLD
-        elif name in _PREFIXES:
-            arguments[name] = ""
-        else:
+        elif default is None and name in _GIVEN and not parameter["block"]:
+            arguments[name] = _GIVEN[name]
+        elif default is None or default == _FROM_OUTSIDE:
             return None
-        rest = rest.lstrip()
+    if at < len(text):
+        return None
     return MacroCall(_name(macro), arguments, tuple(blocks), number, macro.span)

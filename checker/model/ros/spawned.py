@@ -1,0 +1,175 @@
+"""The robots that ROS 2 launch files spawn into Gazebo."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from checker.base.cache import Cache
+from checker.base.record import Record
+from checker.expand.launch.launch_file import Load
+from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
+from checker.expand.ros2_launch.graph import (
+    LaunchGraph,
+    Node,
+    Parameter,
+    is_known,
+    share_path,
+    shown,
+)
+from checker.expand.xacro.expansion import Expansions, Wanted
+from checker.expand.xacro.files import local_path
+from checker.model.robot import Robot
+from checker.model.ros.servers import GAZEBO, is_gazebo_include
+from checker.model.ros.transforms import STATE_PUBLISHER
+from checker.model.ros2_control.launched import launched_files
+from checker.model.ros2_control.robot_control import (
+    ControlReader,
+    RobotControl,
+    may_be_controlled,
+)
+from checker.model.sdf.includes import ModelIncludes
+from checker.model.sdf.reader import read_sdf
+from checker.model.urdf.description import read_description
+from checker.package.package import Package
+from checker.source.xml import XmlDocument
+
+_SPAWNS = tuple((package, "create") for package in GAZEBO)
+
+
+class SpawnedRobot(Record, eq=False):
+    """A robot that a launch file puts into Gazebo.
+
+    Attributes:
+        robot: The robot.
+        control: Its ros2_control, if it has any.
+        name: In Gazebo; empty when it is not known.
+        node: That spawns it.
+        publisher: The node that publishes its transforms from the same description, if any.
+    """
+
+    robot: Robot
+    control: RobotControl | None
+    name: str
+    node: Node
+    publisher: Node | None
+
+
+class _Described(Record, eq=False):
+    """A robot as its file describes it."""
+
+    robot: Robot
+    control: RobotControl | None = None
+
+
+class SpawnedReader:
+    """Reads the robots that launch files of a package spawn; each file is read once."""
+
+    def __init__(self, package: Package, cache: Cache, graphs: Sequence[LaunchGraph]) -> None:
+        """Begin with nothing read.
+
+        Args:
+            package: That is checked.
+            cache: Where what xacro makes is kept.
+            graphs: Of its launch files.
+        """
+        self._package = package
+        self._cache = cache
+        self._known: dict[str, _Described | str] = {}
+        self._control = ControlReader(package, launched_files(package, graphs))
+
+    def robots(self, graph: LaunchGraph) -> tuple[list[SpawnedRobot], list[str]]:
+        """Return the robots that a launch file spawns, and why others are not among them."""
+        loaded = [*loaded_descriptions(self._package, graph)]
+        robots: list[SpawnedRobot] = []
+        unknown: list[str] = [*_spawned_otherwise(graph)]
+        for node in graph.nodes:
+            if node.package.value not in GAZEBO or node.executable.value != "create":
+                continue
+            if node.starts is False:
+                continue
+            given = _given(node, loaded)
+            if not given:
+                unknown.append(f"what {node.executable.value} spawns is not known")
+            for description in given:
+                read = self._robot(description)
+                if isinstance(read, str):
+                    unknown.append(read)
+                else:
+                    publisher, name = _publisher(description, loaded), _name(node, read.robot)
+                    spawned = SpawnedRobot(read.robot, read.control, name, node, publisher)
+                    robots.append(spawned)
+        return robots, unknown
+
+    def _robot(self, description: LoadedDescription) -> _Described | str:
+        if description.unknown:
+            return f"argument {description.unknown[0]!r} of the robot is not known"
+        load = description.load
+        key = f"{load.path} {sorted(load.args.items())}"
+        if key not in self._known:
+            self._known[key] = self._read(load)
+        return self._known[key]
+
+    def _read(self, load: Load) -> _Described | str:
+        path = local_path(self._package, load.path)
+        if path is None:
+            return f"{shown(load.path)} is not at hand"
+        document: object = self._package.xml(path)
+        if load.by_xacro:
+            wanted = [Wanted(path, load.args)]
+            (document,) = Expansions(self._package, wanted, self._cache).outcomes()
+        if not isinstance(document, XmlDocument):
+            return f"{path} cannot be read"
+        if document.root.tag == "robot":
+            description = read_description(document, path, for_rviz=False)
+            controlled = may_be_controlled(description)
+            control = self._control.control(description) if controlled else None
+            return _Described(description.robot, control)
+        models = read_sdf(document, ModelIncludes(self._package))
+        return _Described(models[0]) if models else f"{path} holds no model"
+
+
+def _spawned_otherwise(graph: LaunchGraph) -> Iterator[str]:
+    """Yield what spawns robots of which nothing is known: launch files of Gazebo's, commands."""
+    for include in graph.includes:
+        target = share_path(include.target.value)
+        if target and target.package in GAZEBO and not is_gazebo_include(include):
+            yield f"what {target} spawns is not known"
+    for process in graph.processes:
+        words = [word.value for word in process.words]
+        if any(pair in _SPAWNS for pair in pairwise(words)):
+            yield "what a command spawns is not known"
+
+
+def _given(node: Node, loaded: list[LoadedDescription]) -> list[LoadedDescription]:
+    """Return the descriptions that a node spawns: its own, or what is published on a topic."""
+    own = [description for description in loaded if description.node is node]
+    words = [word.value for word in node.arguments]
+    if own or "-topic" not in words:
+        return own
+    return [
+        description
+        for description in loaded
+        if _publishes(description) and description.node.starts is not False
+    ]
+
+
+def _publishes(description: LoadedDescription) -> bool:
+    return description.node.executable.value == STATE_PUBLISHER
+
+
+def _publisher(description: LoadedDescription, loaded: list[LoadedDescription]) -> Node | None:
+    """Return the node that publishes transforms of the same file with the same arguments."""
+    same = (each for each in loaded if _publishes(each) and each.load == description.load)
+    return next((each.node for each in same), None)
+
+
+def _name(node: Node, robot: Robot) -> str:
+    """Return the name that a model gets in Gazebo; empty when it is not known."""
+    words = [word.value for word in node.arguments]
+    name = robot.name.value
+    if "-name" in words[:-1]:
+        name = words[words.index("-name") + 1]
+    renamed = any(isinstance(p, Parameter) and p.name == "name" for p in node.parameters)
+    free = "-allow_renaming" in words or "--allow_renaming" in words
+    return name if is_known(name) and not renamed and not free else ""
