@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 from lxml import html
 from msgspec.structs import replace
 
@@ -15,6 +16,7 @@ from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import PackageReport, Report, ReportedFinding
 from checker.report.robots import robots_of
 from checker.report.text_report import to_text
+from tests.report.html.test_page import HOSTILE, skeleton
 from tests.report.test_trial_text import figure, trial
 
 
@@ -120,3 +122,20 @@ def test_a_part_of_a_robot_that_is_not_in_view_leads_to_no_part_of_another() -> 
     tree = page(replace(PACKAGE, findings=found))
     elements = tree.xpath("//section[@class='finding']/@data-elements")
     assert elements == ["robot/link[wheel]", ""]
+
+
+@pytest.mark.parametrize("text", HOSTILE)
+def test_hostile_names_stay_text(text: str) -> None:
+    def named(name: str) -> PackageReport:
+        further = (facts(name, file=name, not_driven=name), facts(name, drive=name))
+        return replace(PACKAGE, other_robots=further, other_trials=(trial(SLOW, robot=2),))
+
+    assert skeleton(page(named(text))) == skeleton(page(named("harmless")))
+
+
+def test_a_refused_model_has_its_reason_in_its_place() -> None:
+    refused = trial(robot=2, refused="mass is 0")
+    package = replace(PACKAGE, other_trials=(refused,))
+    assert str(robots_of(package)[2].verdict) == "error: MuJoCo refuses the model"
+    assert "mass is 0" in words(page(package).xpath("//details[@id='trial-3']")[0])
+    assert "MuJoCo refuses the model" in to_text(Report((package,), {}), Palette(enabled=False))

@@ -32,6 +32,10 @@ _ALIKE = 0.01
 """Share by which the radii of wheels may differ."""
 
 
+_MOST = 64
+"""Wheels that are put together in pairs; each is compared with all others."""
+
+
 class CommandedWheels(Record, eq=False):
     """What is known of wheels that are turned one by one.
 
@@ -46,14 +50,13 @@ class CommandedWheels(Record, eq=False):
 
 def commanded_wheels(robot: Robot) -> CommandedWheels:
     """Return the wheels that plugins turn one by one, by a speed."""
+    commanded = list(_commanded(robot, _TURNS, "VELOCITY"))
+    if not commanded:
+        return CommandedWheels()
     reader = WheelReader(robot)
-    steering = [joint for joint, _ in _steering(robot)]
-    knuckles = reader.knuckles(steering)
+    knuckles = reader.knuckles(joint for joint, _ in _steering(robot))
     called = {link.scoped_name for link in robot.wheels}
-    named = (
-        (plugin, reader.read(plugin, name, Side.LEFT, knuckles))
-        for plugin, name in _commanded(robot, _TURNS, "VELOCITY")
-    )
+    named = ((plugin, reader.read(plugin, name, Side.LEFT, knuckles)) for plugin, name in commanded)
     turned = {
         wheel.joint: (plugin, wheel)
         for plugin, wheel in named
@@ -97,6 +100,8 @@ def _steering(robot: Robot) -> Iterator[tuple[Joint, Side]]:
 
 def _doubt(wheels: Sequence[Wheel]) -> str:
     """Say why it is not certain how wheels drive the robot; empty where it is."""
+    if len(wheels) > _MOST:
+        return f"it has more than {_MOST} wheels"
     if any(wheel.axis is None or wheel.axis[1] < _ALONG for wheel in wheels):
         return "the axes of its wheels do not all point to the left"
     centres = [wheel.centre for wheel in wheels if wheel.centre is not None]

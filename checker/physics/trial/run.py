@@ -98,7 +98,8 @@ class RobotTrials(Record, eq=False, dict=True):
         if not driven:
             return missing[0]
         first, *others = driven
-        left_out = next((m.reason for m in missing if m.applicable), "")
+        reasons = (each.reason for each in missing if each.applicable)
+        left_out = self._too_many.reason if self._left_out else next(reasons, "")
         return (replace(first, others=left_out), *others)
 
     @cached_property
@@ -133,6 +134,10 @@ class RobotTrials(Record, eq=False, dict=True):
         )
         return frozenset(driven_first[ROBOTS_LIMIT:])
 
+    @property
+    def _too_many(self) -> NotAvailable:
+        return NotAvailable(f"only {ROBOTS_LIMIT} of {len(self.robots)} robots are driven")
+
     @cached_property
     def _first(self) -> Background[Trial] | str:
         return self._started(self.robots[0], thorough=False)
@@ -149,10 +154,8 @@ class RobotTrials(Record, eq=False, dict=True):
     @cached_property
     def _collected(self) -> tuple[Trial | NotAvailable, ...]:
         """The trial of each robot, or why it has none."""
-        count = len(self.robots)
-        too_many = NotAvailable(f"only {ROBOTS_LIMIT} of {count} robots are driven")
         return tuple(
-            too_many if number in self._left_out else self._trial(robot, thorough=False)
+            self._too_many if number in self._left_out else self._trial(robot, thorough=False)
             for number, robot in enumerate(self.robots)
         )
 
