@@ -187,23 +187,31 @@ URDF_MINIMAL: Mapping[str, str] = {
 BRIDGE_NAME = "acme_rover_bringup"
 _LAUNCHED = "launch/rover.launch.py"
 
-BRIDGE_MINIMAL: Mapping[str, str] = {
-    "package.xml": f"""<package format="3">
-  <name>{BRIDGE_NAME}</name>
+
+def _ament(name: str, description: str) -> dict[str, str]:
+    """Return the manifest of a ROS 2 package, and the build that installs its folders."""
+    return {
+        "package.xml": f"""<package format="3">
+  <name>{name}</name>
   <version>1.0.0</version>
-  <description>A rover in Gazebo</description>
+  <description>{description}</description>
   <maintainer email="a@example.org">A</maintainer>
   <license>Apache-2.0</license>
   <buildtool_depend>ament_cmake</buildtool_depend>
   <export><build_type>ament_cmake</build_type></export>
 </package>
 """,
-    "CMakeLists.txt": f"""cmake_minimum_required(VERSION 3.8)
-project({BRIDGE_NAME})
+        "CMakeLists.txt": f"""cmake_minimum_required(VERSION 3.8)
+project({name})
 find_package(ament_cmake REQUIRED)
 install(DIRECTORY config launch urdf DESTINATION share/${{PROJECT_NAME}})
 ament_package()
 """,
+    }
+
+
+BRIDGE_MINIMAL: Mapping[str, str] = {
+    **_ament(BRIDGE_NAME, "A rover in Gazebo"),
     "config/bridge.yaml": """- topic_name: clock
   ros_type_name: rosgraph_msgs/msg/Clock
   gz_type_name: gz.msgs.Clock
@@ -297,22 +305,7 @@ _ROS2_STATE = """        Node(package='robot_state_publisher', executable='robot
              parameters=[{'robot_description': ParameterValue(robot, value_type=str)}]),"""
 
 ROS2_MINIMAL: Mapping[str, str] = {
-    "package.xml": f"""<package format="3">
-  <name>{ROS2_NAME}</name>
-  <version>1.0.0</version>
-  <description>An arm</description>
-  <maintainer email="a@example.org">A</maintainer>
-  <license>Apache-2.0</license>
-  <buildtool_depend>ament_cmake</buildtool_depend>
-  <export><build_type>ament_cmake</build_type></export>
-</package>
-""",
-    "CMakeLists.txt": f"""cmake_minimum_required(VERSION 3.8)
-project({ROS2_NAME})
-find_package(ament_cmake REQUIRED)
-install(DIRECTORY config launch urdf DESTINATION share/${{PROJECT_NAME}})
-ament_package()
-""",
+    **_ament(ROS2_NAME, "An arm"),
     "urdf/arm.urdf.xacro": _ROS2_ARM,
     "config/arm.yaml": "arm:\n  ros__parameters: {rate: 10}\n",
 }

@@ -304,10 +304,15 @@ class Subject(Record, eq=False, dict=True):
         known = () if isinstance(descriptions, NotAvailable) else descriptions
         if not any(may_be_controlled(description) for description in known):
             return {}
-        graphs = () if isinstance(self.ros2_launch, NotAvailable) else self.ros2_launch.entries
-        reader = ControlReader(self.package, launched_files(self.package, graphs))
+        reader = self.control_reader
         controls = ((description.file, reader.control(description)) for description in known)
         return {file: control for file, control in controls if control is not None}
+
+    @cached_property
+    def control_reader(self) -> ControlReader:
+        """Reads ros2_control of the package's robots; each file of parameters once."""
+        graphs = () if isinstance(self.ros2_launch, NotAvailable) else self.ros2_launch.entries
+        return ControlReader(self.package, launched_files(self.package, graphs))
 
     @property
     def launched_controls(self) -> tuple[LaunchedControl, ...] | NotAvailable:
@@ -316,7 +321,7 @@ class Subject(Record, eq=False, dict=True):
             return self.ros2_launch
         controls = () if isinstance(self.descriptions, NotAvailable) else self.robot_controls
         known = () if isinstance(controls, NotAvailable) else controls
-        found = tuple(launched_controls(self.package, self.ros2_launch.entries, known))
+        found = tuple(launched_controls(self.control_reader, self.ros2_launch.entries, known))
         return found or NotAvailable("no launch file spawns a controller", applicable=False)
 
     @property
@@ -472,7 +477,7 @@ class Subject(Record, eq=False, dict=True):
             return NotAvailable("a single file has no launch files", applicable=False)
         launch = self.ros2_launch
         known = None if isinstance(launch, NotAvailable) else launch
-        found = simulations(self.package, known, self.cache)
+        found = simulations(self.package, known, self.cache, self.control_reader)
         if any(each.bridges.is_there or each.starts_gazebo for each in found.all):
             return found
         return NotAvailable("no launch file starts Gazebo or a bridge to it", applicable=False)

@@ -10,7 +10,7 @@ Source: ROS 2, design of clock and time; ros-controls/gz_ros2_control issue 443.
 """
 
 from checker.expand.ros2_launch.bridges.entry import BridgeFaultKind
-from checker.expand.ros2_launch.graph import Node
+from checker.expand.ros2_launch.graph import GAZEBO, Node
 from checker.model.ros.simulation import Simulation, Simulations
 from checker.rule import Concern, Findings, Severity, finding, rule
 
@@ -19,7 +19,6 @@ _CLOCK = "rosgraph_msgs/msg/Clock"
 _MAY_PUBLISH = ("bridge", "clock", "gz", "ign", "sim")
 """Words in the names of programs, of whatever package, that may publish the clock."""
 _KNOWN = ("ros_gz_bridge", "ros_ign_bridge", "ros_gz_image", "ros_ign_image")
-_SPAWNERS = ("ros_gz_sim", "ros_ign_gazebo")
 
 
 @rule("BRG008", "no-clock", Severity.ERROR, Concern.INTERFACE)
@@ -66,7 +65,7 @@ def _may_publish(node: Node) -> bool:
         return True
     if node.package.value in _KNOWN:
         return False
-    if node.package.value in _SPAWNERS:
+    if node.package.value in GAZEBO:
         return node.executable.value != "create"
     return any(word in node.executable.value.lower() for word in _MAY_PUBLISH)
 

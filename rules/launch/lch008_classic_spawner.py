@@ -7,10 +7,8 @@ Fix: use `create` of ros_gz_sim, `Node(package='ros_gz_sim', executable='create'
 Source: gazebo_ros `spawn_entity.py`; ros_gz_sim `create`.
 """
 
-from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, share_path
+from checker.expand.ros2_launch.graph import GAZEBO, LaunchGraph, Ros2Launch, share_path
 from checker.rule import Concern, Findings, Severity, finding, rule
-
-_SIM = ("ros_gz_sim", "ros_ign_gazebo")
 
 
 @rule("LCH008", "classic-spawner-with-gazebo-sim", Severity.WARNING, Concern.INTERFACE)
@@ -31,7 +29,7 @@ def check(launch: Ros2Launch) -> Findings:
 def _starts_gazebo_sim(graph: LaunchGraph) -> bool:
     for include in graph.includes:
         target = share_path(include.target.value)
-        if target is not None and target.package in _SIM and include.starts is True:
+        if target is not None and target.package in GAZEBO and include.starts is True:
             return True
     return False
 

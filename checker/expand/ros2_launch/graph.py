@@ -28,6 +28,10 @@ def is_known(text: str) -> bool:
     return "$(" not in text
 
 
+GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
+"""Packages that start Gazebo, and spawn models in it."""
+
+
 class SharePath(Record):
     """A file or folder below the share folder of a package, as it is installed.
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import (
+    GAZEBO,
     Include,
     LaunchGraph,
     Parameter,
@@ -22,7 +23,6 @@ from checker.package.package import Package
 from checker.source.text import Located, Span
 
 _SUFFIX = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,9}\Z")
-_GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
 _INSIDE = re.compile(r"/subt-check-packages/[\w./+-]{1,400}")
 """A path below `ROOT`."""
 
@@ -65,7 +65,7 @@ def named_paths(graph: LaunchGraph) -> Iterator[NamedPath]:
 def _handed_over(include: Include) -> Iterator[NamedPath]:
     """Yield what a launch file is given that is not read; only Gazebo's certainly opens it."""
     target = share_path(include.target.value)
-    needed = include.starts is True and target is not None and target.package in _GAZEBO
+    needed = include.starts is True and target is not None and target.package in GAZEBO
     for value in include.arguments.values():
         for word in value.value.split():
             yield from _named(word, value.span, needed=needed)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from checker.base.record import Record
 from checker.expand.ros2_launch.graph import (
+    GAZEBO,
     Include,
     LaunchGraph,
     Parameter,
@@ -21,7 +22,6 @@ from checker.package.package import Package
 from checker.source.text import Located, Span
 from checker.source.xml import XmlDocument
 
-GAZEBO = ("ros_gz_sim", "ros_ign_gazebo")
 _STARTS_SERVER = ("gz_sim.launch", "gz_server.launch", "ign_gazebo.launch", "ros_gz_sim.launch")
 _STARTS_WINDOW = "gz_gui.launch"
 """Launch files of Gazebo's own packages that start it; all but the last one load a world."""

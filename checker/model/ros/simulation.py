@@ -19,6 +19,7 @@ from checker.model.ros.simulated_topics import (
 )
 from checker.model.ros.spawned import SpawnedReader, SpawnedRobot
 from checker.model.ros.topics import comparable
+from checker.model.ros2_control.robot_control import ControlReader
 from checker.model.sdf.world import World, systems_of
 from checker.package.package import Package
 
@@ -153,16 +154,19 @@ class Simulations(Record, eq=False):
         return (*self.launched, self.loose)
 
 
-def simulations(package: Package, launch: Ros2Launch | None, cache: Cache) -> Simulations:
+def simulations(
+    package: Package, launch: Ros2Launch | None, cache: Cache, control: ControlReader
+) -> Simulations:
     """Read what the launch files of a package simulate, those that start Gazebo or a bridge.
 
     Args:
         package: That is checked.
         launch: Its launch files.
         cache: Where what xacro makes is kept.
+        control: Reads ros2_control of the robots.
     """
     graphs = launch.entries if launch is not None else ()
-    reader = SpawnedReader(package, cache, graphs)
+    reader = SpawnedReader(package, cache, control)
     launched = tuple(_simulation(package, graph, reader) for graph in graphs)
     named = {file for each in launched for file in each.bridges.files}
     return Simulations(launched, Simulation(None, loose_bridges(package, named)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import pairwise
 
 from checker.base.cache import Cache
@@ -10,6 +10,7 @@ from checker.base.record import Record
 from checker.expand.launch.launch_file import Load
 from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
 from checker.expand.ros2_launch.graph import (
+    GAZEBO,
     LaunchGraph,
     Node,
     Parameter,
@@ -20,9 +21,8 @@ from checker.expand.ros2_launch.graph import (
 from checker.expand.xacro.expansion import Expansions, Wanted
 from checker.expand.xacro.files import local_path
 from checker.model.robot import Robot
-from checker.model.ros.servers import GAZEBO, is_gazebo_include
+from checker.model.ros.servers import is_gazebo_include
 from checker.model.ros.transforms import STATE_PUBLISHER
-from checker.model.ros2_control.launched import launched_files
 from checker.model.ros2_control.robot_control import (
     ControlReader,
     RobotControl,
@@ -65,18 +65,18 @@ class _Described(Record, eq=False):
 class SpawnedReader:
     """Reads the robots that launch files of a package spawn; each file is read once."""
 
-    def __init__(self, package: Package, cache: Cache, graphs: Sequence[LaunchGraph]) -> None:
+    def __init__(self, package: Package, cache: Cache, control: ControlReader) -> None:
         """Begin with nothing read.
 
         Args:
             package: That is checked.
             cache: Where what xacro makes is kept.
-            graphs: Of its launch files.
+            control: Reads ros2_control of its robots.
         """
         self._package = package
         self._cache = cache
         self._known: dict[str, _Described | str] = {}
-        self._control = ControlReader(package, launched_files(package, graphs))
+        self._control = control
 
     def robots(self, graph: LaunchGraph) -> tuple[list[SpawnedRobot], list[str]]:
         """Return the robots that a launch file spawns, and why others are not among them."""

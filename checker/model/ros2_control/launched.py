@@ -181,16 +181,15 @@ class LaunchedControl(Record, eq=False, dict=True):
 
 
 def launched_controls(
-    package: Package, graphs: Sequence[LaunchGraph], controls: tuple[RobotControl, ...]
+    reader: ControlReader, graphs: Sequence[LaunchGraph], controls: tuple[RobotControl, ...]
 ) -> Iterator[LaunchedControl]:
     """Yield what launch files do for ros2_control; those that have nothing to do with it are none.
 
     Args:
-        package: That is checked.
+        reader: Of the files of the package that is checked.
         graphs: Of its launch files.
         controls: ros2_control of its robots.
     """
-    reader = ControlReader(package)
     for graph in graphs:
         launched = LaunchedControl(graph, controls, reader)
         if launched.spawners or launched.managers:
