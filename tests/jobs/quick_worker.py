@@ -2,7 +2,7 @@
 
 Arguments: the fields of `WorkerOptions` as JSON, `store` as a folder, and the file of the log.
 Profiles: `static:2` and `trial:2` take two seconds, `kill:static` and `kill:trial` kill the worker,
-`refused`, `died` and `raises` come out so at once.
+`refused`, `died` and `raises` come out so at once. `static:1 trial:2` is both.
 """
 
 from __future__ import annotations
@@ -50,16 +50,17 @@ def quick_check(
     key = result_key(order, stage)
     if not store.has(key):
         _note(log, f"{stage} {order.name} {os.getpid()}")
-        what, _, detail = order.profile.partition(":")
-        if what == "kill" and detail == stage:
-            os.kill(os.getpid(), signal.SIGKILL)
-        if what == "raises":
-            raise RuntimeError("as a fault of ours would")
-        if what in ("refused", "died"):
-            return Refused(REFUSAL) if what == "refused" else Died(DEATH)
-        if what == stage and not _passed(float(detail), cancelled):
-            _note(log, f"stopped-{stage} {order.name} {os.getpid()}")
-            return Cancelled()
+        for part in order.profile.split():
+            what, _, detail = part.partition(":")
+            if what == "kill" and detail == stage:
+                os.kill(os.getpid(), signal.SIGKILL)
+            if what == "raises":
+                raise RuntimeError("as a fault of ours would")
+            if what in ("refused", "died"):
+                return Refused(REFUSAL) if what == "refused" else Died(DEATH)
+            if what == stage and not _passed(float(detail), cancelled):
+                _note(log, f"stopped-{stage} {order.name} {os.getpid()}")
+                return Cancelled()
         keep(store, key)
     return Checked(key, (PACKAGE,), WORDS)
 

@@ -171,7 +171,7 @@ class TestAKilledWorker:
 
     def test_that_was_only_asleep_finds_its_check_with_another(self, site: Site) -> None:
         asleep = site.worker("asleep", silence_seconds=3)
-        id = site.submit("static:1")
+        id = site.submit("static:1 trial:2")
         site.in_hand(id, Stage.STATIC)
         asleep.send_signal(signal.SIGSTOP)
         site.worker("awake", silence_seconds=3)
