@@ -10,6 +10,7 @@ WORKDIR /source
 COPY constraints.txt ./
 RUN pip install --no-cache-dir -c constraints.txt build hatchling
 COPY pyproject.toml README.md LICENSE NOTICE ./
+COPY scripts scripts
 COPY checker checker
 COPY rules rules
 COPY samples samples
@@ -18,7 +19,7 @@ COPY --from=viewer /source/templates/report/viewer.js templates/report/
 RUN python -m build --wheel --no-isolation \
  && python -m venv --without-pip /opt/subt-check \
  && pip --python /opt/subt-check/bin/python install --no-cache-dir -c constraints.txt \
-    "$(echo dist/*.whl)[service]"
+    "$(echo dist/*.whl)[all]"
 
 FROM python:3.11-slim-bookworm
 # What Pinocchio runs on, and what draws a report's pictures. The distribution mends them under the

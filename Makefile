@@ -17,7 +17,7 @@ VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo dev test test-more test-all viewer lint types format bench picture constraints clean golden
+.PHONY: demo dev docs test test-more test-all viewer lint types format bench picture constraints clean golden
 
 demo: .venv/installed $(VIEWER)
 	@mkdir -p demo
@@ -63,17 +63,19 @@ bench: .venv/tested $(VIEWER)
 	$(PACKAGES) $(BIN)/python bench/trial.py
 	$(PACKAGES) $(BIN)/python -m bench.report
 	$(BIN)/python bench/hostile.py
+	$(BIN)/python -m bench.install
 	$(PACKAGES) $(BIN)/python -m bench.first_findings
 	$(BIN)/python -m bench.uploads
 	$(BIN)/python -m bench.uploads --postgres
 	$(PACKAGES) $(BIN)/python -m bench.batch
 	$(PACKAGES) $(BIN)/python -m bench.xacro
 	$(PACKAGES) $(BIN)/python -m bench.repository
+	$(PACKAGES) $(BIN)/python -m bench.peers
 
 # Reports beside the samples and generated pages: written anew, then read before they are committed.
 golden: .venv/tested $(VIEWER)
 	$(BIN)/pytest -q tests/test_samples.py tests/test_docs.py tests/test_checklist.py \
-	  tests/test_rule_pages.py tests/report --update-golden
+	  tests/test_rule_pages.py tests/engine/test_settings_schema.py tests/report --update-golden
 
 .venv/bin/python:
 	scripts/require venv=python3-venv
@@ -82,7 +84,7 @@ golden: .venv/tested $(VIEWER)
 
 .venv/installed: .venv/bin/python pyproject.toml constraints.txt
 	scripts/require libgomp.so.1=libgomp1
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[service]'
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[all]'
 	@touch $@
 
 .venv/dev: .venv/installed requirements-dev.txt
@@ -92,9 +94,13 @@ golden: .venv/tested $(VIEWER)
 .venv/tested: .venv/dev requirements-all.txt
 	scripts/require ruby=ruby git=git chromium=chromium bwrap=bubblewrap \
 	  "libEGL.so.1=libegl1 libgl1-mesa-dri" libOpenGL.so.0=libopengl0 \
-	  g++=g++ pkg-config=pkg-config sdformat12.pc=libsdformat-dev
+	  zsh=zsh fish=fish g++=g++ pkg-config=pkg-config sdformat12.pc=libsdformat-dev
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-all.txt
 	scripts/schemas $(BIN)/python
+	@touch $@
+
+.venv/documented: .venv/installed requirements-docs.txt
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-docs.txt
 	@touch $@
 
 # The 3D viewer of the HTML report, bundled with three.js from npm.
@@ -103,6 +109,11 @@ viewer: $(VIEWER)
 $(VIEWER): templates/viewer/build templates/viewer/package.json $(wildcard templates/viewer/src/*.js)
 	scripts/require node=nodejs npm=npm
 	templates/viewer/build
+
+# The pages of docs/ as a site with a search, in build/docs; a link between them that is dead fails.
+docs: .venv/documented
+	$(BIN)/sphinx-build -q -W --keep-going docs build/docs
+	@echo "build/docs/index.html"
 
 # The picture in README.md.
 picture: .venv/tested $(VIEWER)

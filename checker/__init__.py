@@ -56,10 +56,15 @@ _MODULES = (
 def __getattr__(name: str) -> Any:
     """Load a name of the API when it is first used."""
     if name not in __all__:
-        raise AttributeError(f"module 'checker' has no attribute {name!r}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     inside = "check_package" if name == "check" else name
     for module in _MODULES:
-        value = vars(import_module(module, "checker")).get(inside)
+        value = vars(import_module(module, __name__)).get(inside)
         if value is not None:
             return value
-    raise AttributeError(f"module 'checker' lacks {name!r}")
+    raise AttributeError(f"module {__name__!r} lacks {name!r}")
+
+
+def __dir__() -> list[str]:
+    """Name what the API has, though little of it is loaded yet."""
+    return sorted(__all__)

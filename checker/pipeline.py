@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import InvalidSettings, UnreadableInput
+from checker.base.extras import PHYSICS
 from checker.base.garbage_collection import collection_put_off
 from checker.base.output import Say, say_nothing
 from checker.base.record import Record
@@ -22,7 +23,7 @@ from checker.base.resources import versions
 from checker.base.words import shortened
 from checker.engine.report_cache import memory_key, recalled, remember
 from checker.finding import Safety
-from checker.package.inputs import open_input, with_package_path
+from checker.package.inputs import Opened, open_input, with_package_path
 from checker.package.package import Package
 from checker.report.report import (
     NotOpened,
@@ -48,13 +49,12 @@ def check_package(path: str | Path, settings: Settings | None = None) -> Report:
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
             own folder, which the report tells among what was not opened.
     """
-    return _report([list(_check_input(Task(Path(path), settings=settings)))])
+    return joined_report([tuple(_check_input(Task(Path(path), settings=settings)))])
 
 
 def check_paths(
     paths: Sequence[Path],
     wishes: Mapping[str, Any],
-    jobs: int = 1,
     say: Say = say_nothing,
     mesh_server: Callable[[], Server] | None = None,
 ) -> Report:
@@ -63,42 +63,47 @@ def check_paths(
     Args:
         paths: What to check.
         wishes: Fields of `Settings` that the command line sets; None leaves them.
-        jobs: Processes.
-        say: Told what takes long when it begins; called in each of the processes.
-        mesh_server: See `Task`; called in each of the processes.
+        say: Told what takes long when it begins.
+        mesh_server: See `Task`.
 
     Raises:
         InvalidSettings: The settings name what does not exist; not raised for those in a package's
             own folder, which the report tells among what was not opened.
     """
-    inputs = [Task(path, wishes=wishes, say=say, mesh_server=mesh_server) for path in paths]
-    tasks = [task for path in inputs for task in _parts(path, jobs)]
-    if jobs > 1 and len(tasks) > 1:
-        from concurrent.futures import ProcessPoolExecutor
+    return joined_report(check_tasks(tasks_of(paths, wishes, say, mesh_server), 1))
 
-        with ProcessPoolExecutor(jobs) as pool:
-            return _report(list(pool.map(_check_or_say_why_not, tasks)))
-    return _report([_check_or_say_why_not(task) for task in tasks])
+
+Checked = tuple[PackageReport | NotOpened, ...]
+"""What comes of one task."""
 
 
 class Task(Record):
-    """What one process does at a time.
+    """What one process does at a time: one package, or an archive with all that it holds.
 
     Attributes:
         path: As the user gave it.
-        only: The one package to check there, by its folder and file; None for all.
+        package: The one to check there; None where it has to be opened first.
         settings: To judge by, instead of those beside the package.
         wishes: Fields of the settings to replace.
         say: Told what takes long.
         mesh_server: Starts what reads the meshes of a package, if it is not to be started as usual.
+        result: Known from the start, as of what cannot be opened.
+        opening: Seconds that it took to open the folder of the package.
     """
 
     path: Path
-    only: tuple[Path, str] | None = None
+    package: Package | None = None
     settings: Settings | None = None
     wishes: Mapping[str, Any] = field(default_factory=dict)
     say: Say = say_nothing
     mesh_server: Callable[[], Server] | None = None
+    result: Checked = ()
+    opening: float = 0.0
+
+    @property
+    def shown(self) -> str:
+        """The path of what is checked as the user would write it."""
+        return self.shown_of(self.package) if self.package else str(self.path)
 
     def settings_for(self, package: Package) -> Settings:
         """Return the settings that judge a package; no search leaves an unpacked archive."""
@@ -111,7 +116,7 @@ class Task(Record):
             folders = chain(inside, folders_above(path.parent))
         return find_settings(folders).overridden(**self.wishes)
 
-    def shown(self, package: Package) -> str:
+    def shown_of(self, package: Package) -> str:
         """Return the package's path as the user would write it."""
         path = self.path.resolve()
         if package.only and path.is_file():
@@ -121,60 +126,123 @@ class Task(Record):
         return str(self.path / package.name)
 
 
-def _parts(task: Task, jobs: int) -> list[Task]:
-    """Part the check of a folder into those of its packages, so that processes can share them."""
+def tasks_of(
+    paths: Sequence[Path],
+    wishes: Mapping[str, Any],
+    say: Say = say_nothing,
+    mesh_server: Callable[[], Server] | None = None,
+) -> list[Task]:
+    """Return what there is to do, in the order of the report; see `check_paths`."""
+    tasks: dict[tuple[Path, str], Task] = {}
+    for path in paths:
+        for task in _tasks_at(Task(path, None, None, wishes, say, mesh_server)):
+            unit = (task.package.root, task.package.only) if task.package else (task.path, "")
+            tasks.setdefault(unit, task)
+    return sorted(tasks.values(), key=lambda task: (task.shown, bool(task.result)))
+
+
+def _tasks_at(task: Task) -> Iterator[Task]:
+    """Part the check of a folder into those of its packages; an archive is opened in its turn."""
+    if not _is_folder(task.path):
+        yield task
+        return
+    started = perf_counter()
     try:
-        if jobs > 1 and task.path.is_dir():
-            with open_input(task.path) as opened:
-                units = [(package.root, package.only) for package in opened.packages]
-                return [replace(task, only=unit) for unit in units]
-    except (UnreadableInput, OSError):
-        pass  # the task that meets it again says so
-    return [task]
+        with open_input(task.path) as opened:
+            opening = perf_counter() - started
+            for package in opened.packages:
+                yield replace(task, package=package, opening=opening)
+            for skipped in _not_opened(task.path, opened):
+                yield replace(task, path=Path(skipped.path), result=(skipped,))
+    except UnreadableInput as error:
+        yield replace(task, result=(_failed(task.path, error),))
 
 
-_Checked = list[PackageReport | NotOpened]
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except OSError:  # such as a name that is too long: said in its turn
+        return False
+
+
+def check_tasks(tasks: Sequence[Task], jobs: int) -> Iterator[Checked]:
+    """Yield what comes of each task, in their order.
+
+    Args:
+        tasks: As `tasks_of` returns them.
+        jobs: Processes.
+
+    Raises:
+        InvalidSettings: See `check_paths`.
+    """
+    if min(jobs, len(tasks)) < 2:
+        for number, task in enumerate(tasks):
+            if number:
+                # The packages before have left what nothing but the collection finds.
+                gc.collect()
+            yield _check_or_say_why_not(task)
+        return
+    from checker.base.process_pool import in_processes
+
+    yield from in_processes(_check_and_collect, tasks, jobs)
+
+
+def _check_and_collect(task: Task) -> Checked:
+    checked = _check_or_say_why_not(task)
+    gc.collect()
+    return checked
+
+
 _PATCHED = 2000
 """Findings whose fixes a report's patch holds; `--fix` makes all."""
 _PROBLEM_LIMIT = 600
 """Characters of what is wrong with settings."""
 
 
-def _check_or_say_why_not(task: Task) -> _Checked:
+def _check_or_say_why_not(task: Task) -> Checked:
+    if task.result:
+        return task.result
     try:
-        return list(_check_input(task))
+        return tuple(_check_input(task))
     except UnreadableInput as error:
-        return [NotOpened(str(task.path), f"{error.reason}; {error.advice}", failed=True)]
+        return (_failed(task.path, error),)
+
+
+def _failed(path: Path, error: UnreadableInput) -> NotOpened:
+    return NotOpened(str(path), f"{error.reason}; {error.advice}", failed=True)
 
 
 def _check_input(task: Task) -> Iterator[PackageReport | NotOpened]:
+    if task.package is not None:
+        yield _checked(task.package, task)
+        return
     started = perf_counter()
     with open_input(task.path) as opened:
-        opening = perf_counter() - started
+        task = replace(task, opening=perf_counter() - started)
         for number, package in enumerate(opened.packages):
-            if task.only in (None, (package.root, package.only)):
-                if number:
-                    # The packages before have left what nothing but the collection finds.
-                    gc.collect()
-                report = _checked(package, task)
-                if isinstance(report, PackageReport):
-                    report = replace(report, timings={"open": opening, **report.timings})
-                yield report
-        for skipped in opened.skipped:
-            yield NotOpened(str(task.path / skipped.name), skipped.reason, failed=False)
+            if number:
+                gc.collect()
+            yield _checked(package, task)
+        yield from _not_opened(task.path, opened)
+
+
+def _not_opened(path: Path, opened: Opened) -> Iterator[NotOpened]:
+    for skipped in opened.skipped:
+        yield NotOpened(str(path / skipped.name), skipped.reason, failed=False)
 
 
 def _checked(package: Package, task: Task) -> PackageReport | NotOpened:
     """Check a package; where its own settings are at fault, the others are checked all the same."""
     try:
-        return _recalled_or_judged(package, task)
+        report = _recalled_or_judged(package, task)
+        return replace(report, timings={"open": task.opening, **report.timings})
     except InvalidSettings as error:
         if task.settings or error.path is None or not error.path.is_relative_to(package.root):
             raise
         file = error.path.relative_to(package.root)
         problem = shortened(error.problem, _PROBLEM_LIMIT)
         reason = f"is not checked, because its settings cannot be used: {file}: {problem}"
-        return NotOpened(task.shown(package), reason, failed=True)
+        return NotOpened(task.shown_of(package), reason, failed=True)
 
 
 def settings_of(path: Path) -> Iterator[Settings]:
@@ -196,7 +264,7 @@ def settings_of(path: Path) -> Iterator[Settings]:
 def _recalled_or_judged(package: Package, task: Task) -> PackageReport:
     """Take the report of a package from the cache while nothing has changed, else check it."""
     started = perf_counter()
-    settings, shown = task.settings_for(package), task.shown(package)
+    settings, shown = task.settings_for(package), task.shown_of(package)
     package = with_package_path(package, settings.package_path)
     cache = Cache(cache_folder()) if settings.cache else NO_CACHE
     # An archive is unpacked into another folder each time.
@@ -222,8 +290,10 @@ def _started_processes(
 ) -> StartedProcesses:
     """Start what loads its libraries while this process loads its own."""
     from checker.physics.mesh.process import are_new, mesh_server
-    from checker.report.scene.processes import StartedProcesses, drawing_process
+    from checker.report.scene.processes import NO_PROCESSES, StartedProcesses, drawing_process
 
+    if not PHYSICS.is_installed:
+        return NO_PROCESSES
     reads = settings.display or (not settings.select and are_new(package, cache))
     return StartedProcesses(
         (start or mesh_server)().start() if reads else None,
@@ -244,7 +314,7 @@ def _with_patch(report: PackageReport, package: Package) -> PackageReport:
     return replace(report, patch=changes, timings=timings)
 
 
-def _report(done: Sequence[_Checked]) -> Report:
+def joined_report(done: Iterable[Checked]) -> Report:
     """Join what was checked; a package that was given twice is reported once."""
     packages: dict[tuple[Path, str], PackageReport] = {}
     not_opened: dict[NotOpened, None] = {}

@@ -50,6 +50,8 @@ class Finding(Record):
         severity: When it differs from the rule's own.
         key: Findings of one rule with one key are one fault in many places.
         fix: Text edits that mend it.
+        covered_by: Ids of more precise rules: where one of them reports the same place, or all
+            related places, at least as gravely, it is the same fault and told once.
     """
 
     places: tuple[Place, ...]
@@ -57,6 +59,7 @@ class Finding(Record):
     severity: Severity | None = None
     key: str = ""
     fix: Fix | None = None
+    covered_by: tuple[str, ...] = ()
 
 
 class Unchecked(Record):
@@ -82,6 +85,7 @@ def finding(
     key: str = "",
     related: Iterable[tuple[Where, str]] = (),
     fix: Fix | None = None,
+    covered_by: tuple[str, ...] = (),
 ) -> Finding:
     """Make a finding.
 
@@ -92,9 +96,11 @@ def finding(
         key: What repeated findings have in common; the message when empty.
         related: Other places, each with a note that says what it has to do with the finding.
         fix: Text edits that mend it.
+        covered_by: Rules that tell the same fault more precisely where they report the same place,
+            or all the related ones.
     """
     others = tuple(replace(_place(other), note=note) for other, note in related)
-    return Finding((_place(where), *others), message, severity, key, fix)
+    return Finding((_place(where), *others), message, severity, key, fix, covered_by)
 
 
 def _place(where: Where) -> Place:
@@ -172,10 +178,11 @@ class Rule(Record, dict=True):
         return self.id, self.name, self.group, f"concern:{self.concern}"
 
     @cached_property
-    def needs(self) -> dict[str, type]:
-        """Parts of the package that the function asks for, by parameter name."""
+    def needs(self) -> dict[str, str]:
+        """Parts of the package that the function asks for: names of types by parameter name."""
         return {
-            name: get_args(hint)[0] if _may_be_none(hint) else hint for name, hint in self._hints
+            name: (get_args(hint)[0] if _may_be_none(hint) else hint).__name__
+            for name, hint in self._hints
         }
 
     @cached_property

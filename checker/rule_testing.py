@@ -21,7 +21,7 @@ with `@` mean:
 - `@reported`: what must be reported where no marker can stand.
 
 The marker `^ SEN005` stands on the line that must be reported. Rules of other distributions are
-tested by the same two functions:
+tested by the same two functions of `subt_check.rule_testing`::
 
     @pytest.mark.parametrize(("rule", "kind", "example"), examples_of(rules_in("acme_rules")))
     def test_example(rule, kind, example, tmp_path):
@@ -37,6 +37,7 @@ from pathlib import Path
 from typing import Any
 
 from checker.base.cache import Cache, cache_folder
+from checker.base.resources import PACKAGE
 from checker.engine.review import run_and_set_aside
 from checker.engine.subject import Subject
 from checker.package.inputs import open_input
@@ -381,7 +382,7 @@ def _base(
 
 
 def _robot(name: str) -> str:
-    return files("checker").joinpath("data", "robots", f"{name}.sdf").read_text("utf-8")
+    return files(PACKAGE).joinpath("data", "robots", f"{name}.sdf").read_text("utf-8")
 
 
 def _changed(text: str, changes: Mapping[str, str]) -> str:
@@ -429,7 +430,7 @@ def check_example(rule: Rule, kind: str, example: Example, folder: Path) -> None
         cache = Cache(cache_folder())
         subject = Subject(opened.packages[0], cache, xacro_args=settings.xacro_args)
         rules = [rule, *_companions(example)]
-        outcome = run_and_set_aside(rules, subject, judge_of(rule, example), settings)
+        outcome = run_and_set_aside(rules, all_rules(), subject, judge_of(rule, example), settings)
         subject.close()
     for skipped in outcome.not_checked:
         if skipped.rule == rule.id and skipped.cause is not Cause.NOT_APPLICABLE:

@@ -7,7 +7,6 @@ in its own folder or in the nearest folder above that has one.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from msgspec.structs import replace
 from checker.base.errors import InvalidSettings
 from checker.base.files import NotReadable
 from checker.base.record import Record
+from checker.base.words import Suggestions
 from checker.finding import Severity
 from checker.model.devices.form import problem_of_device, problem_of_match
 from checker.package.index import normal_path
@@ -51,6 +51,7 @@ class Settings(Record):
         severity: Severity by rule id, where the user wants another.
         options: Options by rule id.
         source: The file they were read from; None for the defaults.
+        commanded: Fields that the command line sets, and no file.
         trial: Whether robots are driven.
         thorough: Whether they are driven again at half the time step.
         cache: Whether results are kept on disk, and taken from there.
@@ -71,6 +72,7 @@ class Settings(Record):
     severity: Mapping[str, Severity] = field(default_factory=dict)
     options: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     source: Path | None = None
+    commanded: tuple[str, ...] = ()
     trial: bool = True
     thorough: bool = False
     cache: bool = True
@@ -90,7 +92,15 @@ class Settings(Record):
     def overridden(self, **changes: Any) -> Settings:
         """Return settings in which those that are not None replace these."""
         wanted = {key: value for key, value in changes.items() if value is not None}
-        return replace(self, profile_chosen=self.profile_chosen or "profile" in wanted, **wanted)
+        chosen = self.profile_chosen or "profile" in wanted
+        commanded = tuple(sorted({*self.commanded, *wanted}))
+        return replace(self, profile_chosen=chosen, commanded=commanded, **wanted)
+
+    def problem(self, name: str, words: str) -> InvalidSettings:
+        """Return what is wrong with a field, blamed on where it is set."""
+        if name in self.commanded:
+            return InvalidSettings(None, f"--{name.replace('_', '-')}: {words}")
+        return InvalidSettings(self.source, words)
 
     def suiting(self, package: Package) -> Settings:
         """Return the settings for what is checked: without a choice, its usual profile counts.
@@ -178,10 +188,12 @@ def _read_toml(path: Path) -> dict[str, Any]:
         raise InvalidSettings(path, source.reason)
     if _DOTTED.search(source.text):
         raise InvalidSettings(path, "has a key of more than 20 parts")
+    import tomllib
+
     try:
         return tomllib.loads(source.text)
     except ValueError as error:
-        raise InvalidSettings(path, f"is not TOML: {error}") from None
+        raise InvalidSettings(path, f"is not valid TOML: {error}") from None
     except RecursionError:
         raise InvalidSettings(path, "is nested too deeply") from None
 
@@ -221,7 +233,7 @@ def parse_settings(content: object, path: Path) -> Settings:
     values: dict[str, Any] = {}
     for key, value in _table("tool.subt-check", content, path).items():
         if key not in _KEYS:
-            raise InvalidSettings(path, f"unknown key {key!r}, expected one of {_list(_KEYS)}")
+            raise InvalidSettings(path, f"unknown key {key!r}{_expected(key, _KEYS)}")
         values[_KEYS[key]] = _convert(key, value, path)
     chosen = "profile" in values
     return replace(Settings(), **values, profile_chosen=chosen, source=path)
@@ -305,7 +317,9 @@ def _package_path(value: Any, path: Path) -> tuple[Path, ...]:
     folders = tuple(_inside("package-path", folder, path, "a folder") for folder in value)
     for folder in folders:
         if not folder.is_dir():
-            raise InvalidSettings(path, f"package-path names {folder.name!r}, which is no folder")
+            raise InvalidSettings(
+                path, f"package-path names {folder.name!r}, which is not a folder"
+            )
     return folders
 
 
@@ -314,7 +328,7 @@ def _xacro_arguments(value: Any, path: Path) -> dict[str, str]:
     arguments: dict[str, str] = {}
     for name, given in _table("xacro-args", value, path).items():
         if not isinstance(given, str | int | float):
-            raise InvalidSettings(path, f"xacro-args.{name} is no text, number or truth value")
+            raise InvalidSettings(path, f"xacro-args.{name} is not a string, number or truth value")
         arguments[name] = str(given).lower() if isinstance(given, bool) else str(given)
     return arguments
 
@@ -347,15 +361,19 @@ def _lies_in(folder: Path, inside: str) -> bool:
 
 def _one_of(key: str, value: Any, choices: Sequence[str], path: Path) -> str:
     if value not in choices:
-        raise InvalidSettings(path, f"{key} is {value!r}, expected one of {_list(choices)}")
+        raise InvalidSettings(path, f"{key} is {value!r}{_expected(value, choices)}")
     return str(value)
+
+
+def _expected(value: object, choices: Iterable[str]) -> str:
+    """Return the end of a message: the word that may be meant, else all that are known."""
+    known = list(choices)
+    word = str(value)[:100].lower().replace("_", "-")
+    near = word if word in known else Suggestions(known).near(word)
+    return f"; did you mean {near!r}?" if near else f", expected one of {', '.join(known)}"
 
 
 def _table(key: str, value: object, path: Path) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise InvalidSettings(path, f"{key} is {value!r}, expected a table")
     return value
-
-
-def _list(words: Iterable[str]) -> str:
-    return ", ".join(words)

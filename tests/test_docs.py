@@ -111,7 +111,9 @@ def test_readme_shows_what_the_command_prints(
 
 
 def test_settings_in_the_documents_are_valid() -> None:
-    (example,) = _code(USAGE, "toml")
+    example, schema = _code(USAGE, "toml")
+    assert schema.startswith("#:schema ")
+    assert (ROOT / schema.partition("v0.1.0/")[2].strip()).is_file()
     settings = parse_settings(tomllib.loads(example), USAGE)
     check_against_rules(settings, all_rules())
     assert settings.options

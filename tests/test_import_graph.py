@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import re
+import runpy
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -23,6 +25,7 @@ HEAVY = {
     "yourdfpy",
 }
 NOT_FOR_HELP = {"httpx", "lxml", "markdown_it", "tree_sitter", "yaml", "rules"} | HEAVY
+MODULE = re.compile(r"(checker|rules)\.(?!html|j2)\w+(\.\w+)*\.?")
 LOOSE = {"__init__", "finding", "pipeline", "rule", "rule_testing", "settings"}
 
 
@@ -72,6 +75,28 @@ def test_nothing_heavy_is_imported_before_it_is_used(folder: str) -> None:
     for path in modules(folder):
         heavy = {module.split(".")[0] for module in imports_when_loaded(path)} & HEAVY
         assert not heavy, f"{path} imports {heavy}"
+
+
+def test_imports_can_be_written_for_the_wheel() -> None:
+    """There, `checker` is called `subt_check`: no string names a module in full."""
+    hook = runpy.run_path(str(ROOT / "scripts/hatch_build.py"))
+    for path in (*modules("checker"), *modules("rules")):
+        code = hook["with_own_imports"](path.read_bytes())
+        tree = ast.parse(code)
+        assert not [
+            name for name in imported(ast.walk(tree)) if name.partition(".")[0] in hook["FOLDERS"]
+        ], path
+        texts = (node.value for node in ast.walk(tree) if isinstance(node, ast.Constant))
+        named = [text for text in texts if isinstance(text, str) and MODULE.fullmatch(text)]
+        assert not named, path
+
+
+def test_an_import_that_binds_a_name_is_refused() -> None:
+    hook = runpy.run_path(str(ROOT / "scripts/hatch_build.py"))
+    with pytest.raises(ValueError, match="write `from checker"):
+        hook["with_own_imports"](b"import checker.rule\n")
+    code = b"if True:\n    from rules.a import (  # from checker\n        b,\n    )\n"
+    assert hook["with_own_imports"](code) == code.replace(b"rules.a", b"subt_check.rules.a")
 
 
 def test_help_loads_no_reader_and_no_rule() -> None:

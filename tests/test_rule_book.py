@@ -18,7 +18,7 @@ BOOK = {
     "MSH": 10,
     "SEN": 28,
     "PLG": 11,
-    "SPW": 13,
+    "SPW": 14,
     "DRV": 13,
     "BAT": 5,
     "BRD": 3,

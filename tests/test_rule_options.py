@@ -102,7 +102,8 @@ def example_of(rule: Rule, number: int, folder: Path) -> Iterator[Callable[..., 
 
         def run(**options: object) -> Outcome:
             settings = Settings(options={rule.id: options}, thorough=True)
-            return run_and_set_aside([rule], subject, judge_of(rule, example), settings)
+            judge = judge_of(rule, example)
+            return run_and_set_aside([rule], all_rules(), subject, judge, settings)
 
         yield run
 

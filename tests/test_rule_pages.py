@@ -15,6 +15,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
+from checker.finding import Place
+from checker.report.report import ReportedFinding
+from checker.report.sarif import help_uri
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.options import told_options
 from checker.rulebook.pages import anchor, escaped, pages, parse_page
@@ -67,6 +70,10 @@ def test_a_rule_is_told_in_full(rule: object) -> None:
     assert found
     assert anchor(wanted) == re.sub(r"[^\w -]", "", heading[3:-1].lower()).replace(" ", "-")
     page = parse_page(wanted.page)
+    reported = ReportedFinding(
+        wanted.id, wanted.name, wanted.severity, wanted.concern, "x", "0", (Place("a"),)
+    )
+    assert help_uri(reported).endswith(f"/{wanted.group}.md#{anchor(wanted)}")
     prose = shown(re.sub(r"(?s)```.*?```", "", section).replace("**", ""))
     for part in (page.title, page.why, page.fix, page.source):
         for paragraph in part.split("\n\n"):

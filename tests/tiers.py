@@ -19,7 +19,7 @@ MARKS: Mapping[str, str] = {
     "browser": "needs Chromium and the viewer that is built",
     "service": "needs a network port, a database server or workers of the service",
     "install": "needs a second installation of the project: a wheel, an image, a hook",
-    "programs": "needs what `make dev` does not install: ruby, git, OpenGL, published schemas",
+    "programs": "needs what `make dev` does not install: ruby, git, zsh, Sphinx, OpenGL, schemas",
     "oracle": "needs other programs that read robots: libsdformat, drake",
     "corpus": "needs real packages",
 }

@@ -198,6 +198,7 @@ POWER = (
         ruby(r"<initial_charge>([\d.]+)<", r"<initial_charge>9\1<"),
         ruby(r"<capacity>([\d.]+)<", r"<capacity>9\1<"),
     ),
+    kind("a figure that is still to be filled in", "SPW014", value("power_load", "TODO")),
     kind("a battery that never drains", "BAT004", value("power_load", "0")),
     kind("a battery that nothing starts", "BAT004", value("start_on_motion", "false")),
     kind("a battery that lasts a minute", "BAT003", value("power_load", "990")),

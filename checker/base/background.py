@@ -114,6 +114,8 @@ class Background(Generic[T]):
                 self._results[key] = result
                 if not isinstance(result, WorkerFailed) and self._work.lasts(result):
                     self._cache.put(self._work.kind, key, answer)
+                else:
+                    self._cache.pass_over(self._work.kind)
             self._unknown = ()
         return self._results
 

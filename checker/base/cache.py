@@ -10,12 +10,13 @@ import hashlib
 import json
 import os
 import re
-import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache as once
 from pathlib import Path
 from typing import Any
+
+from msgspec import field
 
 from checker.base.files import make_folder
 from checker.base.record import Record
@@ -81,6 +82,16 @@ class Cache(Record):
     """
 
     folder: Path | None
+    _passing: list[str] = field(default_factory=list)
+
+    def pass_over(self, kind: str) -> None:
+        """Note that a result is not kept, as of a process that ran out of time."""
+        self._passing.append(kind)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether all results so far would be the same the next time."""
+        return not self._passing
 
     def get(self, kind: str, key: str) -> Any:
         """Return a result as the JSON that was put; None when it is not known."""
@@ -99,6 +110,8 @@ class Cache(Record):
         """Keep a result that JSON can express."""
         if self.folder is None:
             return
+        import tempfile
+
         path = self._path(kind, key)
         with suppress(OSError):
             make_folder(path.parent)

@@ -55,6 +55,8 @@ class Stages:
 
 
 EXIT_CLEAN, EXIT_FINDINGS, EXIT_USAGE, EXIT_CRASH = 0, 1, 2, 3
+EXIT_INTERRUPTED = 130
+"""As a shell has it: 128 and the number of the signal."""
 
 
 def show(text: str) -> None:

@@ -31,8 +31,11 @@ class WorkerFailed(Record):
 
 
 class Parts(Protocol):
-    """Gives the parts of a package by their type."""
+    """Gives the parts of a package by the names of their types.
 
-    def part(self, kind: type) -> Sequence[object] | NotAvailable:
+    By names, so that nobody loads the modules of parts that the package has not.
+    """
+
+    def part(self, kind: str) -> Sequence[object] | NotAvailable:
         """Return the part; several when a file holds several robots."""
         ...

@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import json
-import platform
+import os
+import sys
+from contextlib import suppress
 from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 LIBRARIES = ("mujoco", "pin")
 """What drives the robot and weighs it: figures may differ between versions."""
 UNKNOWN = "unknown"
+PACKAGE = __name__.partition(".")[0]
+"""What this code is imported as: `checker` in a checkout, `subt_check` as the wheel installs it."""
+_IS_INSTALLED = PACKAGE == "subt_check"
+RULES = f"{PACKAGE}.rules" if _IS_INSTALLED else "rules"
+"""The package of our rules."""
+OWN_CODE = ("",) if _IS_INSTALLED else ("", "../rules")
+"""Where the code of the checker and of its rules lies, relative to its package."""
 _CHECKER = Path(__file__).parents[1]
 
 
@@ -19,15 +27,30 @@ _CHECKER = Path(__file__).parents[1]
 def version_of(name: str) -> str:
     """Return the version of an installed distribution without importing it; else `UNKNOWN`.
 
-    Many keys of the cache hold it: `importlib.metadata.version`, which parses all of the same file,
-    takes four times as long.
+    The folder of its metadata is named for it. To load `importlib.metadata` takes longer than all
+    that a cache's key wants to know.
     """
-    try:
-        lines = (metadata.distribution(name).read_text("METADATA") or "").splitlines()
-    except metadata.PackageNotFoundError:
-        return UNKNOWN
-    field = "Version: "
-    return next((line[len(field) :] for line in lines if line.startswith(field)), UNKNOWN)
+    return _versions().get(name.lower().replace("-", "_"), UNKNOWN)
+
+
+@cache
+def _versions() -> dict[str, str]:
+    """Return the versions of all that is installed, what comes first on the path first."""
+    known: dict[str, str] = {}
+    for folder in metadata_folders():
+        name, _, version = folder.name.removesuffix(".dist-info").partition("-")
+        known.setdefault(name.lower().replace(".", "_"), version)
+    return known
+
+
+@cache
+def metadata_folders() -> tuple[Path, ...]:
+    """Return the folders with the metadata of all that is installed."""
+    found: list[Path] = []
+    for place in dict.fromkeys(sys.path):
+        with suppress(OSError), os.scandir(place or ".") as items:
+            found += [Path(item.path) for item in items if item.name.endswith(".dist-info")]
+    return tuple(found)
 
 
 def tool_version() -> str:
@@ -37,7 +60,7 @@ def tool_version() -> str:
 
 def versions() -> dict[str, str]:
     """Return the versions that a result depends on; nothing is imported for it."""
-    known_versions = {"subt-check": tool_version(), "python": platform.python_version()}
+    known_versions = {"subt-check": tool_version(), "python": sys.version.partition(" ")[0]}
     known = {library: version_of(library) for library in LIBRARIES}
     return known_versions | {
         library: number for library, number in known.items() if number != UNKNOWN
@@ -60,6 +83,11 @@ def templates(name: str) -> Path:
 
 
 def beside(name: str) -> Path:
-    """Return a folder that the wheel has below `checker`, and a checkout beside it."""
+    """Return a folder that the wheel has below `subt_check`, and a checkout beside it."""
     installed = _CHECKER / name
     return installed if installed.is_dir() else _CHECKER.parent / name
+
+
+def processors() -> int:
+    """Return the number of processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

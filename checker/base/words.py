@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 
 # Did you mean: the known word that a misspelt one may stand for.
 
@@ -13,12 +13,29 @@ EFFORT = 200_000
 """Comparisons of words in all: some 0.3 s. A file may hold thousands of unknown names."""
 
 
+SLIP = 2
+"""Characters that a slip of the pen adds, leaves out or changes; two change places."""
+
+
+def _is_slip(word: str, known: str) -> bool:
+    if word.casefold() == known.casefold():
+        return True
+    changes = [
+        (word[a:b], known[c:d])
+        for change, a, b, c, d in SequenceMatcher(None, word, known, autojunk=False).get_opcodes()
+        if change != "equal"
+    ]
+    is_small = sum(max(map(len, change)) for change in changes) <= SLIP
+    return is_small and not any(map(str.isdigit, "".join("".join(change) for change in changes)))
+
+
 class Suggestions:
     """Known words, among which misspelt ones are looked up until the effort is used up."""
 
     def __init__(self, known: Iterable[str]) -> None:
         self._known = tuple(dict.fromkeys(known))
         self._found: dict[str, str | None] = {}
+        self._sure: dict[str, str | None] = {}
         self._effort = EFFORT
 
     def near(self, word: str) -> str | None:
@@ -28,6 +45,17 @@ class Suggestions:
             matches = get_close_matches(word[:200], self._known, n=1, cutoff=0.8)
             self._found[word] = matches[0] if matches else None
         return self._found.get(word)
+
+    def sure(self, word: str) -> str | None:
+        """Return the one known word that another is a slip of the pen for; None if several may be.
+
+        A fix writes it: at most `SLIP` characters differ, and no digit, which tells parts apart.
+        """
+        if word not in self._sure and self.near(word) is not None:
+            matches = get_close_matches(word[:200], self._known, n=len(self._known), cutoff=0.8)
+            slips = [known for known in matches if _is_slip(word, known)]
+            self._sure[word] = slips[0] if len(slips) == 1 else None
+        return self._sure.get(word)
 
     def hint(self, word: str) -> str:
         """Return the end of a message: `; did you mean 'wheel'?`, or nothing."""
@@ -71,4 +99,4 @@ def plain(text: str) -> str:
 
 def shortened(text: str, limit: int) -> str:
     """Return a text, or its beginning with an ellipsis when it is longer than `limit`."""
-    return text if len(text) <= limit else text[: limit - 1] + "…"
+    return str(text) if len(text) <= limit else text[: limit - 1] + "…"

@@ -11,7 +11,7 @@ from importlib import import_module
 from io import TextIOWrapper
 from types import ModuleType
 
-from checker.base.output import EXIT_CLEAN, EXIT_CRASH, EXIT_USAGE
+from checker.base.output import EXIT_CLEAN, EXIT_CRASH, EXIT_INTERRUPTED, EXIT_USAGE
 from checker.cli.arguments import EXITS
 
 COMMANDS = {
@@ -25,9 +25,10 @@ COMMANDS = {
     "doctor": "test whether everything works on this machine; exit code 1 if not",
     "rule": "explain a rule",
     "rules": "list all rules",
+    "completion": "print what completes the command in bash, zsh or fish",
 }
 """What each command does; its module has the same name."""
-_MODULES = {"doctor": "doctor.command"}
+_MODULES = {"check": "check.command", "doctor": "doctor.command"}
 
 
 def build_parser(wanted: Collection[str] = tuple(COMMANDS)) -> argparse.ArgumentParser:
@@ -54,11 +55,19 @@ def build_parser(wanted: Collection[str] = tuple(COMMANDS)) -> argparse.Argument
 
 def _module(command: str) -> ModuleType:
     """Load what a command needs, and no more: a doctor works where a library is missing."""
-    return import_module(f"checker.cli.{_MODULES.get(command, command)}")
+    return import_module(f"{__name__}.{_MODULES.get(command, command)}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code; no traceback ever reaches the user."""
+    try:
+        return _run(arguments)
+    except KeyboardInterrupt:
+        print("subt-check: interrupted", file=sys.stderr)
+        return EXIT_INTERRUPTED
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words and words[0] not in (*COMMANDS, "-h", "--help", "--version"):
         words.insert(0, "check")
@@ -101,9 +110,6 @@ def _guarded(options: argparse.Namespace) -> int:
         return int(_module(options.command).run(options))
     except CheckerError as error:
         print(f"subt-check: {plain(shortened(str(error), 900))}", file=sys.stderr)
-        return EXIT_USAGE
-    except KeyboardInterrupt:
-        print("subt-check: interrupted", file=sys.stderr)
         return EXIT_USAGE
     except Exception as error:
         if os.environ.get("SUBT_CHECK_DEBUG"):

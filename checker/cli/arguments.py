@@ -9,13 +9,14 @@ PROFILES = (
     "ros2",
 )
 DISTROS = ("humble", "iron", "jazzy", "kilted", "lyrical", "rolling")
-FORMAT_NAMES = ("text", "json", "sarif", "github", "junit", "markdown", "html")
+FORMAT_NAMES = ("text", "concise", "json", "sarif", "github", "junit", "markdown", "html")
 
 EXITS = """exit codes:
-  0  nothing at or above --fail-on
-  1  findings at or above --fail-on
-  2  wrong usage, or input that cannot be read
-  3  a rule could not run because of the checker itself
+  0    nothing at or above --fail-on
+  1    findings at or above --fail-on
+  2    wrong usage, or input that cannot be read
+  3    a rule could not run because of the checker itself
+  130  interrupted (Ctrl-C)
 """
 
 
@@ -40,9 +41,9 @@ def add_data(parser: argparse.ArgumentParser) -> None:
 def argument(text: str) -> tuple[str, str]:
     """Return an argument of xacro, written `name:=value`."""
     name, assigned, value = text.partition(":=")
-    if not name or not assigned:
+    if not name.strip() or not assigned:
         raise argparse.ArgumentTypeError(f"{text!r} is not an argument, expected name:=value")
-    return name, value
+    return name.strip(), value
 
 
 def above_zero(text: str) -> float:
@@ -59,14 +60,6 @@ def above_zero(text: str) -> float:
 def ids(text: str) -> tuple[str, ...]:
     """Return words with commas between."""
     return tuple(word.strip() for word in text.split(",") if word.strip())
-
-
-def xacro_argument(text: str) -> tuple[str, str]:
-    """Read an argument for xacro files."""
-    name, assigned, value = text.partition(":=")
-    if not assigned or not name.strip():
-        raise argparse.ArgumentTypeError(f"{text!r} is not of the form name:=value")
-    return name.strip(), value
 
 
 def positive(text: str) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import posixpath
 import re
 from collections.abc import Callable, Sequence
@@ -10,18 +11,24 @@ from pathlib import Path
 
 from checker.base.cache import NO_CACHE, Cache, cache_folder
 from checker.base.errors import CheckerError
+from checker.base.extras import PHYSICS
 from checker.base.output import EXIT_CLEAN, say_progress, show, write
-from checker.base.parts import NotAvailable
+from checker.base.parts import NotAvailable, WorkerFailed
 from checker.base.record import Record
 from checker.base.words import plain, shortened
-from checker.convert.mjcf_files import meshes_apart, mjcf_of, scene_of_trial
+from checker.convert.mjcf_files import controls_of, meshes_apart, mjcf_of, scene_of_trial
 from checker.convert.sdf_to_urdf import converted_to_urdf
 from checker.convert.xml_writer import document_text
 from checker.engine.subject import Subject
 from checker.model.robot import Robot
 from checker.package.inputs import open_input
 from checker.package.package import Package
+from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.mesh.uris import MeshFile, file_behind
+from checker.physics.trial.recording import Recording, recorded
+from checker.physics.trial.run import TIMESTEP
+from checker.report.scene.builder import scene_of
+from checker.report.scene.mesh_files import MeshFiles, NoSurfaces
 
 _MODEL = re.compile(r"(?:model|package)://")
 _SUFFIXES = {"urdf": ".urdf", "mjcf": ".xml"}
@@ -43,20 +50,22 @@ class Exported(Record):
     notes: Sequence[str] = ()
 
 
-def export(path: Path, form: str, output: Path | None, *, cached: bool = True) -> int:
+def export(path: Path, form: str, output: str = "", *, cached: bool = True) -> int:
     """Write the robot of one package in another format; return the exit code.
 
     Args:
         path: Package, archive or model file.
         form: `urdf` or `mjcf`.
-        output: A file, or a folder, which then also gets the meshes of an MJCF; the standard
-            output when None.
+        output: A file; or, if it exists or ends with `/`, a folder, which then also gets the meshes
+            of an MJCF and the commands of its trial. It is made if need be. The standard output
+            when empty.
         cached: Whether meshes may come from the cache.
 
     Raises:
         CheckerError: There is not one robot at the path, or nothing can be written.
     """
-    folder = output if output is not None and output.is_dir() else None
+    target = Path(output)
+    folder = target if output.endswith(("/", os.sep)) or (output and target.is_dir()) else None
     done = exported(path, form, apart=folder is not None, cached=cached)
     for note in done.notes:
         say_progress(plain(shortened(note, 400)))
@@ -64,8 +73,8 @@ def export(path: Path, form: str, output: Path | None, *, cached: bool = True) -
         for beside, text in done.files:
             write(folder / beside, text)
         write(folder / f"{done.name}{_SUFFIXES[form]}", done.text)
-    elif output is not None:
-        write(output, done.text)
+    elif output:
+        write(target, done.text)
     else:
         show(done.text)
     return EXIT_CLEAN
@@ -103,19 +112,35 @@ def _exported(
         raise CheckerError(f"{path} has no robot to write: {robots.reason}")
     robot = robots[0]
     if form == "mjcf":
-        return _as_mjcf(path, package, robot, apart=apart)
+        return _as_mjcf(path, package, robot, subject.cache, apart=apart)
     done = converted_to_urdf(robot, mesh_uri=package_uris(package, robot))
     return Exported(_name(package), document_text(done.tree), notes=done.notes)
 
 
-def _as_mjcf(path: Path, package: Package, robot: Robot, *, apart: bool) -> Exported:
-    scene = scene_of_trial(robot)
+def _as_mjcf(path: Path, package: Package, robot: Robot, cache: Cache, *, apart: bool) -> Exported:
+    scene, plan = scene_of_trial(robot)
     if scene.unusable:
         raise CheckerError(f"{path} cannot be written as MJCF: {scene.unusable}")
-    tree = mjcf_of(robot, scene)
+    notes = [f"{repair.part} {repair.what}" for repair in scene.repairs]
+    recording = recorded(scene, plan, TIMESTEP, cache)
+    trouble = recording.reason if isinstance(recording, WorkerFailed) else recording.refused
+    if isinstance(recording, WorkerFailed) or trouble:
+        recording = Recording()
+        notes.append(f"without gains and keyframes, because the trial ended: {trouble}")
+    if plan.belts:
+        notes.append(
+            "MJCF has no actuator for belts: set geom_surfacevel to the speed in the .controls.csv "
+            "times 1e9 times what the .xml states"
+        )
+    meshes = robot.meshes
+    surfaces = MeshFiles(meshes) if isinstance(meshes, PackageMeshes) else NoSurfaces()
+    shown = scene_of(robot, None, surfaces, marked=False)
+    tree = mjcf_of(robot, scene, plan, recording, shown)
+    name = _name(package)
     files = list(meshes_apart(tree)) if apart else []
-    repairs = [f"{repair.part} {repair.what}" for repair in scene.repairs]
-    return Exported(_name(package), document_text(tree), files, (*repairs, *scene.notes))
+    if apart and recording.commands:
+        files.append((f"{name}.controls.csv", controls_of(tree, scene, plan, recording)))
+    return Exported(name, document_text(tree), files, (*notes, *scene.notes, *shown.notes))
 
 
 def _name(package: Package) -> str:
@@ -162,12 +187,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--output",
         metavar="FILE",
-        help="output file; or, for MJCF, a folder for the scene and its meshes",
+        help="output file; or DIR/, a folder for the scene and its meshes, made if it is not there",
     )
     parser.add_argument("--no-cache", action="store_true", help="do not use the cache")
 
 
 def run(options: argparse.Namespace) -> int:
     """Write a package's robot in another format."""
-    output = Path(options.output) if options.output else None
+    PHYSICS.needed_by("export")
+    output = options.output or ""
     return export(Path(options.path), options.format, output, cached=not options.no_cache)

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from checker.base.extras import PHYSICS
 from checker.base.output import Say, say_nothing, say_progress, show
-from checker.base.words import plain, shortened
+from checker.base.words import count, plain, shortened
 from checker.cli.arguments import above_zero, add_exit_codes, argument, ids
 from checker.cli.exit_code import exit_code
 from checker.migrate.migration import Migrated, migrate
@@ -17,7 +18,7 @@ from checker.migrate.options import MigrationOptions
 from checker.pipeline import check_paths
 from checker.report.render_settings import Palette
 from checker.report.report import PackageReport, Report
-from checker.report.text_report import to_text
+from checker.report.text_report import verdict_text
 
 _LINE_LIMIT = 400
 """Characters of a note."""
@@ -49,7 +50,7 @@ def migrated_and_checked(
     migrated = migrate(source, destination, wishes)
     report = check_paths([migrated.folder], check_wishes, say=say)
     (package,) = report.packages
-    verdict = to_text(report, Palette(enabled=False)).splitlines()[-1]
+    verdict = verdict_text(package, Palette(enabled=False))
     return "\n".join([*_lines(migrated, package), verdict, ""]), report
 
 
@@ -63,6 +64,7 @@ def _lines(migrated: Migrated, package: PackageReport) -> Iterator[str]:
         more = f" (and {len(finding.places) - 1} more)" if len(finding.places) > 1 else ""
         lines.append(f"{finding.severity} {finding.rule} {place}: {finding.message}{more}")
     yield from _listed(f"found by subt-check {plain(str(migrated.folder))}", lines)
+    yield from _listed(f"to fill in ({count(len(migrated.to_do), 'TODO')})", migrated.to_do)
 
 
 def _listed(title: str, lines: tuple[str, ...] | list[str]) -> Iterator[str]:
@@ -75,7 +77,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what the command takes."""
     add_exit_codes(parser)
     parser.add_argument("source", metavar="SOURCE", help="a description package, or a URDF file")
-    parser.add_argument("destination", metavar="DEST", help="a new or empty folder")
+    parser.add_argument("destination", metavar="DEST", help="a workspace, or a new folder")
     parser.add_argument(
         "--organization",
         metavar="NAME",
@@ -118,6 +120,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Make a package of a description, check it, and say what is left to do."""
+    PHYSICS.needed_by("migrate")
     wishes = MigrationOptions(
         options.organization,
         options.robot,

@@ -9,6 +9,7 @@ from typing import Any
 
 from checker.base.errors import CheckerError
 from checker.base.output import EXIT_CLEAN, show
+from checker.cli.rules import rule_line
 from checker.engine.options import no_such_rule
 from checker.rule import Rule
 from checker.rulebook.discovery import all_rules
@@ -94,15 +95,21 @@ def _indented(text: str) -> str:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add what the command takes."""
-    parser.add_argument("id", help="id or name, such as SEN005 or lidar-scan-resolution")
+    parser.add_argument(
+        "id", help="id or name, such as SEN005 or lidar-scan-resolution; SEN lists a group"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Print a rule's page."""
     wanted, rules = options.id, all_rules()
     rule = next((r for r in rules if wanted.upper() == r.id or wanted.lower() == r.name), None)
-    if rule is None:
+    if rule is not None:
+        show(page_text(rule) + "\n")
+        return EXIT_CLEAN
+    begun = [rule for rule in rules if wanted and rule.id.startswith(wanted.upper())]
+    if not begun:
         known = [name for rule in rules for name in (rule.id, rule.name)]
         raise CheckerError(no_such_rule(wanted, known))
-    show(page_text(rule) + "\n")
+    show("".join(map(rule_line, begun)))
     return EXIT_CLEAN

@@ -25,10 +25,14 @@ def run(options: argparse.Namespace) -> int:
         listed = [_as_dict(rule) for rule in all_rules()]
         show(json.dumps(listed, indent=2) + "\n")
         return EXIT_CLEAN
-    for rule in all_rules():
-        title = parse_page(rule.page).title
-        show(f"{rule.id}  {rule.severity:<7}  {rule.concern:<11}  {rule.name:<32}  {title}\n")
+    show("".join(map(rule_line, all_rules())))
     return EXIT_CLEAN
+
+
+def rule_line(rule: Rule) -> str:
+    """Return what a list of rules says of one."""
+    title = parse_page(rule.page).title
+    return f"{rule.id}  {rule.severity:<7}  {rule.concern:<11}  {rule.name:<32}  {title}\n"
 
 
 def _as_dict(rule: Rule) -> dict[str, object]:

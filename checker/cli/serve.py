@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from checker.base.extras import PHYSICS, SERVICE
 from checker.cli.arguments import add_data, count, networks, port
 
 
@@ -56,6 +57,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Serve until SIGTERM or SIGINT."""
+    for extra in (SERVICE, PHYSICS):
+        extra.needed_by("serve")
     from checker.service.processes.command import serve
 
     return serve(options)

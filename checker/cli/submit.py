@@ -12,6 +12,7 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from checker.base.errors import CheckerError
+from checker.base.extras import SERVICE
 from checker.base.output import (
     EXIT_CRASH,
     Say,
@@ -273,5 +274,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Have a service check a package, and print the report."""
+    SERVICE.needed_by("submit")
     report = submit(options)
     return EXIT_CRASH if report is None else exit_code(report)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from checker.base.extras import PHYSICS, SERVICE
 from checker.cli.arguments import add_data, positive
 
 
@@ -31,6 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Work until SIGTERM or SIGINT."""
+    for extra in (SERVICE, PHYSICS):
+        extra.needed_by("worker")
     from checker.service.processes.command import worker
 
     return worker(options)

@@ -137,15 +137,12 @@ class LinkWriter:
             add_origin(element, pose, stated)
 
     def _pose(self, link: Link, stated: Pose) -> Transform:
-        if not stated.relative_to:
-            return stated.transform
-        frame = self.robot.pose_of(link.scoped_name)
-        at = self.robot.pose_of_part(link, stated)
-        if frame is None or at is None:
+        pose = self.robot.pose_in_link(link, stated)
+        if pose is None:
             message = f"a pose is relative to {stated.relative_to!r}, which is not known"
             self.notes.say(stated, f"{message}: the link's frame is used")
             return Transform()
-        return frame.inverse @ at
+        return pose
 
     def _geometry(self, element: etree._Element, source: Collision | Visual, shape: Shape) -> None:
         sizes = {name: exact_numbers(values) for name, values in shape.sizes.items()}

@@ -21,6 +21,7 @@ from checker.physics.mesh.package_meshes import PackageMeshes
 from checker.physics.trial.measures.figures import MEASURES, Measure
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.physics.trial.trial import Measurement, Trial
+from checker.report.figures import NOT_JUDGED
 
 # A trial as the report shows it: every figure with its limits and a verdict.
 
@@ -28,7 +29,6 @@ from checker.physics.trial.trial import Measurement, Trial
 _JUDGES = frozenset(measure.rule for measure in MEASURES.values())
 """Rules that judge figures. They key each finding with the figures it is about."""
 
-NOT_JUDGED = "not judged"
 _SERIES_DIGITS = 6
 
 
@@ -101,9 +101,9 @@ _Verdicts = dict[str, list[tuple[Severity, frozenset[tuple[str, int, int]]]]]
 
 def _verdicts(outcome: Outcome) -> _Verdicts:
     verdicts: _Verdicts = {}
-    # A figure is out of its limits also where that shall not count.
+    # A figure is out of its limits also where that does not count, or where its cause is told.
     aside = (item.finding for item in outcome.suppressed)
-    for finding in (*outcome.findings, *aside):
+    for finding in (*outcome.findings, *aside, *outcome.covered):
         if finding.rule in _JUDGES or finding.rule.startswith("TRI"):
             places = frozenset(map(_start, finding.places))
             for name in finding.key.split():
@@ -195,7 +195,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
         for number, robot in enumerate(robots[:ROBOTS_LIMIT])
     ]
     if len(robots) > 1:
-        undriven = subject.undriven
+        undriven = subject.physics.undriven
         for number, (known, robot) in enumerate(zip(facts, robots, strict=False)):
             known["file"] = robot.document.source.file
             if number in undriven:
@@ -208,7 +208,7 @@ def facts_of(subject: Subject) -> tuple[dict[str, Any], ...]:
 
 def _assumed(subject: Subject, robot: Robot) -> str:
     """Return the arguments of xacro that nobody gives, and the values that are taken for them."""
-    files = subject.urdf_files if robot.document.root.tag == "robot" else None
+    files = subject.urdf.files if robot.document.root.tag == "robot" else None
     return files.assumed.get(robot.document.source.file, "") if isinstance(files, UrdfFiles) else ""
 
 

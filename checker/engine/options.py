@@ -21,9 +21,10 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
     """
     by_id = {rule.id: rule for rule in rules}
     known = {name for rule in rules for name in rule.selectors}
-    for name in (*settings.select, *settings.ignore):
-        if name not in known:
-            raise InvalidSettings(settings.source, no_such_rule(name, known))
+    for field, names in (("select", settings.select), ("ignore", settings.ignore)):
+        for name in names:
+            if name not in known:
+                raise settings.problem(field, no_such_rule(name, known))
     for id in (*settings.severity, *settings.options):
         if id not in by_id:
             raise InvalidSettings(settings.source, no_such_rule(id, by_id))
@@ -33,7 +34,8 @@ def check_against_rules(settings: Settings, rules: Sequence[Rule]) -> None:
     for id in settings.options:
         options_of(by_id[id], settings)
     if rules and not any(map(settings.selects, rules)):
-        raise InvalidSettings(settings.source, "select and ignore leave no rules to run")
+        field = "ignore" if settings.ignore else "select"
+        raise settings.problem(field, "select and ignore leave no rules to run")
 
 
 def _check_entries(settings: Settings, rules: Sequence[Rule]) -> None:
@@ -48,11 +50,19 @@ def _check_entries(settings: Settings, rules: Sequence[Rule]) -> None:
             raise InvalidSettings(settings.source, no_such_rule(entry.rule, single))
 
 
+_NAMED = 10
+"""Rules that begin with what was asked for, which a message names."""
+
+
 def no_such_rule(name: str, known: Iterable[str]) -> str:
     """Say that there is no such rule, and which one may be meant."""
     names = sorted(known)
+    begun = [known for known in names if known.startswith(name.upper())] if name else []
     near = get_close_matches(name.upper(), names, 1) or get_close_matches(name.lower(), names, 1)
-    hint = f"did you mean {near[0]}?" if near else "`subt-check rules` lists them"
+    if 1 < len(begun) <= _NAMED:
+        hint = f"did you mean {', '.join(begun[:-1])} or {begun[-1]}?"
+    else:
+        hint = f"did you mean {near[0]}?" if near else "`subt-check rules` lists them"
     return f"there is no rule {name!r}; {hint}"
 
 

@@ -12,8 +12,6 @@ import os
 import stat
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import cache as once
-from importlib.metadata import entry_points
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -22,12 +20,14 @@ import msgspec
 from msgspec.structs import replace
 
 from checker.base.cache import Cache, code_hash, key_of
-from checker.base.resources import version_of
+from checker.base.extras import PHYSICS
+from checker.base.resources import OWN_CODE, version_of
 from checker.package.kind import looks_like_package
 from checker.package.package import Package
 from checker.package.references import PROVIDED
 from checker.package.walk import SKIPPED_FOLDERS
 from checker.report.report import PackageReport
+from checker.rulebook.discovery import rules_of_others
 from checker.settings import Settings
 
 
@@ -53,22 +53,25 @@ _LIBRARIES = (
 )
 ENTRIES_LIMIT = 100_000
 """Files beside a package; with more of them, looking at all takes longer than checking."""
+ENTRIES_AROUND_A_FILE = 5_000
+"""Files in the folder of a lone file and below: it may name any of them."""
 
 
 def memory_key(package: Package, settings: Settings) -> str:
     """Return the key of a package's report; empty when it is not worth remembering."""
-    if package.only:
-        return ""
-    options = json.dumps(msgspec.to_builtins(settings, enc_hook=str))
+    options = json.dumps(msgspec.to_builtins(replace(settings, commanded=()), enc_hook=str))
     parts: list[bytes | str] = [*program_parts(), options, str(package.root)]
     parts += _content(package)
-    beside = list(islice(_beside(package), ENTRIES_LIMIT))
-    return key_of(*parts, *beside) if len(beside) < ENTRIES_LIMIT else ""
+    limit = ENTRIES_AROUND_A_FILE if package.only else ENTRIES_LIMIT
+    beside = list(islice(_beside(package), limit))
+    return key_of(*parts, *beside) if len(beside) < limit else ""
 
 
 def program_parts() -> list[str]:
     """Return what every report depends on, whatever is checked: the program, libraries, rules."""
-    return [code_hash("", "../rules"), *map(version_of, _LIBRARIES), *_rules_of_others()]
+    physics = f"physics {PHYSICS.is_installed}"
+    libraries = map(version_of, _LIBRARIES)
+    return [code_hash(*OWN_CODE), physics, *libraries, *rules_of_others()]
 
 
 def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
@@ -83,17 +86,14 @@ def recalled(cache: Cache, key: str, shown: str) -> PackageReport | None:
 
 
 def remember(cache: Cache, key: str, report: PackageReport) -> None:
-    """Keep a report, unless something was not available or not drawn: it may be the next time."""
+    """Keep a report, unless it may be another the next time.
+
+    It may where a process failed, a rule crashed or nothing could be drawn. A sibling that was not
+    found is no reason: the key holds which files lie beside the package.
+    """
     undrawn = report.display is not None and not report.display.pictures
-    if key and not report.blind_spots and not undrawn:
-        cache.put(KIND, key, msgspec.to_builtins(report))
-
-
-@once
-def _rules_of_others() -> tuple[str, ...]:
-    """Return who brings rules; to look through all that is installed takes 15 ms."""
-    entries = entry_points(group="subt_check.rules")
-    return tuple(sorted(f"{it.value} {it.dist.version if it.dist else ''}" for it in entries))
+    if key and cache.is_whole and not report.crashed and not undrawn:
+        cache.put(KIND, key, msgspec.to_builtins(report, enc_hook=str))
 
 
 def _content(package: Package) -> Iterator[bytes | str]:
@@ -106,6 +106,8 @@ def _content(package: Package) -> Iterator[bytes | str]:
 
 def _beside(package: Package) -> Iterator[str]:
     """Yield what can be seen of the other packages without opening their files."""
+    if package.only:
+        yield from _below(package.root)
     for directory in package.workspace.directories:
         for folder in _folders(directory):
             yield str(folder)

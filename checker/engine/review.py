@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from checker.base.cache import Cache
+from checker.base.extras import PHYSICS
 from checker.base.garbage_collection import collection_put_off
 from checker.base.output import Say, Stages
 from checker.base.parts import NotAvailable, Parts
@@ -18,6 +19,7 @@ from checker.model.devices.known import known_devices
 from checker.package.package import Package
 from checker.physics.trial.robot_trial import RobotTrial
 from checker.report.report import (
+    NO_PHYSICS,
     Cause,
     Display,
     InheritedPart,
@@ -27,8 +29,8 @@ from checker.report.report import (
 )
 from checker.report.scene.processes import NO_PROCESSES, StartedProcesses
 from checker.rule import Rule
-from checker.rulebook.discovery import all_rules
 from checker.rulebook.profiles import Profile, profile
+from checker.rulebook.rule_index import rules
 from checker.rulebook.suppression.matcher import SuppressionMatcher
 from checker.rulebook.suppression.parts import BaselineUse, Suppressions
 from checker.settings import Settings
@@ -43,27 +45,39 @@ class _With(Record):
     parts: Parts
     last: object
 
-    def part(self, kind: type) -> Sequence[object] | NotAvailable:
+    def part(self, kind: str) -> Sequence[object] | NotAvailable:
         """Return the part."""
-        return (self.last,) if isinstance(self.last, kind) else self.parts.part(kind)
+        return (self.last,) if type(self.last).__name__ == kind else self.parts.part(kind)
 
 
 def run_and_set_aside(
-    rules: Sequence[Rule], subject: Subject, profile: Profile, settings: Settings
+    chosen: Sequence[Rule],
+    every: Sequence[Rule],
+    subject: Subject,
+    profile: Profile,
+    settings: Settings,
 ) -> Outcome:
-    """Run rules over a package and part what they find from what does not count."""
-    of_suppressions = [rule for rule in rules if Suppressions in rule.needs.values()]
-    of_baseline = [rule for rule in rules if BaselineUse in rule.needs.values()]
-    first = [rule for rule in rules if rule not in (*of_suppressions, *of_baseline)]
+    """Run rules over a package and part what they find from what does not count.
+
+    Args:
+        chosen: Of which those run that profile and settings want.
+        every: All that there are, which suppressions may name.
+        subject: The package.
+        profile: What it judges, and how gravely.
+        settings: The user's.
+    """
+    of_suppressions = [rule for rule in chosen if Suppressions.__name__ in rule.needs.values()]
+    of_baseline = [rule for rule in chosen if BaselineUse.__name__ in rule.needs.values()]
+    first = [rule for rule in chosen if rule not in (*of_suppressions, *of_baseline)]
 
     held = settings.baseline.packages.get(subject.package.name, ())
-    matcher = SuppressionMatcher(subject.package, settings.suppress, all_rules(), held)
+    matcher = SuppressionMatcher(subject.package, settings.suppress, every, held)
     unloaded = subject.package.unloaded_files
     outcome = run_rules(first, subject, profile, settings, matcher, unloaded)
     used = matcher.suppressions(_looked(outcome), settings.source)
     added = run_rules(of_suppressions, _With(subject, used), profile, settings, matcher)
     outcome = joined(outcome, added)
-    stale = _stale(matcher, outcome, settings)
+    stale = _stale(matcher, outcome, settings, {rule.id for rule in every})
     added = run_rules(of_baseline, _With(subject, stale), profile, settings, matcher)
     return joined(outcome, added)
 
@@ -73,10 +87,11 @@ def _looked(outcome: Outcome) -> set[str]:
     return set(outcome.looked) - {skipped.rule for skipped in outcome.not_checked}
 
 
-def _stale(matcher: SuppressionMatcher, outcome: Outcome, settings: Settings) -> BaselineUse:
+def _stale(
+    matcher: SuppressionMatcher, outcome: Outcome, settings: Settings, ids: set[str]
+) -> BaselineUse:
     """Return what of the baseline is gone."""
     path = settings.baseline.path
-    ids = {rule.id for rule in all_rules()}
     return BaselineUse(matcher.held.stale(ids, _looked(outcome), path.name if path else ""))
 
 
@@ -109,8 +124,9 @@ def judged(
         if not settings.select:
             # Whatever the rules are, some ask for the meshes: these are read while those load.
             subject.start_meshes()
-        check_against_rules(settings, all_rules())
-        return _report_or_crash(subject, shown, settings)
+        known = rules(cache)
+        check_against_rules(settings, known)
+        return _report_or_crash(subject, shown, settings, known)
     finally:
         subject.close()
 
@@ -126,28 +142,33 @@ def findings_of(package: Package, settings: Settings, cache: Cache) -> tuple[Rep
     devices = known_devices(settings.devices)
     subject = Subject(package, cache, devices=devices, xacro_args=settings.xacro_args)
     try:
-        check_against_rules(settings, all_rules())
+        known = rules(cache)
+        check_against_rules(settings, known)
         judge = profile(settings.profile, settings.distro)
-        return run_and_set_aside(all_rules(), subject, judge, settings).findings
+        return run_and_set_aside(known, known, subject, judge, settings).findings
     finally:
         subject.close()
 
 
-def _report_or_crash(subject: Subject, shown: str, settings: Settings) -> PackageReport:
+def _report_or_crash(
+    subject: Subject, shown: str, settings: Settings, known: Sequence[Rule]
+) -> PackageReport:
     try:
-        return _report(subject, shown, settings)
+        return _report(subject, shown, settings, known)
     except Exception as error:  # noqa: BLE001 - the other packages go on, the exit code says so
         broken = (crashed("check", error),)
         return PackageReport(subject.package.name, shown, "unknown", (), broken)
 
 
-def _report(subject: Subject, shown: str, settings: Settings) -> PackageReport:
+def _report(
+    subject: Subject, shown: str, settings: Settings, known: Sequence[Rule]
+) -> PackageReport:
     package, judge = subject.package, profile(settings.profile, settings.distro)
     with subject.stages.stage("rules", "rules"):
-        subject.start(needed_parts(all_rules(), judge, settings))
-        if settings.display and not isinstance(subject.display, NotAvailable):
-            subject.display.begin()
-        outcome = run_and_set_aside(all_rules(), subject, judge, settings)
+        subject.start(needed_parts(known, judge, settings))
+        if settings.display:
+            subject.start_display()
+        outcome = run_and_set_aside(known, known, subject, judge, settings)
     blind = [
         NotChecked("PKG003", f"{fault.path} {fault.reason}", Cause.NOT_AT_HAND)
         for fault in package.index.faults
@@ -186,11 +207,15 @@ def _facts(subject: Subject) -> tuple[tuple[Mapping[str, Any], ...], tuple[NotCh
 
 
 def _display(subject: Subject) -> tuple[Display | None, tuple[NotChecked, ...]]:
-    if isinstance(subject.display, NotAvailable):
+    if isinstance(subject.robots, NotAvailable):
         return None, ()
-    first = subject.display.robots[0]
+    if not PHYSICS.is_installed:
+        return None, (NotChecked("display", NO_PHYSICS, Cause.SWITCHED_OFF),)
+    if isinstance(subject.physics.display, NotAvailable):
+        return None, ()
+    first = subject.physics.display.robots[0]
     trials = (each.trial for each in subject.provided(RobotTrial) if each.robot is first)
     try:
-        return subject.display.made(next(trials, None)), ()
+        return subject.physics.display.made(next(trials, None)), ()
     except Exception as error:  # noqa: BLE001 - what cannot be drawn takes no finding with it
         return None, (crashed("display", error),)

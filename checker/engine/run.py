@@ -10,9 +10,11 @@ from typing import Any
 from msgspec import field
 from msgspec.structs import replace
 
+from checker.base.extras import MissingExtra
 from checker.base.parts import NotAvailable, Parts
 from checker.base.record import Record
 from checker.base.words import shortened
+from checker.engine.covered import Said, parted_by_cover
 from checker.engine.options import options_of
 from checker.finding import (
     Fix,
@@ -23,7 +25,6 @@ from checker.finding import (
     numbered,
     without_line_numbers,
 )
-from checker.physics.trial.robot_trial import RepeatedTrial, RobotTrial
 from checker.report.report import NO_TRIAL, Cause, NotChecked, ReportedFinding, Suppressed
 from checker.rule import Context, Finding, Rule, Unchecked
 from checker.rulebook.pages import parse_page
@@ -36,18 +37,24 @@ TEXT_LIMIT = 1000
 """Characters of a message, note or reason; names in a package may be longer than any of them."""
 
 
+TRIALS = frozenset(("RobotTrial", "SettledTrial", "RepeatedTrial"))
+"""Parts for which the robot is driven."""
+
+
 class Outcome(Record):
     """What the rules said, and which of them could not look.
 
     Attributes:
         looked: Ids of the rules that had all they asked for, each with the options it used.
         suppressed: What they said and does not count.
+        covered: What they said and a more precise rule tells.
     """
 
     findings: tuple[ReportedFinding, ...]
     not_checked: tuple[NotChecked, ...]
     looked: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     suppressed: tuple[Suppressed, ...] = ()
+    covered: tuple[ReportedFinding, ...] = ()
 
 
 def run_rules(
@@ -68,8 +75,7 @@ def run_rules(
         matcher: Tells what does not count.
         unloaded: Files that nothing loads: what is found in them is information.
     """
-    findings: list[ReportedFinding] = []
-    suppressed: list[Suppressed] = []
+    said: list[Said] = []
     not_checked: list[NotChecked] = []
     looked: dict[str, Mapping[str, Any]] = {}
     for rule in rules:
@@ -83,8 +89,37 @@ def run_rules(
             continue
         looked[rule.id] = {**rule.options, **options_of(rule, settings)}
         own = [_graded(item, unloaded) for item in result if isinstance(item, Finding)]
+        said.append((rule, own))
+        unchecked = (item.reason for item in result if isinstance(item, Unchecked))
+        reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
+        not_checked += [
+            NotChecked(rule.id, reason, Cause.NOT_AT_HAND, severity, rule.concern)
+            for reason in reasons
+        ]
+    return _reported(said, profile, settings, matcher, not_checked, looked)
+
+
+def _reported(
+    said: list[Said],
+    profile: Profile,
+    settings: Settings,
+    matcher: SuppressionMatcher | None,
+    not_checked: list[NotChecked],
+    looked: Mapping[str, Mapping[str, Any]],
+) -> Outcome:
+    """Return what rules said as it is reported, what counts of it and what does not."""
+    findings: list[ReportedFinding] = []
+    suppressed: list[Suppressed] = []
+    covered: list[ReportedFinding] = []
+
+    def severity_of(rule: Rule, finding: Finding) -> Severity:
+        return _severity(rule, finding.severity, profile, settings)
+
+    for each in parted_by_cover(said, severity_of):
+        rule = each.rule
+        covered += _report(rule, each.covered, profile, settings)
         spot_of = partial(_spot, rule, profile, settings)
-        for suppression, group in parted(rule.id, own, matcher, spot_of).items():
+        for suppression, group in parted(rule.id, each.told, matcher, spot_of).items():
             reported = _report(rule, group, profile, settings)
             if suppression is None:
                 findings += reported
@@ -93,13 +128,8 @@ def run_rules(
                     Suppressed(finding, suppression.by, suppression.reason, suppression.place)
                     for finding in reported
                 ]
-        unchecked = (item.reason for item in result if isinstance(item, Unchecked))
-        reasons = dict.fromkeys(shortened(reason, TEXT_LIMIT) for reason in unchecked)
-        not_checked += [
-            NotChecked(rule.id, reason, Cause.NOT_AT_HAND, severity, rule.concern)
-            for reason in reasons
-        ]
-    return _outcome(_sorted(findings), suppressed, not_checked, looked)
+    outcome = _outcome(_sorted(findings), suppressed, not_checked, looked)
+    return replace(outcome, covered=tuple(covered))
 
 
 def _graded(finding: Finding, unloaded: Collection[str]) -> Finding:
@@ -139,6 +169,7 @@ def joined(*outcomes: Outcome) -> Outcome:
         tuple(unseen for outcome in outcomes for unseen in outcome.not_checked),
         looked,
         tuple(aside for outcome in outcomes for aside in outcome.suppressed),
+        tuple(found for outcome in outcomes for found in outcome.covered),
     )
 
 
@@ -148,20 +179,20 @@ def wanted(rule: Rule, profile: Profile, settings: Settings) -> bool:
     return asked_for and (settings.trial or not _needs_trial(rule))
 
 
-def needed_parts(rules: Iterable[Rule], profile: Profile, settings: Settings) -> set[type]:
-    """Return the parts that the rules to be run ask for."""
+def needed_parts(rules: Iterable[Rule], profile: Profile, settings: Settings) -> set[str]:
+    """Return the names of the parts that the rules to be run ask for."""
     to_run = (rule for rule in rules if wanted(rule, profile, settings))
     return {kind for rule in to_run for kind in rule.needs.values()}
 
 
 def _asked_for(rule: Rule, profile: Profile, settings: Settings) -> bool:
-    if RepeatedTrial in rule.needs.values() and not settings.thorough:
+    if "RepeatedTrial" in rule.needs.values() and not settings.thorough:
         return False
     return settings.selects(rule) and (bool(settings.select) or profile.includes(rule))
 
 
 def _needs_trial(rule: Rule) -> bool:
-    return any(issubclass(kind, RobotTrial) for kind in rule.needs.values())
+    return not TRIALS.isdisjoint(rule.needs.values())
 
 
 def _switched_off(rule: Rule, profile: Profile, settings: Settings) -> Iterator[NotChecked]:
@@ -183,6 +214,8 @@ def _run_isolated(
             return NotChecked(rule.id, shortened(arguments.reason, TEXT_LIMIT), cause)
         options = options_of(rule, settings)
         return [outcome for argument in arguments for outcome in rule.check(**argument, **options)]
+    except MissingExtra as missing:
+        return NotChecked(rule.id, missing.extra.missing, Cause.SWITCHED_OFF)
     except Exception as error:  # noqa: BLE001 - the other rules go on, the exit code says so
         return crashed(rule.id, error)
 
@@ -202,7 +235,7 @@ def _arguments(rule: Rule, parts: Parts, context: Context) -> list[dict[str, Any
     """
     wanted: dict[str, Sequence[object]] = {}
     for name, kind in rule.needs.items():
-        had = (context,) if kind is Context else parts.part(kind)
+        had = (context,) if kind == Context.__name__ else parts.part(kind)
         if not isinstance(had, NotAvailable):
             wanted[name] = had
         elif name in rule.spares and not had.applicable:

@@ -62,7 +62,7 @@ def thumbnails_of(robot: Robot, folder: Path) -> Thumbnails:
     request = json.dumps({"shapes": shapes}).encode()
     files = dict.fromkeys((str(shape["file"]) for shape in shapes if shape["file"]), SIZE_LIMIT)
     limits = Limits(_SECONDS, _MEMORY, draws=True)
-    data = ask("checker.migrate.thumbnail_worker", request, limits, from_disk(files.items()))
+    data = ask(f"{__package__}.thumbnail_worker", request, limits, from_disk(files.items()))
     if isinstance(data, WorkerFailed):
         return Thumbnails(trouble=_trouble(f"the process that draws {data.reason}"))
     try:

@@ -162,6 +162,8 @@ def _steering(robot: Robot, plain: Drive) -> Drive:
     limits = [abs(x.value) for j in joints for x in (j.axes[0].lower, j.axes[0].upper)]
     limit = min((angle for angle in limits if 0.0 < angle < math.pi / 2), default=_STEERING_LIMIT)
     names = tuple(joint.name.value for joint in joints)
+    assumed = f"the steering joints state no limits: {limit:g} rad is assumed (launch/spawner.rb)"
+    points = () if limit in limits else (assumed,)
     note = f"AckermannSteering steers by {', '.join(names)}: {plain.wheels.reason}"
     return replace(
         plain,
@@ -170,6 +172,7 @@ def _steering(robot: Robot, plain: Drive) -> Drive:
         kingpin_width=round(abs(places[0][1] - places[1][1]), _ROUNDED),
         steering_limit=round(limit, _ROUNDED),
         notes=(note, f"wheel base {base:.4g} m, steering up to {limit:.3g} rad"),
+        open_points=(*plain.open_points, *points),
     )
 
 

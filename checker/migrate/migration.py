@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -71,7 +72,8 @@ def _notes(findings: tuple[ReportedFinding, ...]) -> Iterator[str]:
         yield f"{finding.rule} is fixed: {finding.message}{more}"
 
 
-_SHEET_POINTS = "every TODO in specifications.md: devices, cost, rights, validation"
+_TO_DO = re.compile(r"\bTODO\b:?[ \t]*|\btodo@")
+_TEXTS = (".md", ".rb", ".xml", ".config")
 
 
 class Migrated(Record):
@@ -81,11 +83,13 @@ class Migrated(Record):
         folder: Of the package.
         notes: What was decided, as sentences.
         open_points: What only the author can decide.
+        to_do: Places that say TODO, each with what is to be filled in.
     """
 
     folder: Path
     notes: tuple[str, ...]
     open_points: tuple[str, ...]
+    to_do: tuple[str, ...] = ()
 
 
 @dataclass
@@ -116,9 +120,18 @@ def migrate(path: Path, destination: Path, wishes: MigrationOptions) -> Migrated
             _fill(staging, source, names, wishes, log)
     if not wishes.organization:
         log.points.insert(0, f"the organization's name, here {NO_ORGANIZATION!r} (--organization)")
-    log.points.append(_SHEET_POINTS)
     notes, points = (tuple(dict.fromkeys(lines)) for lines in (log.notes, log.points))
-    return Migrated(staging.final, notes, points)
+    return Migrated(staging.final, notes, points, tuple(_left_to_do(staging.final)))
+
+
+def _left_to_do(folder: Path) -> Iterator[str]:
+    """Yield the lines of the package's texts that say TODO."""
+    for path in sorted(folder.rglob("*")):
+        if not path.name.endswith(_TEXTS) or not path.is_file():
+            continue
+        for number, line in enumerate(path.read_text("utf-8").splitlines(), 1):
+            if _TO_DO.search(line):
+                yield f"{path.relative_to(folder).as_posix()}:{number}: {line.strip()}"
 
 
 def _check_apart(source: Source, destination: Path) -> None:

@@ -24,6 +24,7 @@ from checker.migrate.names import Names
 from checker.migrate.options import NotMigrated
 from checker.migrate.plugins import Servo
 from checker.migrate.source import Papers
+from checker.package.kind import looks_like_package
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -45,7 +46,10 @@ _TARGETS = {
 }
 """Where each template's text goes."""
 _PLAIN = (".rb.j2", ".md.j2", ".txt.j2")
-_LIMITS = ("min_velocity", "max_velocity", "min_acceleration", "max_acceleration", "power_load")
+_LIMITS = (
+    *("min_velocity", "max_velocity", "min_acceleration", "max_acceleration"),
+    *("voltage", "power_load"),
+)
 
 
 class Known(Record, eq=False):
@@ -166,6 +170,8 @@ class Staging(Record):
 def staged(destination: Path, package: str) -> Iterator[Staging]:
     """Have a package written beside its final place; it takes that place when all went well.
 
+    The destination may hold other packages: nothing that is there is changed.
+
     A folder that an interrupted run left behind stays hidden and does not count as content.
 
     Args:
@@ -173,9 +179,10 @@ def staged(destination: Path, package: str) -> Iterator[Staging]:
         package: Name of the package's folder.
 
     Raises:
-        NotMigrated: The destination is not empty, or cannot be written to.
+        NotMigrated: The package is there already, or the destination is a package itself, is no
+            folder or cannot be written to.
     """
-    folders = _made(destination)
+    folders = _made(destination, package)
     hidden: Path | None = None
     try:
         hidden = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=destination))
@@ -194,26 +201,34 @@ def staged(destination: Path, package: str) -> Iterator[Staging]:
                 folder.rmdir()
 
 
-def _made(destination: Path) -> list[Path]:
+def _made(destination: Path, package: str) -> list[Path]:
     """Make the destination; return the folders that were not there, innermost first."""
     try:
         if destination.is_dir():
-            held = [entry.name for entry in destination.iterdir()]
-            if held := sorted(name for name in held if not name.startswith(_PREFIX)):
-                raise NotMigrated(
-                    f"{destination} is not empty (it contains {held[0]}); give a folder that is "
-                    "empty or does not exist"
-                )
+            _check_free(destination, package)
             return []
         if os.path.lexists(destination):
             raise NotMigrated(
-                f"{destination} is not a folder; give one that is empty or does not exist"
+                f"{destination} is not a folder; give a workspace, or a folder that does not exist"
             )
         missing = [folder for folder in (destination, *destination.parents) if not folder.exists()]
         destination.mkdir(parents=True)
     except OSError as error:
         raise _not_written(destination, error) from None
     return missing
+
+
+def _check_free(destination: Path, package: str) -> None:
+    """Refuse a folder that is a package, or has one of this name."""
+    if looks_like_package(destination):
+        raise NotMigrated(
+            f"{destination} is a package, and ROS finds no package inside another; give the folder "
+            "that contains the packages"
+        )
+    if os.path.lexists(destination / package):
+        raise NotMigrated(
+            f"{destination / package} exists; move it away, or give another --config or --robot"
+        )
 
 
 def _not_written(destination: Path, error: OSError) -> NotMigrated:

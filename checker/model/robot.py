@@ -287,6 +287,13 @@ class Robot(Part, dict=True):
             base = self.pose_of(owner.scoped_name)
         return None if base is None else base @ pose.transform
 
+    def pose_in_link(self, link: Link, pose: Pose) -> Transform | None:
+        """Return the pose of a part in the frame of the link that carries it; None if unknown."""
+        if not pose.relative_to:
+            return pose.transform
+        frame, at = self.pose_of(link.scoped_name), self.pose_of_part(link, pose)
+        return None if frame is None or at is None else frame.inverse @ at
+
     def support_of(self, geometry: Geometry, pose: Transform, direction: Vector) -> float | None:
         """Return how far a shape reaches in a direction, metres; see `support`."""
         return support(geometry, pose, direction, self.scaled_meshes)

@@ -12,7 +12,7 @@ _NUMBERED = re.compile(r"(.+_sensor_config_)([1-9][0-9]{0,5})")
 def configurations(package: Package) -> tuple[int, dict[int, Package]] | None:
     """Return a package's number, and the available configurations of its robot by number.
 
-    None for a package that is no numbered configuration.
+    None for a package that is not a numbered configuration.
     """
     own = _NUMBERED.fullmatch(package.name)
     if own is None or package.only:

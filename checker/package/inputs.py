@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from checker.base.errors import UnreadableInput
 from checker.base.record import Record
-from checker.package.archives.archive import ARCHIVE_SUFFIXES, unpack_archive
-from checker.package.archives.index import ArchiveLimits
 from checker.package.kind import (
     enclosing_package,
     holds_loose_models,
@@ -21,6 +19,10 @@ from checker.package.package import Package
 from checker.package.repository import MAX_FOLDERS, Unit, Units, homes_of, units_below
 from checker.package.workspace import Workspace
 
+if TYPE_CHECKING:
+    from checker.package.archives.index import ArchiveLimits
+
+ARCHIVE_SUFFIXES = (".zip", ".tar.gz", ".tgz")
 SINGLE_FILE_SUFFIXES = (".sdf", ".world", ".urdf", ".xacro", ".xml")
 SUBMISSIONS = "submitted_models"
 # A file in a package may lie deep: `robots/NAME/urdf/NAME.urdf`.
@@ -75,6 +77,8 @@ def open_input(
     if real.is_dir():
         yield _open_folder(path, real)
     elif shown.lower().endswith(ARCHIVE_SUFFIXES):
+        import tempfile
+
         with tempfile.TemporaryDirectory(prefix="subt-check-", ignore_cleanup_errors=True) as own:
             target = Path(own).resolve() / _archive_stem(shown)
             target.mkdir()
@@ -101,6 +105,8 @@ def _resolved(path: Path) -> Path:
 def _unpack(path: Path, real: Path, target: Path, shown: str, limits: ArchiveLimits | None) -> None:
     if not real.is_file():
         raise UnreadableInput(path, "is not a regular file", _WHAT_TO_GIVE)
+    from checker.package.archives.archive import unpack_archive
+
     try:
         unpack_archive(real, target, shown, limits)
     except UnreadableInput as error:

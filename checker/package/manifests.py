@@ -45,7 +45,7 @@ class PackageManifest(Record, eq=False):
     """A package.xml. A text whose tag is missing is empty, not stated, and placed at the root.
 
     Attributes:
-        format: `format` of the root: 1 when it is absent; None when it is no number.
+        format: `format` of the root: 1 when it is absent; None when it is not a number.
         name: Name of the package.
         version: Version.
         description: Text of the description, tags within it left out.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from msgspec import field
 from msgspec.structs import replace
@@ -80,6 +80,11 @@ class Package(Record, eq=False, dict=True):
     def with_texts(self, texts: Mapping[str, SourceText]) -> Package:
         """Return the package as if some of its files held other texts; nothing is written."""
         return Package(self.root, self.workspace, self.only, {**self._texts, **texts})
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Send a package to another process as the place where it lies."""
+        space = self.workspace
+        return _package_at, (self.root, self.only, space.directories, space.within)
 
     @property
     def name(self) -> str:
@@ -291,3 +296,13 @@ class Package(Record, eq=False, dict=True):
     def inherited(self) -> tuple[Inherited, ...]:
         """Parts that come from siblings."""
         return tuple(inherited_parts(self))
+
+
+def _package_at(
+    root: Path, only: str, directories: tuple[Path, ...], within: Path | None
+) -> Package:
+    """Return the package of a folder or file again."""
+    from checker.package.workspace import Workspace
+
+    space = Workspace(directories, within)
+    return Package(root, space, only) if only else space.at(root)

@@ -12,7 +12,7 @@ from checker.package.inheritance import SPAWNER
 from checker.package.kind import MODEL_MARKERS, MODEL_SUFFIXES, looks_like_package
 
 MAX_FOLDERS = 5_000
-MAX_DEPTH = 12
+MAX_DEPTH = 60
 _ITEMS = 5_000
 """Of one folder that are looked at."""
 IGNORED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})

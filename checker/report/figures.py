@@ -24,7 +24,11 @@ HEADLINES = (
 """Figures that are shown when all is well; others only when a rule objects."""
 
 _SEVERITIES = tuple(map(str, Severity))
-_GRAVITY = (*_SEVERITIES, "ok", "not judged")
+_UNNAMED = ("", "rad or m")
+"""Units of figures that have none, or one of two."""
+NOT_JUDGED = "not judged"
+"""The verdict on a figure that no rule judged."""
+_GRAVITY = (*_SEVERITIES, "ok", NOT_JUDGED)
 
 
 class Row(Record):
@@ -64,35 +68,75 @@ def rows_of(measurements: Sequence[Mapping[str, Any]]) -> list[Row]:
 
 def gravest(verdicts: Iterable[str]) -> str:
     """Return the gravest of some verdicts; `not judged` of none."""
-    return min(verdicts, key=_GRAVITY.index, default="not judged")
+    return min(verdicts, key=_GRAVITY.index, default=NOT_JUDGED)
 
 
 def _row(name: str, figures: Sequence[Mapping[str, Any]]) -> Row:
     first = figures[0]
     values = [figure["value"] for figure in figures]
     ends = dict.fromkeys(_number(value, first["unit"]) for value in (min(values), max(values)))
-    unit = {"rad": "°", "rad or m": ""}.get(first["unit"], first["unit"])
+    unit = "°" if first["unit"] == "rad" else first["unit"] if first["unit"] not in _UNNAMED else ""
     joint = "" if unit in ("", "°") else " "
     verdict = gravest(str(figure["verdict"]) for figure in figures)
     return Row(
         label=first["label"],
         value=f"{'…'.join(ends)}{joint}{unit}",
         verdict=verdict,
-        limits=", ".join(_limit(key, value, first["unit"]) for key, value in _limits(first)),
+        limits=limits_in_words(name, first["limits"], first["unit"]),
         rule=first["rule"],
         parts=len(figures),
         matters=name in HEADLINES or verdict in _SEVERITIES,
     )
 
 
-def _limits(figure: Mapping[str, Any]) -> list[tuple[str, float]]:
-    return list(figure["limits"].items())
+_BEYOND_ONE = ("warning_beyond", "error_beyond")
+_MOST = ("above", "warning_above", "error_above", "warning", "depth", "most_thrust")
+_LEAST = ("below", "warning_below", "least_thrust")
+_ERRORS = {"error": "above", "error_below": "below", "error_below_command": "below"}
+"""Limits behind which a warning becomes an error, and on which side that is."""
+_SHARES = {
+    "full_speed": "the velocity limit",
+    "full_acceleration": "the acceleration limit",
+    "torque": "the effort limit",
+    "error_below_command": "the command",
+}
+"""Figures, or limits, that are compared with another figure instead of a number."""
+
+
+def limits_in_words(name: str, limits: Mapping[str, float], unit: str) -> str:
+    """Return what a rule allows: `ok up to 0.02; error above 0.1`."""
+    least, most = allowed(limits)
+    bounds = [f"from {_limit(name, least, unit)}"] if least is not None else []
+    upto = "to" if bounds else "up to"
+    bounds += [f"{upto} {_limit(name, most, unit)}"] if most is not None else []
+    phrases = [f"ok {' '.join(bounds)}"] if bounds else []
+    if len(of_one := [limits[key] for key in _BEYOND_ONE if key in limits]) > 1:
+        phrases.append(f"error below {1 - of_one[1]:g} and above {1 + of_one[1]:g}")
+    phrases += [
+        f"error {side} {_limit(name if name in _SHARES else key, limits[key], unit)}"
+        for key, side in _ERRORS.items()
+        if key in limits
+    ]
+    return "; ".join(phrases)
+
+
+def allowed(limits: Mapping[str, float]) -> tuple[float | None, float | None]:
+    """Return the least and the greatest value that a rule does not report, where it has them."""
+    off = next((limits[key] for key in _BEYOND_ONE if key in limits), None)
+    if off is not None:
+        return 1 - off, 1 + off
+    least = next((limits[key] for key in _LEAST if key in limits), None)
+    most = next((limits[key] for key in _MOST if key in limits), None)
+    return least, most
 
 
 def _limit(name: str, value: float, unit: str) -> str:
-    """Return a limit in words; of what is no angle, some are shares of another figure."""
-    words = name.replace("_", " ")
-    return f"{words} {math.degrees(value):.3g}°" if unit == "rad" else f"{words} {value:g}"
+    """Write a limit; of what is no angle, some are shares of another figure."""
+    if name in _SHARES:
+        return _SHARES[name] if value == 1.0 else f"{value:g} × {_SHARES[name]}"
+    if unit == "rad":
+        return f"{math.degrees(value):.3g}°"
+    return f"{value:g}{f' {unit}' if unit not in _UNNAMED else ''}"
 
 
 def _number(value: float, unit: str) -> str:
@@ -133,7 +177,9 @@ def facts_in_words(facts: Mapping[str, Any]) -> Iterator[Fact]:
             noun = name.replace("_", " ")
             yield Fact(noun, str(value), count(value, noun.removesuffix("s")))
         elif isinstance(value, str) and name not in _SAID_ELSEWHERE:
-            yield _stated(name.replace("_", " "), value)
+            noun = name.replace("_", " ")
+            # "no drive detected" needs no "drive" in front.
+            yield Fact(noun, value, value if f" {noun} " in value else f"{noun} {value}")
 
 
 def _stated(name: str, value: str) -> Fact:

@@ -46,7 +46,7 @@ def _package(
 ) -> Iterator[Artefact]:
     from checker.report.html.page import to_html
 
-    yield prefix + PAGE, to_html(package, report, manner)
+    yield prefix + PAGE, to_html(package, report, manner, f"../{INDEX}" if prefix else "")
     if package.display is not None:
         yield prefix + MODEL, package.display.glb
 

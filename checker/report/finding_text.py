@@ -31,7 +31,7 @@ def finding_text(
     place = finding.places[0]
     message = plain(shortened(finding.message, MESSAGE_LIMIT))
     severity = palette.severity(finding.severity)
-    yield f"{_where(place, package)} {severity} {finding.rule} {finding.name}: {message}"
+    yield f"{where_text(place, package)} {severity} {finding.rule} {finding.name}: {message}"
     if finding.severity is not Severity.INFO:
         yield from _frame(place, palette)
     yield from _other_places(finding.places[1:], package)
@@ -41,7 +41,6 @@ def finding_text(
         yield f"    why: {finding.why}"
     if finding.how:
         yield f"    fix: {finding.how}"
-    yield palette.dim(f"    {finding.help}")
 
 
 def path_of(place: Place, package: PackageReport) -> str:
@@ -49,7 +48,7 @@ def path_of(place: Place, package: PackageReport) -> str:
     return posixpath.normpath(posixpath.join(package.path, place.file or "."))
 
 
-def _where(place: Place, package: PackageReport) -> str:
+def where_text(place: Place, package: PackageReport) -> str:
     """Give a place as editors and terminals understand it; a folder has no line."""
     return plain(path_of(place, package)) + (f":{place.line}:{place.column}" if place.file else "/")
 
@@ -57,9 +56,9 @@ def _where(place: Place, package: PackageReport) -> str:
 def _other_places(places: Sequence[Place], package: PackageReport) -> Iterator[str]:
     own = [(place, place.note or place.message) for place in places]
     told = [(place, words) for place, words in own if words]
-    named = [_where(place, package) for place, words in own if not words][:MORE_PLACES]
+    named = [where_text(place, package) for place, words in own if not words][:MORE_PLACES]
     for other, words in told[:MORE_PLACES]:
-        yield f"    {_where(other, package)}: {plain(shortened(words, MESSAGE_LIMIT))}"
+        yield f"    {where_text(other, package)}: {plain(shortened(words, MESSAGE_LIMIT))}"
     more = len(places) - len(told[:MORE_PLACES]) - len(named)
     parts = [f"also {', '.join(named)}"] if named else []
     parts += [f"and {count(more, 'more place')}"] if more else []

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from msgspec.structs import replace
+
 from checker.report.render_settings import RenderSettings
 from checker.report.report import Report
 
@@ -11,7 +13,11 @@ from checker.report.report import Report
 def _text(report: Report, manner: RenderSettings) -> str:
     from checker.report.text_report import to_text
 
-    return to_text(report, manner.palette)
+    return to_text(report, manner)
+
+
+def _concise(report: Report, manner: RenderSettings) -> str:
+    return _text(report, replace(manner, concise=True))
 
 
 def _json(report: Report, _: RenderSettings) -> str:
@@ -55,6 +61,7 @@ def _html(report: Report, manner: RenderSettings) -> str:
 
 FORMATS: Mapping[str, Callable[[Report, RenderSettings], str]] = {
     "text": _text,
+    "concise": _concise,
     "json": _json,
     "sarif": _sarif,
     "github": _github,

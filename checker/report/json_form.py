@@ -15,7 +15,7 @@ from msgspec import UNSET, Meta, UnsetType
 from checker.base.record import Record
 from checker.finding import Concern, Safety, Severity
 from checker.package.kind import PackageKind
-from checker.report.report import Cause, InheritedPart, SuppressedBy, VerdictKind
+from checker.report.report import SCHEMA_VERSION, Cause, InheritedPart, SuppressedBy, VerdictKind
 
 _END = r"$(?!\n)"
 """The end of a text: Python's `$` alone also matches in front of a line's end."""
@@ -261,6 +261,7 @@ def report_schema() -> dict[str, Any]:
     schema = msgspec.json.schema(ReportJson)
     head = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": f"urn:subt-check:report:{SCHEMA_VERSION}",
         "title": "Report of subt-check",
     }
     return head | schema

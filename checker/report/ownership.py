@@ -26,12 +26,24 @@ def is_foreign(place: Place) -> bool:
 
 def owners(report: Report) -> Mapping[Identity, str]:
     """Return the name of the package in whose own files each finding lies."""
+    known: dict[Identity, str] = {}
+    for package in report.packages:
+        known |= owned_by(package)
+    return known
+
+
+def owned_by(package: PackageReport) -> dict[Identity, str]:
+    """Return the findings that lie in a package's own files, each with its name."""
     return {
         identity(package, finding): package.name
-        for package in report.packages
         for finding in package.findings
         if not is_foreign(finding.places[0])
     }
+
+
+def foreign_findings(package: PackageReport) -> Iterator[ReportedFinding]:
+    """Yield what a package reports of files of others."""
+    return (finding for finding in package.findings if is_foreign(finding.places[0]))
 
 
 class Share(Record):

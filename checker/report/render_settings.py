@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TextIO
 
 from checker.base.record import Record
 from checker.finding import Severity
-from checker.report.report import VerdictKind
+from checker.report.report import PackageReport, ReportedFinding, VerdictKind
 
 # Terminal colours, which only ever repeat what a word says.
 
@@ -76,8 +76,24 @@ class RenderSettings(Record):
         palette: Colours for a terminal.
         folder: Where the command was run, absolute; paths of the report start there.
         command: What was run, as a shell takes it; empty where there was no command.
+        infos: Whether the report for a terminal shows infos, and what does not apply.
+        quiet: Whether it shows findings alone.
+        concise: Whether it has one line a finding.
     """
 
     palette: Palette
-    folder: str
+    folder: str = ""
     command: str = ""
+    infos: bool = False
+    quiet: bool = False
+    concise: bool = False
+
+
+def is_shown(finding: ReportedFinding, settings: RenderSettings) -> bool:
+    """Say whether the report for a terminal shows a finding."""
+    return settings.infos or finding.severity is not Severity.INFO
+
+
+def shown_findings(package: PackageReport, settings: RenderSettings) -> Iterator[ReportedFinding]:
+    """Yield the findings of a package that the report for a terminal shows."""
+    return (finding for finding in package.findings if is_shown(finding, settings))

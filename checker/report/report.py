@@ -8,6 +8,7 @@ from typing import Any, Final
 
 from msgspec import field
 
+from checker.base.extras import PHYSICS
 from checker.base.record import Record
 from checker.finding import Concern, Fix, Place, Severity
 
@@ -15,6 +16,8 @@ SCHEMA_VERSION: Final = "1"
 USUAL_PROFILE = "subt"
 NO_TRIAL = "trial not run (--no-trial)"
 """Why rules about the trial did not look when the user wants none."""
+NO_PHYSICS = PHYSICS.missing
+"""Why rules that need it did not look; like what the user switched off, it hides no error."""
 
 
 class VerdictKind(enum.StrEnum):

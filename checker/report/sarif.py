@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from urllib.parse import quote
 
 from checker.base.record import Record
 from checker.base.words import count, plain
@@ -112,6 +113,8 @@ def _suppressions(item: PackageFinding, folder: str) -> list[Json]:
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 )
+RULE_PAGES = "https://github.com/OWNER/subt-check/blob/main/docs/rules"
+"""The generated pages, in this repository wherever it is kept."""
 RESULTS_LIMIT = 5000
 """Results of a run that code hosts show."""
 NOTIFICATIONS_LIMIT = 1000
@@ -185,6 +188,7 @@ def _rule(finding: ReportedFinding) -> Json:
         "id": finding.rule,
         "name": "".join(word[:1].upper() + word[1:] for word in plain(finding.name).split("-")),
         "shortDescription": {"text": plain(finding.title or finding.name)},
+        "helpUri": help_uri(finding),
         "help": {
             "text": "\n\n".join([*text, finding.help]),
             "markdown": "\n\n".join([*marked, f"`{finding.help}`"]),
@@ -195,6 +199,12 @@ def _rule(finding: ReportedFinding) -> Json:
     if finding.why:
         rule["fullDescription"] = {"text": plain(finding.why)}
     return rule
+
+
+def help_uri(finding: ReportedFinding) -> str:
+    """Return where the page of a finding's rule is on the web."""
+    group, anchor = finding.rule.rstrip("0123456789"), f"{finding.rule.lower()}-{finding.name}"
+    return f"{RULE_PAGES}/{quote(plain(group))}.md#{quote(plain(anchor))}"
 
 
 def _invocation(report: Report, left_out: int) -> Json:

@@ -12,6 +12,7 @@ from checker.report.markdown_text import escaped, fitting
 from checker.report.ownership import each_once, is_foreign
 from checker.report.render_settings import Palette
 from checker.report.report import (
+    NO_PHYSICS,
     NO_TRIAL,
     Cause,
     PackageReport,
@@ -51,7 +52,7 @@ def sentence(package: PackageReport) -> Sentence:
     phrases = [_errors(package)] if package.errors else []
     if package.verdict is VerdictKind.INCOMPLETE:
         phrases.insert(0, f"{'' if phrases else 'no error, but '}{_unseen(package)}")
-    phrases += [f"{count(warnings, 'warning')} to look at"] if warnings else []
+    phrases += [count(warnings, "warning")] if warnings else []
     rest = ", ".join(phrases) or "nothing to fix"
     return Sentence(package.verdict.lead, rest, _aside(package))
 
@@ -86,8 +87,9 @@ def _unseen(package: PackageReport) -> str:
 
 def _aside(package: PackageReport) -> str:
     off = [skipped.reason for skipped in package.not_checked if skipped.cause is Cause.SWITCHED_OFF]
-    others = sum(reason != NO_TRIAL for reason in off)
+    others = sum(reason not in (NO_TRIAL, NO_PHYSICS) for reason in off)
     phrases = ["trial not run"] if NO_TRIAL in off else []
+    phrases += ["physics is not installed"] if NO_PHYSICS in off else []
     phrases += [f"{count(others, 'rule')} switched off"] if others else []
     phrases += [_suppressed(package)] if package.suppressed else []
     return ", ".join(phrases)
@@ -103,16 +105,31 @@ _NAME_LIMIT = 200
 
 
 def summary_text(packages: Sequence[PackageReport], palette: Palette) -> str:
-    """Return a line for each package, then the counts of all."""
-    width = max((len(plain(package.name)) for package in packages), default=0)
-    words = _counted(packages)
-    lines = []
-    for package in packages:
-        counts = zip(_counts(package), words, strict=False)
-        numbers = "  ".join(f"{number:4d} {word}" for number, word in counts)
-        verdict = palette.verdict(package.verdict, f"{verdict_word(package.verdict):<10}")
-        lines.append(f"{plain(package.name):<{width}}  {verdict}  {numbers}")
+    """Return a table with a line for each package, and below it the counts of all."""
+    heads = ("package", "verdict", *_plurals(packages))
+    rows = [
+        (plain(package.name), verdict_word(package.verdict), *map(str, counts))
+        for package in packages
+        for counts in [_counts(package)[: len(heads) - 2]]
+    ]
+    widths = [max(map(len, column)) for column in zip(heads, *rows, strict=True)]
+    lines = [palette.bold(_line(heads, widths))]
+    for package, row in zip(packages, rows, strict=True):
+        name, verdict, *numbers = _cells(row, widths)
+        lines.append("  ".join((name, palette.verdict(package.verdict, verdict), *numbers)))
     return "\n".join([*lines, ready_of_all(packages)]) + "\n"
+
+
+def _line(row: Sequence[str], widths: Sequence[int]) -> str:
+    return "  ".join(_cells(row, widths))
+
+
+def _cells(row: Sequence[str], widths: Sequence[int]) -> list[str]:
+    """Return cells of equal width: words start at the left, numbers end at the right."""
+    return [
+        f"{cell:<{width}}" if column < 2 else f"{cell:>{width}}"
+        for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+    ]
 
 
 def summary_markdown(packages: Sequence[PackageReport], room: int) -> tuple[str, int]:
@@ -122,11 +139,10 @@ def summary_markdown(packages: Sequence[PackageReport], room: int) -> tuple[str,
         packages: A row each.
         room: Bytes.
     """
-    words = _counted(packages)
-    heads = [f"{word}s" if word in list(Severity) else word for word in words]
+    heads = _plurals(packages)
     head = "| package | verdict | " + " | ".join(heads) + " |"
-    rows, left = fitting(packages, lambda package: _row_in_markdown(package, len(words)), room)
-    return "\n".join([head, "|---|---|" + "---:|" * len(words), *rows]), left
+    rows, left = fitting(packages, lambda package: _row_in_markdown(package, len(heads)), room)
+    return "\n".join([head, "|---|---|" + "---:|" * len(heads), *rows]), left
 
 
 def has_suppressed(packages: Sequence[PackageReport]) -> bool:
@@ -134,9 +150,9 @@ def has_suppressed(packages: Sequence[PackageReport]) -> bool:
     return any(package.suppressed for package in packages)
 
 
-def _counted(packages: Sequence[PackageReport]) -> list[str]:
+def _plurals(packages: Sequence[PackageReport]) -> list[str]:
     """Return what is counted of each package, in words."""
-    return [*map(str, Severity), *["suppressed"] * has_suppressed(packages)]
+    return [*(f"{word}s" for word in Severity), *["suppressed"] * has_suppressed(packages)]
 
 
 def _counts(package: PackageReport) -> list[int]:

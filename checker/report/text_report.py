@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from checker.base.words import count, listed, plain, shortened
 from checker.finding import Severity
+from checker.report.concise_report import concise_text
 from checker.report.figures import Row, facts_in_words, rows_of
-from checker.report.finding_text import MESSAGE_LIMIT, finding_text
-from checker.report.ownership import Identity, owners, share_of
-from checker.report.render_settings import Palette
+from checker.report.finding_text import MESSAGE_LIMIT, finding_text, path_of
+from checker.report.ownership import Identity, foreign_findings, owned_by, share_of
+from checker.report.render_settings import Palette, RenderSettings, is_shown, shown_findings
 from checker.report.report import (
     IN_BASELINE,
     USUAL_PROFILE,
@@ -119,33 +121,104 @@ def _words(suppressed: Suppressed) -> str:
 
 SHOWN_LIMIT = 200
 """Findings of one package that are shown in full; the rest is counted."""
+_RULES_NAMED = 5
+"""Rules that were left out for one reason the user gave; of more the number says enough."""
 
 
-def to_text(report: Report, palette: Palette) -> str:
+class TextReport:
+    """The report as it grows: each package is told as soon as all that it refers to is known."""
+
+    def __init__(self, settings: RenderSettings, awaited: Iterable[str] = ()) -> None:
+        """Begin the report.
+
+        Args:
+            settings: What to show.
+            awaited: Paths of the packages that are to come. What another package reports of a
+                file of theirs is said there.
+        """
+        self._settings = settings
+        self._owners: dict[Identity, str] = {}
+        self._awaited = {posixpath.normpath(path) for path in awaited}
+        self._waiting: list[PackageReport] = []
+        self._is_first = True
+
+    def add(self, packages: Iterable[PackageReport], done: str = "") -> Iterator[str]:
+        """Yield what can be told now that some packages are checked.
+
+        Args:
+            packages: That were checked.
+            done: The path that is no longer awaited.
+        """
+        self._awaited.discard(posixpath.normpath(done))
+        for package in packages:
+            self._owners |= owned_by(package)
+            self._waiting.append(package)
+        while self._waiting and not self._must_wait(self._waiting[0]):
+            yield self._told(self._waiting.pop(0))
+
+    def rest(self) -> Iterator[str]:
+        """Yield what had to wait."""
+        self._awaited.clear()
+        yield from self.add(())
+
+    def _must_wait(self, package: PackageReport) -> bool:
+        """Say whether a package reports a file of one that is still to come."""
+        if not self._awaited:
+            return False
+        paths = (path_of(found.places[0], package) for found in foreign_findings(package))
+        return any(path.startswith(f"{awaited}/") for path in paths for awaited in self._awaited)
+
+    def _told(self, package: PackageReport) -> str:
+        if self._settings.concise:
+            return concise_text(package, self._owners, self._settings)
+        gap = "" if self._is_first or self._settings.quiet else "\n"
+        self._is_first = False
+        return gap + _package(package, self._owners, self._settings)
+
+
+def to_text(report: Report, settings: RenderSettings) -> str:
     """Return the whole report."""
-    owner_of = owners(report)
-    explained: set[str] = set()
-    blocks = [_package(package, owner_of, explained, palette) for package in report.packages]
-    if len(report.packages) > 1:
-        blocks.append(summary_text(report.packages, palette))
+    text = TextReport(settings)
+    return "".join((*text.add(report.packages), closing_text(report, settings)))
+
+
+def closing_text(report: Report, settings: RenderSettings) -> str:
+    """Return what stands below all packages: a table of several, and what helps to go on."""
+    if settings.quiet:
+        return ""
+    blocks = [summary_text(report.packages, settings.palette)] * (len(report.packages) > 1)
     if skipped := [_skipped(item) for item in report.not_opened if not item.failed]:
         blocks.append("".join(skipped))
-    return "\n".join(blocks)
+    blocks += [_hint(report, settings)]
+    return "".join(f"\n{block}" for block in blocks if block)
+
+
+def _hint(report: Report, settings: RenderSettings) -> str:
+    """Say where a rule is explained, by the first that was shown."""
+    shown = (found for package in report.packages for found in shown_findings(package, settings))
+    first = next(shown, None)
+    if first is None or settings.concise:
+        return ""
+    return settings.palette.dim(f"`subt-check rule {first.rule}` explains a rule") + "\n"
 
 
 def _package(
-    package: PackageReport,
-    owner_of: Mapping[Identity, str],
-    explained: set[str],
-    palette: Palette,
+    package: PackageReport, owner_of: Mapping[Identity, str], settings: RenderSettings
 ) -> str:
+    palette = settings.palette
     share = share_of(package, owner_of)
-    kind = package.kind.replace("_", " ") + _profile(package)
-    lines = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
-    for finding in share.own[:SHOWN_LIMIT]:
+    own = [found for found in share.own if is_shown(found, settings)]
+    lines: list[str] = []
+    explained: set[str] = set()
+    for finding in own[:SHOWN_LIMIT]:
         lines += [*finding_text(finding, package, palette, finding.rule in explained), ""]
         explained.add(finding.rule)
-    lines += _counted(share.own[SHOWN_LIMIT:])
+    lines += _counted(own[SHOWN_LIMIT:])
+    if settings.quiet:
+        return "".join(f"{line}\n" for line in lines)
+    kind = package.kind.replace("_", " ") + _profile(package)
+    lines[:0] = [palette.bold(plain(package.name)) + palette.dim(f"  {kind}"), ""]
+    lines += _infos(len(share.own) - len(own))
     lines += [
         f"{count(n, 'finding')} in {plain(name)}: listed there"
         for name, n in share.elsewhere.items()
@@ -155,10 +228,15 @@ def _package(
     )
     lines += suppressed_text(package.suppressed)
     lines += _inherited(package)
-    lines += _not_checked(package.not_checked)
+    lines += _not_checked(package.not_checked, settings)
     lines += _robots(package, palette)
-    lines.append(_verdict(package, palette))
+    lines.append(verdict_text(package, palette))
     return "\n".join(lines) + "\n"
+
+
+def _infos(number: int) -> Iterator[str]:
+    if number:
+        yield f"{count(number, 'info')}, show with --info"
 
 
 def _profile(package: PackageReport) -> str:
@@ -177,23 +255,27 @@ def _counted(findings: Sequence[ReportedFinding]) -> Iterator[str]:
 def _inherited(package: PackageReport) -> Iterator[str]:
     by_source: dict[str, list[str]] = {}
     for part in package.inherited:
-        source = part.package + ("" if part.at_hand else " (not available)")
+        source = part.package + ("" if part.at_hand else " (not found)")
         by_source.setdefault(source, []).append(part.part)
     for source, parts in by_source.items():
         yield f"inherited from {plain(source)}: {plain(listed(parts))}"
 
 
-def _not_checked(not_checked: Sequence[NotChecked]) -> Iterator[str]:
-    by_reason: dict[tuple[str, bool], list[str]] = {}
+def _not_checked(not_checked: Sequence[NotChecked], settings: RenderSettings) -> Iterator[str]:
+    """Name the rules that could not look; those that the user or the package leaves out count."""
+    by_reason: dict[tuple[str, Cause], list[str]] = {}
     for skipped in not_checked:
-        applies = skipped.cause is not Cause.NOT_APPLICABLE
-        by_reason.setdefault((skipped.reason, applies), []).append(skipped.rule)
-    for (reason, applies), rules in by_reason.items():
+        by_reason.setdefault((skipped.reason, skipped.cause), []).append(skipped.rule)
+    for (reason, cause), rules in by_reason.items():
         text = plain(shortened(reason, MESSAGE_LIMIT))
-        if applies:
-            yield f"not checked: {', '.join(rules)}: {text}"
-        else:
-            yield f"not applicable: {count(len(rules), 'rule')}: {text}"
+        match cause:
+            case Cause.NOT_APPLICABLE:
+                if settings.infos:
+                    yield f"not applicable: {count(len(rules), 'rule')}: {text}"
+            case Cause.SWITCHED_OFF if len(rules) > _RULES_NAMED:
+                yield f"not checked: {count(len(rules), 'rule')}: {text}"
+            case _:
+                yield f"not checked: {', '.join(rules)}: {text}"
 
 
 def _robots(package: PackageReport, palette: Palette) -> Iterator[str]:
@@ -212,7 +294,8 @@ def _robots(package: PackageReport, palette: Palette) -> Iterator[str]:
             yield from _table([row for row in rows if row.is_fault], palette)
 
 
-def _verdict(package: PackageReport, palette: Palette) -> str:
+def verdict_text(package: PackageReport, palette: Palette) -> str:
+    """Return the last line about a package."""
     return palette.verdict(package.verdict, f"{plain(package.name)}: {sentence(package)}")
 
 

@@ -10,14 +10,15 @@ import gc
 import importlib
 import pkgutil
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cache
-from importlib.metadata import entry_points
 from itertools import chain
 from types import ModuleType
 
 from msgspec.structs import replace
 
 from checker.base.errors import CheckerError
+from checker.base.resources import RULES, metadata_folders
 from checker.rule import Rule
 
 ENTRY_POINT_GROUP = "subt_check.rules"
@@ -31,7 +32,7 @@ def all_rules() -> tuple[Rule, ...]:
         CheckerError: Rules of another distribution cannot be loaded, or two rules have one id.
     """
     rules: dict[str, Rule] = {}
-    for rule in chain(_rules_below(importlib.import_module("rules")), _registered_rules()):
+    for rule in chain(_rules_below(importlib.import_module(RULES)), _registered_rules()):
         if rules.setdefault(rule.id, rule) is not rule:
             modules = f"{rules[rule.id].check.__module__} and {rule.check.__module__}"
             raise CheckerError(f"two rules have the id {rule.id}: {modules}")
@@ -45,7 +46,24 @@ def rules_in(package: str) -> tuple[Rule, ...]:
     return tuple(sorted(_rules_below(importlib.import_module(package)), key=lambda rule: rule.id))
 
 
+@cache
+def rules_of_others() -> tuple[str, ...]:
+    """Return the distributions that bring further rules, with what each says of itself."""
+    found = []
+    for folder in metadata_folders():
+        with suppress(OSError):
+            text = (folder / "entry_points.txt").read_text("utf-8", "replace")
+            if f"[{ENTRY_POINT_GROUP}]" in text:
+                found.append(f"{folder.name} {text}")
+    return tuple(sorted(found))
+
+
 def _registered_rules() -> Iterator[Rule]:
+    if not rules_of_others():
+        return
+    # Loaded where there are any: it takes as long as a small check.
+    from importlib.metadata import entry_points
+
     for entry_point in entry_points(group=ENTRY_POINT_GROUP):
         try:
             yield from list(_rules_below(entry_point.load()))

@@ -128,7 +128,7 @@ def _call_of_a_value(node: RubyNode) -> Iterator[SyntaxFault]:
 
 def _leading_zeros(node: RubyNode) -> Iterator[SyntaxFault]:
     if node.type == "float" and _ZEROS.match(node.text):
-        yield node.span, f"{node.text[:60]} is no number: it starts with 0"
+        yield node.span, f"{node.text[:60]} is not a number: it starts with 0"
 
 
 _JUDGES = (

@@ -1,10 +1,11 @@
 """The battery lasts longer or shorter than specifications.md says.
 
-Teams plan with the specification sheet. A `power_load` copied from another robot gives the
+Teams plan with specifications.md. A `power_load` copied from another robot gives the
 endurance of that robot. The rule computes how long the model lasts from the plugin's charge,
 voltages and load; for accepted packages the result is within 17 % of the sheet.
 
-Fix: choose `power_load` so that the battery lasts as long as the sheet says, or correct the sheet.
+Fix: choose `power_load` so that the battery lasts as long as specifications.md says, or correct
+specifications.md.
 Source: endurances that SubT reviewers accepted, and the parameters of the battery plugins in the
 same packages (`subt_standards.json`).
 """
@@ -42,7 +43,7 @@ def check(
         if abs(seconds - stated.value) > tolerance * stated.value + stated.resolution / 2:
             yield finding(
                 stated,
-                f"the specification sheet says {_minutes(stated.value)}, but the model's battery "
+                f"specifications.md says {_minutes(stated.value)}, but the model's battery "
                 f"lasts about {_minutes(seconds)}",
                 related=[(battery, "the load of the battery")],
             )

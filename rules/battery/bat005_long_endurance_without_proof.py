@@ -1,7 +1,7 @@
 """A battery that lasts long, without a measurement that proves it.
 
 Above one hour on the ground and ten minutes in the air, the organisers ask for proof from the real
-robot: a video or a log of an endurance test, linked in the specification sheet. Without proof they
+robot: a video or a log of an endurance test, linked in specifications.md. Without proof they
 ask for the standard endurance. A sheet whose section on validation refers to that of another
 configuration has its proof there.
 

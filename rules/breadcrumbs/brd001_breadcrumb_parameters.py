@@ -1,11 +1,12 @@
 """Breadcrumbs whose parameters differ from those of the challenge's robots.
 
-Teams plan their network with the number in the specification sheet, and robots carry 6 or 12.
+Teams plan their network with the number in specifications.md, and robots carry 6 or 12.
 Without `<disable_physics_time>` Gazebo simulates every dropped relay until the end, which slows the
 run down. Without `<topic>` the plugin listens to a topic that no launch file bridges.
 
 Fix: write `<topic>/model/#{_name}/breadcrumb/deploy</topic>`,
-`<disable_physics_time>3.0</disable_physics_time>` and the `<max_deployments>` that the sheet gives.
+`<disable_physics_time>3.0</disable_physics_time>` and the `<max_deployments>` that
+specifications.md gives.
 Source: SubT reviews of breadcrumbs; all accepted robots with breadcrumbs carry 6 or 12
 (`subt_standards.json`).
 """
@@ -56,7 +57,7 @@ def check(
         if item.count != total:
             yield finding(
                 item,
-                f"the specification sheet lists {item.count} breadcrumbs, but the robot carries "
+                f"specifications.md lists {item.count} breadcrumbs, but the robot carries "
                 f"{total:g}",
                 related=[(number, "stated here") for number in numbers],
             )

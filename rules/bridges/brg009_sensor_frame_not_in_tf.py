@@ -48,7 +48,7 @@ def check(simulations: Simulations, context: Context) -> Findings:
                     yield finding(
                         stated,
                         f"messages of the {sensor.type.value} sensor {sensor.name.value!r} are in "
-                        f"the frame {stated.value!r}, which is no link of the robot",
+                        f"the frame {stated.value!r}, which is not a link of the robot",
                     )
 
 

@@ -25,13 +25,13 @@ def check(control: ControlSystem) -> Findings:
         for joint in controller.joints:
             known = control.joints.get(joint.value)
             if known is None:
-                near = names.near(joint.value)
+                sure = names.sure(joint.value)
                 yield finding(
                     joint,
                     f"{_who(controller)} controls joint {joint.value!r}, "
                     f"which the robot does not have{names.hint(joint.value)}",
                     severity=_severity(controller),
-                    fix=replace_text(joint, near, Safety.UNSAFE) if near and _bare(joint) else None,
+                    fix=replace_text(joint, sure, Safety.UNSAFE) if sure and _bare(joint) else None,
                 )
             elif not control.moves(joint.value):
                 yield finding(

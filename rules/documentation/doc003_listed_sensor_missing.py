@@ -3,8 +3,8 @@
 Teams choose a robot by its specification sheet. They notice only in the first run that a listed
 sensor is missing, or is modelled under another type.
 
-Fix: add the sensor to the model, or correct the sheet; write "modeled by a … sensor" where the
-device's name does not say what it is.
+Fix: add the sensor to the model, or correct specifications.md; write "modeled by a … sensor" where
+the device's name does not say what it is.
 Source: SubT maintainers compare sheet and model sensor by sensor in their reviews.
 """
 
@@ -41,19 +41,18 @@ def check(package: Package, robot: Robot, specification: Specification) -> Findi
         accepted = types.union(*(SUBSTITUTES.get(item.kind, frozenset()) for item in items))
         if not accepted.intersection(present):
             for item in items:
-                message = f"the specification sheet lists {_words(item)!r}, but the model has no"
+                message = f"specifications.md lists {_words(item)!r}, but the model has no"
                 how = "list it in both or in neither"
                 yield finding(item, f"{message} {_name(item.kind)} sensor: {how}")
         elif amount and (total := _total(items)) is not None and total != amount:
             if total < amount and specification.other_sensors:
                 yield unchecked(
-                    f"the specification sheet refers to {specification.other_sensors} for its "
-                    "sensors"
+                    f"specifications.md refers to {specification.other_sensors} for its sensors"
                 )
                 continue
             yield finding(
                 items[0],
-                f"the specification sheet lists {total} × {_name(items[0].kind)}, but the model "
+                f"specifications.md lists {total} × {_name(items[0].kind)}, but the model "
                 f"has {amount}",
                 severity=Severity.WARNING,
                 related=[(item, "also listed here") for item in items[1:]],

@@ -53,7 +53,7 @@ def check(
         yield unchecked(robot.missing_parts)
     if specification.other_sensors:
         yield unchecked(
-            f"the specification sheet refers to {specification.other_sensors} for its sensors"
+            f"specifications.md refers to {specification.other_sensors} for its sensors"
         )
         return
     texts = list(_texts(section, configuration_number(package.name)))
@@ -69,8 +69,7 @@ def check(
             name = kind.value.replace("_", " ")
             yield finding(
                 section,
-                f"the model has {len(sensors)} × {name}, but the specification sheet lists no "
-                f"{name}",
+                f"the model has {len(sensors)} × {name}, but specifications.md lists no {name}",
                 severity=Severity.INFO if sensors[0].type.value in minor else None,
                 related=[(sensor, f"sensor {sensor.name.value!r}") for sensor in sensors[:NOTED]],
             )

@@ -1,6 +1,6 @@
 """Lines that specifications.md names no longer contain what it says.
 
-Reviewers look up each limit at the line that the specification sheet names. Line numbers become
+Reviewers look up each limit at the line that specifications.md names. Line numbers become
 wrong with the next edit of the file, or come from another robot's sheet. One line above and below
 is allowed.
 
@@ -60,7 +60,7 @@ def check(
         source = package.read(path) if path else None
         if not isinstance(source, SourceText):
             yield unchecked(
-                f"{reference.file.value}, which the specification sheet names, is not available"
+                f"{reference.file.value}, which specifications.md names, is not available"
             )
             continue
         text = "\n".join(_lines(source, reference, around)).casefold()
@@ -69,18 +69,18 @@ def check(
         if not text:
             yield finding(
                 reference,
-                f"the specification sheet names {where}, but the file has {_length(source)} lines",
+                f"specifications.md names {where}, but the file has {_length(source)} lines",
             )
         elif tags and not any(tag in text for tag in tags):
             yield finding(
                 reference,
-                f"the specification sheet refers to {where} for {_expected(reference)}, but the "
+                f"specifications.md refers to {where} for {_expected(reference)}, but the "
                 "lines do not contain that",
             )
         elif wrong := _other_number(_claimed(specification, reference), text, tolerance):
             yield finding(
                 reference,
-                f"the specification sheet refers to {where} for a limit of {wrong}, but the lines "
+                f"specifications.md refers to {where} for a limit of {wrong}, but the lines "
                 "contain other numbers",
             )
 

@@ -151,7 +151,7 @@ def _of_itself(sheet: Specification, owner: str, number: int) -> Iterator[Findin
             if int(match.group(group)) != number:
                 yield finding(
                     passage.part(*match.span()),
-                    "the specification sheet says that it describes configuration "
+                    "specifications.md says that it describes configuration "
                     f"{match.group(group)}, but the package is {owner}",
                     key="about another configuration",
                 )

@@ -60,7 +60,7 @@ def _sum(stated: tuple[Price, ...], tolerance: float) -> Iterator[Finding]:
     if abs(added - sums[0].amount) > tolerance * max(added, sums[0].amount):
         yield finding(
             sums[0],
-            f"the parts cost {added:,.10g} together, but the specification sheet states a total "
+            f"the parts cost {added:,.10g} together, but specifications.md states a total "
             f"of {sums[0].amount:,.10g}",
             related=[(part, "a part") for part in parts[:20]],
         )

@@ -1,10 +1,10 @@
 """The turning radius in specifications.md is not that of the drive.
 
 Teams plan paths through narrow galleries with the turning radius. Differential drives and tracks
-turn on the spot, whatever the specification sheet says. Ackermann steering never does: its radius
+turn on the spot, whatever specifications.md says. Ackermann steering never does: its radius
 follows from wheel base and steering limit.
 
-Fix: correct the sheet, or the drive plugin's `<steering_limit>` and `<wheel_base>`.
+Fix: correct specifications.md, or the drive plugin's `<steering_limit>` and `<wheel_base>`.
 Source: kinematics: radius = wheel base / tan(steering limit) at the middle of the rear axle; at the
 wheels it is up to half the track width more or less.
 """
@@ -57,7 +57,7 @@ def check(
             if stated.value > on_the_spot:
                 yield finding(
                     stated,
-                    f"the specification sheet says a turning radius of {stated.value:g} m, but "
+                    f"specifications.md says a turning radius of {stated.value:g} m, but "
                     f"the robot turns on the spot ({moved.kind})",
                     related=[(drives[0].plugin, "the drive")],
                 )
@@ -86,7 +86,7 @@ def _steered(
     for place, words in places:
         yield finding(
             place,
-            f"the specification sheet says {words}, but the wheel base and steering limit give "
+            f"specifications.md says {words}, but the wheel base and steering limit give "
             f"{radius:.3g} m",
             related=[(drive.steering_limit, "the steering limit")],
         )

@@ -1,11 +1,12 @@
 """The limits of the drive differ from those of specifications.md.
 
-Teams plan with the specification sheet. The drive must reach the velocities and accelerations that
+Teams plan with specifications.md. The drive must reach the velocities and accelerations that
 the sheet states, no more and no less. It drives as the model says, so this is a warning. None of
 the accepted packages that we checked shows this.
 
-Fix: correct the sheet, or the limits of the drive plugin. If the sheet gives different figures for
-the two directions and the plugin has one parameter for both, any figure between them is right.
+Fix: correct specifications.md, or the limits of the drive plugin. If specifications.md gives
+different figures for the two directions and the plugin has one parameter for both, any figure
+between them is right.
 Source: SubT maintainers compare sheet and plugin in their reviews.
 """
 
@@ -71,7 +72,7 @@ def _compared(
     says = f"{claim.maximum:g}" if minimum is None else f"{minimum:g} to {claim.maximum:g}"
     yield finding(
         claim,
-        f"the specification sheet says {motion.axis} {motion.kind} {what}: {says}; but "
+        f"specifications.md says {motion.axis} {motion.kind} {what}: {says}; but "
         f"{motion.plugin.class_name} has {least:g} to {high.value:g}",
         related=[(high, "the limit of the model")],
     )

@@ -63,6 +63,7 @@ def check(
                 _message(inertia, reach, "large" if ratio > warning_above else "small"),
                 severity=severity if heavy else Severity.INFO,
                 key="" if heavy else "placeholder",
+                covered_by=("INE013",),
             )
 
 

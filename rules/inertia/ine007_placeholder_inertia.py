@@ -14,6 +14,8 @@ from checker.physics.mass.mass_properties import LinkInertia, MassProperties
 from checker.rule import Concern, Finding, Findings, Severity, finding, rule
 
 _UNIT = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+_MORE_PRECISE = ("INE004", "INE013")
+"""They say how far the same moments are off."""
 
 
 @rule("INE007", "placeholder-inertia", Severity.WARNING, Concern.ROBOT)
@@ -59,6 +61,7 @@ def _unit(inertia: LinkInertia) -> Iterator[Finding]:
             f"link {inertia.link.name.value!r} of {inertia.mass:.4g} kg has the unit tensor "
             "of inertia, 1 kg·m² about each axis",
             key="unit",
+            covered_by=_MORE_PRECISE,
         )
 
 
@@ -87,6 +90,7 @@ def _repeated(group: Sequence[LinkInertia], tensor: Sequence[float]) -> Iterator
                 f"link {inertia.link.name.value!r} and {len(group) - 1} more links of other mass "
                 f"or size have the same inertia tensor (ixx, iyy, izz = {moments} kg·m²)",
                 key=f"copied {first}",
+                covered_by=_MORE_PRECISE,
             )
 
 

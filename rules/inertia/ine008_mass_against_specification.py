@@ -4,7 +4,7 @@ The mass determines how the robot accelerates, slips and drains its battery. If 
 and model disagree, one of them describes another robot. Typical causes are a copied link, a missing
 battery, or pounds instead of kilograms. The robot weighs what its model says, so this is a warning.
 
-Fix: correct the masses of the links, or the sheet.
+Fix: correct the masses of the links, or specifications.md.
 Source: Robot Model Checklist: reviewers add up the links and compare with "Cost and Scale".
 """
 
@@ -47,7 +47,7 @@ def check(
     grave = abs(off) > error_above * slack
     yield finding(
         stated,
-        f"the specification sheet says {stated.value:g} kg, but the links together weigh "
+        f"specifications.md says {stated.value:g} kg, but the links together weigh "
         f"{robot.mass:.4g} kg: {abs(off):.0%} {'more' if off > 0 else 'less'}",
         severity=Severity.ERROR if grave else Severity.WARNING,
         related=[(robot, "the model's links")],

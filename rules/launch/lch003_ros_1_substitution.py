@@ -24,7 +24,7 @@ def check(launch: Ros2Launch) -> Findings:
                 exact = text.startswith("$(")
                 yield finding(
                     fault,
-                    f"$({fault.name} …) is no substitution of ROS 2: expected $({new} …)",
+                    f"$({fault.name} …) is not a substitution of ROS 2: expected $({new} …)",
                     key=fault.name,
                     fix=replace_text(fault, replacement, Safety.UNSAFE) if exact else None,
                 )

@@ -29,9 +29,8 @@ def _faults(package: Package) -> Iterator[Finding]:
     name, place = package.name, package.folder_place()
     match = _PATTERN.fullmatch(name)
     if match is None:
-        yield finding(
-            place, f"the package is called {name!r}, expected {_expected(name)}", key="pattern"
-        )
+        expected = _expected(package.declared_name)
+        yield finding(place, f"the folder is called {name!r}, expected {expected}", key="pattern")
         return
     robot, number = match.groups()
     if number.startswith("0"):

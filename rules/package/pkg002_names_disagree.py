@@ -1,69 +1,66 @@
 """The names of a package do not agree.
 
-catkin finds a package by the name in package.xml, CMake installs it under the name of `project()`,
-and the SubT launcher uses the folder's name. If they differ, `roslaunch` does not find the package.
+A package is called as its package.xml says: catkin and ament find it by that name, and stop where
+`project()` in CMakeLists.txt has another one. The folder may have any name, as that of an archive
+from GitHub has (`rover-master`). Only where the folder is named as a submission of the challenge is
+(`acme_rover_sensor_config_1`), all must have its name: the SubT launcher builds the name from it.
 The names in model.config and `<model name>` are only displayed; a name in plain words need only
-state the right number: `Acme Rover Config 2`. The folder of a URDF package may have any name: no
-launcher builds one from it.
+state the right number: `Acme Rover Config 2`.
 
-Fix: use the same name in package.xml, `project()` and for the folder.
+Fix: use the name of package.xml in `project()`; for a submission, the name of the folder in both.
+The automatic fix renames all mentions in the package's files. It is not offered if a mention would
+be left over: in a file's name, in a longer name or in another package.
 Source: REP 140 and catkin: the project name must equal the package name.
 """
 
 from collections.abc import Iterator
 
+from checker.fix.package_name import package_renamed
 from checker.package.inheritance import Found
-from checker.package.kind import PackageKind
 from checker.package.manifests import Paperwork
 from checker.package.package import Package
-from checker.package.submissions import configuration_number, stated_number
-from checker.rule import Concern, Finding, Findings, Severity, finding, replace_text, rule
+from checker.package.submissions import NAME, configuration_number, stated_number
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule
 from checker.source.text import Located
 from checker.source.xml import XmlDocument
 
 
 @rule("PKG002", "names-disagree", Severity.ERROR, Concern.PAPERWORK)
-def check(package: Package, paperwork: Paperwork) -> Findings:
-    """Compare the names in package.xml, CMakeLists.txt and model.config with the folder's."""
+def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
+    """Compare the names in package.xml, CMakeLists.txt and model.config with each other."""
     if package.only:
         return
     manifest, build = paperwork.manifest, paperwork.build
-    if package.kind is PackageKind.URDF_DESCRIPTION:
-        if manifest is not None and build is not None and build.project is not None:
-            yield from _project(build.project, manifest.name)
-        return
+    name, said = package.declared_name, f"package.xml names the package {package.declared_name!r}"
+    if context.of_submissions and NAME.fullmatch(package.name):
+        name, said = package.name, f"its folder is {package.name!r}"
+    elif manifest is None or not manifest.name.stated:
+        build = None  # Nothing says how the package is called.
     if manifest is not None:
-        yield from _compare(manifest.name, package.name, "package.xml names the package")
+        yield from _compare(package, manifest.name, name, "package.xml names the package", said)
     if build is not None and build.project is not None:
-        yield from _compare(build.project, package.name, "CMakeLists.txt names the project")
-    shown = paperwork.config.name if paperwork.config is not None else None
-    if shown is not None:
-        yield from _shown_name(shown, package.name)
-    yield from _model_name(package, shown.value if shown is not None else package.name)
+        yield from _compare(package, build.project, name, "CMakeLists.txt names the project", said)
+    if not package.is_urdf:
+        shown = paperwork.config.name if paperwork.config is not None else None
+        if shown is not None:
+            yield from _shown_name(shown, name)
+        yield from _model_name(package, name, shown.value if shown is not None else name)
 
 
-def _compare(name: Located[str], folder: str, saying: str) -> Iterator[Finding]:
-    if name.stated and name.value != folder:
+def _compare(
+    package: Package, written: Located[str], name: str, saying: str, said: str
+) -> Iterator[Finding]:
+    if written.stated and written.value != name:
         yield finding(
-            name,
-            f"{saying} {name.value!r}, but its folder is {folder!r}",
-            fix=replace_text(name, folder),
+            written,
+            f"{saying} {written.value!r}, but {said}",
+            fix=package_renamed(package, written.value, name),
         )
 
 
-def _project(project: Located[str], name: Located[str]) -> Iterator[Finding]:
-    if project.stated and name.stated and project.value != name.value:
-        yield finding(
-            project,
-            f"CMakeLists.txt names the project {project.value!r}, but package.xml names the "
-            f"package {name.value!r}",
-            fix=replace_text(project, name.value),
-        )
-
-
-def _shown_name(name: Located[str], folder: str) -> Iterator[Finding]:
+def _shown_name(name: Located[str], package: str) -> Iterator[Finding]:
     """Report another package's name in model.config, and another number in plain words."""
-    number = configuration_number(folder)
+    number = configuration_number(package)
     stated = stated_number(name.value) if " " in name.value and number is not None else number
     if stated not in (None, number):
         yield finding(
@@ -72,26 +69,26 @@ def _shown_name(name: Located[str], folder: str) -> Iterator[Finding]:
             f"{number}",
             severity=Severity.INFO,
         )
-    if name.stated and " " not in name.value and name.value != folder and "_" in name.value:
+    if name.stated and " " not in name.value and name.value != package and "_" in name.value:
         yield finding(
             name,
-            f"model.config names the model {name.value!r}, but the folder is {folder!r}",
+            f"model.config names the model {name.value!r}, but the package is {package!r}",
             severity=Severity.INFO,
         )
 
 
-def _model_name(package: Package, shown: str) -> Iterator[Finding]:
-    """The package's own model may have the folder's name or that of model.config."""
+def _model_name(package: Package, called: str, shown: str) -> Iterator[Finding]:
+    """The package's own model may have the package's name or that of model.config."""
     path = package.model_path
     document = package.xml(path.path) if isinstance(path, Found) else None
     if not isinstance(document, XmlDocument) or document.source.file.startswith("../"):
         return
     model = document.root.child("model")
     name = model.attribute("name") if model is not None else None
-    if name is not None and name.value not in (package.name, shown):
+    if name is not None and name.value not in (called, shown):
         yield finding(
             name,
-            f"the model is called {name.value!r}, but the package is {package.name!r}",
+            f"the model is called {name.value!r}, but the package is {called!r}",
             severity=Severity.INFO,
         )
 
@@ -103,9 +100,19 @@ def _manifest(name: str) -> str:
 """
 
 
+_ROVER = "acme_rover_sensor_config_1"
+_BUILD = f"project({_ROVER})\n"
+
 GOOD = [
     {"model.config": "<model><name>Acme Rover</name><sdf>model.sdf</sdf></model>"},
     {"model.config": "<model><name>Acme X2 Sensor Config 1</name><sdf>model.sdf</sdf></model>"},
+    {
+        "@name": f"{_ROVER} (1)",
+        "package.xml": f"<package><name>{_ROVER}</name></package>\n",
+        "CMakeLists.txt": _BUILD,
+        "model.sdf": f'<sdf version="1.6"><model name="{_ROVER}"/></sdf>\n',
+        "model.config": f"<model><name>{_ROVER}</name><sdf>model.sdf</sdf></model>",
+    },
 ]
 BAD = [
     {"package.xml": _manifest("acme_rover_sensor_config_2")},
@@ -124,5 +131,12 @@ BAD = [
   <sdf>model.sdf</sdf>
 </model>
 """
+    },
+    {
+        "@name": "rover-master",
+        "package.xml": "<package><name>acme_rover</name></package>\n",
+        "CMakeLists.txt": "project(rover-master)  # ^ PKG002\n",
+        "model.config": None,
+        "model.sdf": '<sdf version="1.6"><model name="acme_rover"/></sdf>\n',
     },
 ]

@@ -87,7 +87,7 @@ def _sheet(package: Package) -> Iterator[Finding | Unchecked]:
             f"{SHEET} is missing: {spelt} is read in its place; rename it",
             severity=Severity.WARNING,
             key=SHEET,
-            related=[(package.place(spelt), "the specification sheet by another name")],
+            related=[(package.place(spelt), "specifications.md by another name")],
         )
         return
     holder = next(filter(partial(_describes, package), package.workspace.packages.values()), None)

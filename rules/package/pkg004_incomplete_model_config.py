@@ -10,6 +10,7 @@ Source: Gazebo, "Model structure and requirements"; Model Migration Guide, step 
 """
 
 import posixpath
+import re
 from collections.abc import Iterator
 from html import escape
 
@@ -33,6 +34,7 @@ from checker.rule import (
 from checker.source.xml import XmlDocument
 from checker.source.xml_insertion import append_to
 
+_TO_DO = re.compile(r"\s*(?:TODO\b|todo@)")
 _NOTHING = Severity.INFO
 """A folder without any model: others may use its meshes."""
 
@@ -54,6 +56,11 @@ def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
             fix=_named(package, context.sdf_version),
         )
     yield from _lost(package, config, _chosen(config, context.reads))
+    for author in config.authors:
+        for text in (author.name, author.email):
+            if _TO_DO.match(text.value):
+                message = f"model.config has the author {text.value[:60]!r}, left from a template"
+                yield finding(text, message, key="template")
     if missing := list(_missing(config)):
         words = f"{', '.join(missing[:-1])} and {missing[-1]}" if missing[1:] else missing[0]
         yield finding(
@@ -76,19 +83,22 @@ def _lost(package: Package, config: ModelConfig, chosen: SdfEntry | None) -> Ite
         if file is not None and file.is_file:
             continue
         alike = [other for other in package.index.similar(path) if other != path]
-        model = next(iter(alike), own_model(package))
+        same = [other for other in alike if other.casefold() == path.casefold()] or alike
+        meant = same[0] if len(same) == 1 else ""
         yield finding(
             entry.file,
             f"model.config names {written or 'no file'}, but this file does not exist"
             + (f"; did you mean {alike[0]}?" if alike else ""),
             severity=None if chosen in (None, entry) else Severity.WARNING,
-            fix=replace_text(entry.file, model, Safety.UNSAFE) if model and written else None,
+            fix=replace_text(entry.file, meant, Safety.UNSAFE) if meant else None,
         )
 
 
 def _named(package: Package, version: str) -> Fix | None:
     """Return the fix that writes the package's model file."""
     document, model = package.xml("model.config"), own_model(package)
+    if len(package.index.with_suffix(".sdf")) != 1:
+        return None
     if model is None or not version or not isinstance(document, XmlDocument):
         return None
     line = f'<sdf version="{version}">{escape(model, quote=False)}</sdf>'
@@ -114,6 +124,11 @@ _REST = f"<name>Rover</name><version>1.0</version>{_AUTHOR}<description>A rover<
 GOOD = [{"model.config": f'<model>{_REST}<sdf version="1.6">model.sdf</sdf></model>'}]
 BAD = [
     {"model.config": f"{_START}{_REST}</model>"},
+    {
+        "model.config": f"""<model>{_REST.replace("@", "@x.").replace("<name>A", "<name>TODO")}
+<sdf version="1.6">model.sdf</sdf></model>
+""".replace("<model>", "<model>  <!-- ^ PKG004 -->")
+    },
     {"model.config": f"{_START}<name>Rover</name><sdf>model.sdf</sdf></model>"},
     {
         "model.config": f"""<model>{_REST}

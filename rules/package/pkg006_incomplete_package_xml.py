@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from checker.package.manifests import PackageManifest, Paperwork
 from checker.package.package import Package
 from checker.package.submissions import described_package
-from checker.rule import Concern, Finding, Findings, Severity, finding, rule, unchecked
+from checker.rule import Concern, Context, Finding, Findings, Severity, finding, rule, unchecked
 from checker.source.text import Located, Span
 
 _VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
@@ -32,7 +32,7 @@ _PAGE = re.compile(
 """The page of a robot's package, as templates of package.xml name it."""
 _TEMPLATE_LINK = re.compile(rf"<!--\s{{0,80}}<url[^<>]{{0,80}}>({_WIKI}\w{{1,100}})</url>", re.I)
 """What `catkin_create_pkg` writes: the page of the package, in a comment."""
-_TO_DO = re.compile(r"\s*(?:TODO|TBD|FIXME)\b")
+_TO_DO = re.compile(r"\s*(?:(?:TODO|TBD|FIXME)\b|todo@)")
 _COMMON = {
     "bringup",
     "config",
@@ -48,14 +48,14 @@ _EMAIL = re.compile(r"[^@\s]+@[^@\s]+")
 
 
 @rule("PKG006", "incomplete-package-xml", Severity.ERROR, Concern.PAPERWORK)
-def check(package: Package, paperwork: Paperwork) -> Findings:
+def check(package: Package, paperwork: Paperwork, context: Context) -> Findings:
     """Check the entries that package.xml must have."""
     if reason := paperwork.unread("package.xml"):
         yield unchecked(reason)
     manifest = paperwork.manifest
     if manifest is None:
         return
-    yield from _required(manifest)
+    yield from _required(manifest, None if context.of_submissions else Severity.WARNING)
     yield from _people(manifest)
     yield from _left_from_copying(package, manifest)
     if not manifest.build_type.value and not manifest.depends_on("catkin"):
@@ -98,7 +98,7 @@ def _links(manifest: PackageManifest) -> Iterator[tuple[Located[str], Severity]]
         yield Located(match[1], Span(source, *match.span(1))), Severity.INFO
 
 
-def _required(manifest: PackageManifest) -> Iterator[Finding]:
+def _required(manifest: PackageManifest, of_template: Severity | None) -> Iterator[Finding]:
     texts = {
         "name": manifest.name,
         "version": manifest.version,
@@ -117,12 +117,13 @@ def _required(manifest: PackageManifest) -> Iterator[Finding]:
     if not manifest.licenses:
         yield _missing("license", Located("", manifest.span, stated=False))
     yield from (_missing("license", text) for text in manifest.licenses if not text.value)
-    for text in (manifest.description, *manifest.licenses):
+    people = [text for each in manifest.maintainers for text in (each.name, each.email)]
+    for text in (manifest.description, *manifest.licenses, *people):
         if _TO_DO.match(text.value):
             yield finding(
                 text,
                 f"{text.value[:60]!r} is left from a template",
-                severity=Severity.WARNING,
+                severity=of_template,
                 key="template",
             )
 

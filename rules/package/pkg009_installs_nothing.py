@@ -19,6 +19,7 @@ from checker.source.cmake import CMakeFile, Install
 from checker.source.text import Located
 from checker.source.xml_insertion import with_blanks
 
+_UNQUOTED = re.compile(r"[\w./+-]+")
 _OPTIONAL = re.compile(r"\bOPTIONAL\b")
 _MADE_ELSEWHERE = re.compile(r"[$<*]|^/|^[A-Za-z]:")
 
@@ -52,7 +53,8 @@ def _fix(
     same = [name for name in alike if name.lower() == posixpath.normpath(item.value).lower()]
     for meant in (same, alike):
         if len(meant) == 1:
-            return replace_text(item, meant[0])
+            name = meant[0]
+            return replace_text(item, name if _UNQUOTED.fullmatch(name) else f'"{name}"')
     there = any(package.exists(posixpath.normpath(source.value or ".")) for source in install.items)
     unsure = any(_MADE_ELSEWHERE.search(source.value) for source in install.items)
     return replace_text(with_blanks(item.span if there or unsure else install.span), "")

@@ -34,7 +34,7 @@ TEAMS = tuple(team.prefix.partition("_")[0] for team in teams())
 
 @rule("PKG012", "left-from-copying", Severity.WARNING, Concern.PAPERWORK)
 def check(package: Package, paperwork: Paperwork, *, teams: tuple[str, ...] = TEAMS) -> Findings:
-    """Look for other names in package.xml, model.config, the specification sheet and the spawner.
+    """Look for other names in package.xml, model.config, specifications.md and the spawner.
 
     Options:
         teams: Names of teams in lower case; a description in model.config that says "of the … team"

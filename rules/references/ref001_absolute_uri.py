@@ -14,6 +14,7 @@ import re
 
 from checker.model.robot import Robot
 from checker.package.package import Package
+from checker.package.uris import path_behind
 from checker.rule import Concern, Findings, Severity, finding, replace_text, rule
 from checker.source.text import Located
 
@@ -46,11 +47,15 @@ def check(
             severity=None if uri in meshes else Severity.WARNING,
             key=scheme.group() if scheme else "/",
             fix=replace_text(uri, near) if near else None,
+            covered_by=() if near else ("REF002",),
         )
 
 
 def _in_package(package: Package, folder: str, uri: Located[str]) -> str | None:
     """Return the relative path of the intended file, if the package has it."""
+    target = path_behind(package, folder, uri.value)
+    if isinstance(target, str) and target.startswith("../") and package.exists(target):
+        return None  # The file of a sibling, and one of the same name here may hold something else.
     path = _SCHEME.sub("", uri.value, count=1).lstrip("/")
     while path:
         if package.exists(posixpath.join(folder, path)):

@@ -47,6 +47,7 @@ def check(
                 package.place(file.path),
                 f"texture {file.path} is neither in {folder} nor next to a mesh",
                 key=place,
+                covered_by=("REF005",),
             )
 
 

@@ -79,7 +79,7 @@ def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterato
     for name in stated:
         if name in tag.attributes or ":" in name:
             continue
-        near = names.near(name)
+        near, sure = names.near(name), names.sure(name)
         if near is None and len(missing) == 1:
             near = missing[0]
         missing = [attribute for attribute in missing if attribute != near]
@@ -89,7 +89,7 @@ def _attributes(element: Element, tag: LaunchTag, names: Suggestions) -> Iterato
             f"<{element.tag}> has no attribute {name!r}"
             + (f"; did you mean {near!r}?" if near else ""),
             key=f"{element.tag} {name}",
-            fix=replace_text(span, near, Safety.UNSAFE) if near and near not in stated else None,
+            fix=replace_text(span, sure, Safety.UNSAFE) if sure and sure not in stated else None,
         )
     if missing:
         yield finding(

@@ -67,8 +67,8 @@ def _names(manager: GazeboManager) -> Iterator[Finding]:
     if classes is not None and name.value not in classes:
         yield finding(
             name,
-            f"plugin of {manager.plugin.filename.value} is named {name.value!r}, which is no class "
-            f"of it: expected {classes[0]}",
+            f"plugin of {manager.plugin.filename.value} is named {name.value!r}, which is not a "
+            f"class of it: expected {classes[0]}",
         )
 
 

@@ -56,7 +56,7 @@ def _no_numbers(joint: HardwareJoint, interface: Interface) -> Iterator[Finding]
             yield finding(
                 text,
                 f"{name} of {interface.name.value} of joint {joint.name.value!r} is "
-                f"{text.value!r}, which is no number",
+                f"{text.value!r}, which is not a number",
             )
 
 

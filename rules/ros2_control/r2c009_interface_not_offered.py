@@ -42,7 +42,7 @@ def check(control: RobotControl) -> Findings:
                 hint = suggestions.hint(sensor.value)
                 yield finding(
                     sensor,
-                    f"{controller.called} reads {sensor.value!r}, which is no sensor or gpio of "
+                    f"{controller.called} reads {sensor.value!r}, which is not a sensor or gpio of "
                     f"<ros2_control>{hint}",
                     severity=severity,
                 )

@@ -48,7 +48,7 @@ def check(control: RobotControl, context: Context) -> Findings:
             if grave:
                 what += ": the controller reads TwistStamped, and Twist does not move the robot"
             elif not elsewhere:
-                what = f"is no parameter of it{suggestions.hint(name)}"
+                what = f"is not a parameter of it{suggestions.hint(name)}"
             yield finding(
                 parameter.key,
                 f"{name} of {controller.called} ({controller.type.value}) {what}",

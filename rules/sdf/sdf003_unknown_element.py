@@ -39,8 +39,8 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
     ]
     anywhere = Suggestions(all_tags(sdf.version))
     for element, siblings in _with_known_siblings(sdf, unknown):
-        fitting = siblings.near(element.tag)
-        near = fitting or anywhere.near(element.tag)
+        sure = siblings.sure(element.tag)
+        near = siblings.near(element.tag) or anywhere.near(element.tag)
         parent = element.parent or sdf.root
         meant = near is not None and not is_unread(near, context.release)
         grave = (meant or parent.tag in GRAVE_PARENTS) and not is_appearance(element)
@@ -51,7 +51,7 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             f"{sdf.version or '1.6'}{hint}",
             severity=Severity.ERROR if grave else None,
             key=f"{parent.tag}/{element.tag}",
-            fix=_renamed(element, fitting) if fitting and not parent.all(fitting) else None,
+            fix=_renamed(element, sure) if sure and not parent.all(sure) else None,
         )
 
 

@@ -32,14 +32,15 @@ def check(sdf: SdfDocument, context: Context) -> Findings:
             later = type_of(element, context.reads)
             if later is not None and name in later.attributes:
                 continue
-            near = Suggestions(known).near(name)
+            suggestions = Suggestions(known)
+            sure = suggestions.sure(name)
             place = element.attribute_name_span(name)
-            hint = f"; did you mean {near!r}?" if near else ""
             yield finding(
                 place,
-                f"<{element.tag}> has no attribute {name!r} in SDF {kind.version}{hint}",
+                f"<{element.tag}> has no attribute {name!r} in SDF {kind.version}"
+                f"{suggestions.hint(name)}",
                 key=f"{element.tag}/{name}",
-                fix=replace_text(place, near) if near and near not in element.attributes else None,
+                fix=replace_text(place, sure) if sure and sure not in element.attributes else None,
             )
 
 

@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from checker.finding import Fix
 from checker.fix.flattening.names import SUFFIXES, FlatNames, topic_mentions
 from checker.fix.flattening.renames import Renaming
+from checker.fix.package_name import is_mentioned_beside, leaves_mentions
 from checker.model.components import Joint, Link
 from checker.model.robot import Robot
 from checker.package.package import Package
@@ -60,7 +61,10 @@ def _parts(robot: Robot) -> Iterator[Link | Joint]:
 
 
 def _fix(robot: Robot, package: Package, prefixes: set[str]) -> Fix | None:
-    """Return the fix that removes these prefixes; None if a name without prefix already exists."""
+    """Return the fix that removes these prefixes, in all files or in none.
+
+    None if a name without prefix already exists, and if a text would still mention an old name.
+    """
     changed = {
         part.scoped_name: part.name.value.partition("/")[2]
         for part in _parts(robot)
@@ -85,6 +89,8 @@ def _fix(robot: Robot, package: Package, prefixes: set[str]) -> Fix | None:
         source = sources[edit.place.file]
         if not isinstance(source, SourceText) or source.stretch_of(edit) is None:
             return None
+    if leaves_mentions(package, changed, edits) or is_mentioned_beside(package, changed):
+        return None
     return Fix(Safety.SAFE, tuple(edits))
 
 

@@ -4,7 +4,7 @@ The sensor publishes nothing, and Gazebo prints no message: the robot drives wit
 receiver or the sonar that its specification sheet lists. With a type that SDFormat does not know,
 the file does not load.
 
-Fix: use a type that the target simulates, or remove the sensor and say so in the sheet.
+Fix: use a type that the target simulates, or remove the sensor and say so in specifications.md.
 Source: types that SDFormat reads, and systems that simulate them, per release
 (`gazebo_sensors.json`).
 """

@@ -1,6 +1,6 @@
 """A lidar's rows, vertical field of view, range or rate differ from its device.
 
-Readers of "VLP-16" in the specification sheet expect 16 rows over 30 degrees and 100 m. With a rate
+Readers of "VLP-16" in specifications.md expect 16 rows over 30 degrees and 100 m. With a rate
 that the device does not have, such as 15 Hz for an Ouster, the model publishes points that the real
 device cannot. Where the list of sensors says just "3D lidar", a device that a link or another line
 of the sheet names counts, if it is the only one of its class. A figure of a lidar that "Diversions

@@ -1,6 +1,6 @@
 """A camera whose settings its device does not have.
 
-Teams plan with the camera in the specification sheet. More pixels, a higher rate or a wider view
+Teams plan with the camera in specifications.md. More pixels, a higher rate or a wider view
 make the simulated robot better than the real one, and fewer pixels make it worse; reviewers ask
 about both. In the SubT challenge, images with depth have at most 640 × 480 pixels, so that the
 simulation keeps up.

@@ -35,6 +35,7 @@ def check(driven: SettledTrial) -> Findings:
             "; ".join(symptoms.values()) + _cause(driven),
             key=" ".join(symptoms),
             related=_suspects(driven),
+            covered_by=("GEO013",),
         )
 
 

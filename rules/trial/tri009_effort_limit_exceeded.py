@@ -2,7 +2,7 @@
 
 The servos of the trial have unlimited torque, but the simulated motor stops at its limit: the robot
 starts slower, does not reach its speed, or drops its load. A joint whose limits do not hold 0,
-where the trial starts, is not judged, nor one whose effort limit the specification sheet explains.
+where the trial starts, is not judged, nor one whose effort limit specifications.md explains.
 
 Fix: give the joint the effort (N·m, or N) of the real motor with its gear, or correct the masses.
 Source: the largest torque in the trial after the robot has settled, averaged over 0.1 s and without

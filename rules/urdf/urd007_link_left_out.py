@@ -70,6 +70,7 @@ def _without_shapes(link: Link, links: list[Link]) -> Iterator[Finding]:
             f"link {link.name.value!r} of {mass:g} kg has no <{'> and no <'.join(missing)}>",
             severity=Severity.INFO,
             key=" ".join(missing),
+            covered_by=("GEO002",) if not collides else (),
         )
 
 

@@ -1,12 +1,13 @@
-// Which findings are shown: by severity, and of the part that is selected.
+// Which findings are shown: by words, severity, concern, rule, and of the part that is selected.
 "use strict";
 
 const subtFindings = (() => {
   document.documentElement.classList.add("scripted");
-  const groups = [...document.querySelectorAll("article.rule")];
-  const levels = [...document.querySelectorAll("input[data-severity]")];
+  const findings = [...document.querySelectorAll("article.finding")];
+  const form = document.querySelector("form.filters");
   const ofPart = document.querySelector(".of-part");
   const onlyPart = ofPart?.querySelector("input");
+  const words = new Map(findings.map((each) => [each, each.textContent.toLowerCase()]));
   let part = "";
 
   const elementsOf = (finding) => (finding.dataset.elements || "").split("\n").filter(Boolean);
@@ -15,23 +16,38 @@ const subtFindings = (() => {
   const isBelow = (path, top) => path === top || path.startsWith(top + "/");
   const concerns = (finding) => elementsOf(finding).some((path) => isBelow(path, part));
 
+  const chosen = (name) => new Set(
+    [...form.querySelectorAll(`input[name=${name}]`)].filter((box) => box.checked).map((box) => box.value),
+  );
+
   const refresh = () => {
-    const wanted = new Set(levels.filter((box) => box.checked).map((box) => box.dataset.severity));
-    for (const group of groups) {
-      let shown = 0;
-      for (const finding of group.querySelectorAll(".finding")) {
-        const hidden = Boolean(part) && onlyPart.checked && !concerns(finding);
-        finding.hidden = hidden;
-        shown += hidden ? 0 : 1;
-      }
-      group.hidden = !wanted.has(group.dataset.severity) || shown === 0;
+    if (!form) return;
+    const [severities, topics] = [chosen("severity"), chosen("concern")];
+    const rule = form.elements.rule.value;
+    const sought = form.querySelector("[type=search]").value.toLowerCase().split(/\s+/).filter(Boolean);
+    const anyTopic = !form.querySelector("input[name=concern]");
+    let number = 0;
+    for (const finding of findings) {
+      const { severity, concern, rule: own } = finding.dataset;
+      const wanted = severities.has(severity) && (anyTopic || topics.has(concern)) &&
+        (!rule || own === rule) && sought.every((word) => words.get(finding).includes(word)) &&
+        !(part && onlyPart.checked && !concerns(finding));
+      finding.hidden = !wanted;
+      number += wanted ? 1 : 0;
     }
+    for (const grade of document.querySelectorAll(".grade")) {
+      grade.hidden = !grade.querySelector("article.finding:not([hidden])");
+      // Who looks for something sees it, be it an info.
+      if (grade.matches("details") && (sought.length || rule) && !grade.hidden) grade.open = true;
+    }
+    form.querySelector(".shown").textContent =
+      number === findings.length ? "" : `${number} of ${findings.length} shown`;
   };
 
   // Returns how many findings are about a part, and offers to show these alone.
   const choosePart = (path, name) => {
     part = path;
-    const found = path ? [...document.querySelectorAll(".finding")].filter(concerns) : [];
+    const found = path ? findings.filter(concerns) : [];
     for (const finding of document.querySelectorAll(".finding.selected")) {
       finding.classList.remove("selected");
     }
@@ -45,7 +61,49 @@ const subtFindings = (() => {
     return found;
   };
 
-  levels.forEach((box) => box.addEventListener("change", refresh));
-  onlyPart?.addEventListener("change", refresh);
-  return { choosePart, elementsOf };
+  // Where a link leads is unfolded, and shown whatever the filters say.
+  const reveal = (target) => {
+    if (target.matches("article.finding[hidden]")) {
+      form.reset();
+      refresh();
+    }
+    for (let each = target; each; each = each.parentElement) {
+      if (each.matches("details")) each.open = true;
+    }
+  };
+  const follow = () => {
+    const target = document.getElementById(location.hash.slice(1));
+    if (!target) return;
+    reveal(target);
+    target.scrollIntoView();
+  };
+
+  // On paper nothing can be unfolded.
+  let folded = [];
+  addEventListener("beforeprint", () => {
+    folded = [...document.querySelectorAll("details:not([open], .patch, .why)")];
+    folded.forEach((each) => { each.open = true; });
+  });
+  addEventListener("afterprint", () => folded.forEach((each) => { each.open = false; }));
+
+  const copy = async (link) => {
+    const said = link.textContent;
+    try {
+      await navigator.clipboard.writeText(link.href);
+      link.textContent = "Link copied";
+    } catch {
+      return; // the address bar shows it all the same
+    }
+    setTimeout(() => { link.textContent = said; }, 2000);
+  };
+
+  for (const link of document.querySelectorAll("a.copy")) {
+    link.textContent = "Copy link";
+    link.addEventListener("click", () => copy(link));
+  }
+  form?.addEventListener("keydown", (event) => { if (event.key === "Enter" && event.target.type === "search") event.preventDefault(); });
+  form?.addEventListener("input", refresh);
+  addEventListener("hashchange", follow);
+  follow();
+  return { choosePart, elementsOf, reveal };
 })();

@@ -45,11 +45,7 @@
     const [button, slider, moment, speed] =
       [".play-button", ".time", ".moment", ".speed"].map(find);
     const duration = viewer.duration;
-    // The plots go on to the end of the course, the replay to its last sample.
-    const seconds = Number(document.querySelector(".in-view .legs")?.dataset.seconds) || duration;
-    const legs = [...document.querySelectorAll(".in-view .legs .field span")].map((leg) => ({
-      name: leg.textContent, end: parseFloat(leg.style.left) + parseFloat(leg.style.width),
-    }));
+    const { legs } = subtPlots;
     find(".play").hidden = duration === 0;
     find(".leg").hidden = duration === 0 || legs.length === 0;
     if (duration === 0) return;
@@ -58,9 +54,8 @@
       slider.value = time;
       moment.textContent = `${time.toFixed(2)} s`;
       button.textContent = viewer.playing ? "Pause" : "Play";
-      const share = time / seconds;
-      find(".leg").textContent = legs.find((leg) => 100 * share < leg.end)?.name ?? "";
-      subtPlots.show(share);
+      find(".leg").textContent = legs.find((leg) => time < leg.end)?.name ?? "";
+      subtPlots.show(time);
     };
     const seek = (time) => { viewer.seek(time); show(time); };
     slider.max = duration;
@@ -75,7 +70,8 @@
       }
       button.textContent = viewer.playing ? "Pause" : "Play";
     });
-    subtPlots.onSeek = (share) => seek(Math.min(share * seconds, duration));
+    // The plots go on to the end of the course, the replay to its last sample.
+    subtPlots.onSeek = (time) => seek(Math.min(time, duration));
     show(0);
   }
 

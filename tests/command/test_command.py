@@ -61,7 +61,8 @@ def test_exit_1_when_there_is_an_error(run: Run, broken: Path) -> None:
     done = run("check", broken.name)
     assert (done.returncode, done.stderr) == (1, "")
     assert f"{BROKEN}/model.sdf:39:18 error REF001 absolute-uri: " in done.stdout
-    assert done.stdout.splitlines()[-1].startswith(f"{BROKEN}: Not ready: ")
+    assert f"\n{BROKEN}: Not ready: " in done.stdout
+    assert done.stdout.endswith(" explains a rule\n")
 
 
 def test_exit_1_for_a_warning_only_when_asked_for(run: Run, rover: Path) -> None:
@@ -90,8 +91,8 @@ def test_one_bad_path_does_not_keep_the_others_from_being_checked(
 ) -> None:
     done = run("nowhere", good, "nothing.zip", broken)
     assert done.stderr.splitlines() == [
-        "subt-check: nowhere does not exist; check the spelling",
         "subt-check: nothing.zip does not exist; check the spelling",
+        "subt-check: nowhere does not exist; check the spelling",
     ]
     assert "2 packages, 1 ready" in done.stdout
     report = run("nowhere", good, "--format", "json")
@@ -241,7 +242,7 @@ def test_every_rule_has_a_page(rule: Rule, capsys: pytest.CaptureFixture[str]) -
     assert not re.search(r"^ *@", page.out, re.MULTILINE)
 
 
-@pytest.mark.parametrize("word", ["ref01", "ref", "absolut-uri"])
+@pytest.mark.parametrize("word", ["refx01", "absolut-uri"])
 def test_an_unknown_rule_gets_a_suggestion(run: Run, word: str) -> None:
     done = run("rule", word)
     assert (done.returncode, done.stdout) == (2, "")
@@ -300,7 +301,9 @@ def test_the_version_is_that_of_the_distribution(run: Run) -> None:
 def test_an_unknown_rule_on_the_command_line(run: Run, good: Path, option: str) -> None:
     done = run(good, option, "REF999")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("subt-check: there is no rule 'REF999'; did you mean REF")
+    assert done.stderr.startswith(
+        f"subt-check: {option}: there is no rule 'REF999'; did you mean REF"
+    )
 
 
 def test_each_package_is_judged_by_its_own_settings(run: Run, good: Path, rover: Path) -> None:
@@ -406,7 +409,8 @@ def test_a_folder_is_no_changed_file(run: Run, good: Path, given: str) -> None:
 
 
 def test_an_error_is_shown_in_full_when_asked_for(good: Path) -> None:
-    start = "import sys, checker.cli.check as c; c.run = None; from checker.cli import main; "
+    start = "import sys, checker.cli.check.command as c; c.run = None;"
+    start += "from checker.cli import main; "
     command = [sys.executable, "-c", start + "sys.exit(main())", str(good)]
     short = subprocess.run(command, capture_output=True, text=True, check=False)
     assert short.returncode == 3

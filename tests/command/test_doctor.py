@@ -53,6 +53,17 @@ def test_a_cache_that_cannot_be_written_is_a_note(
     assert found.what.startswith(f"cache {tmp_path}/file/cache cannot be written to (Not a dir")
 
 
+def test_a_viewer_that_is_not_built_is_a_note(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(installation, "templates", lambda _: tmp_path)
+    *_, found = surroundings()
+    assert found.state is State.NOTE
+    assert found.advice.endswith(
+        "install Node.js with npm, then install subt-check again (in a checkout: `make viewer`)"
+    )
+
+
 @pytest.mark.parametrize(
     ("layer", "line"),
     [

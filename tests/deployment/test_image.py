@@ -52,7 +52,7 @@ def run(
 
 
 def test_it_holds_the_project_and_not_the_checkout(environment: Path, nowhere: Path) -> None:
-    where = "import checker, rules; print(checker.__file__); print(rules.__file__)"
+    where = "import subt_check.rules; print(subt_check.__file__); print(subt_check.rules.__file__)"
     done = subprocess.run(
         [environment / "bin/python", "-I", "-c", where],
         capture_output=True,
@@ -61,7 +61,7 @@ def test_it_holds_the_project_and_not_the_checkout(environment: Path, nowhere: P
         cwd=nowhere,
     )
     assert all(line.startswith(str(packages(environment))) for line in done.stdout.splitlines())
-    assert (packages(environment) / "checker/templates/report/viewer.js").is_file()
+    assert (packages(environment) / "subt_check/templates/report/viewer.js").is_file()
 
 
 def test_it_says_its_version(environment: Path, nowhere: Path, tmp_path: Path) -> None:
@@ -70,7 +70,7 @@ def test_it_says_its_version(environment: Path, nowhere: Path, tmp_path: Path) -
 
 
 def test_it_checks_and_drives_a_robot(environment: Path, nowhere: Path, tmp_path: Path) -> None:
-    sample = packages(environment) / "checker/samples/subtcheck_buggy_sensor_config_1"
+    sample = packages(environment) / "subt_check/samples/subtcheck_buggy_sensor_config_1"
     report = tmp_path / "report"
     done = run(environment, nowhere, tmp_path, str(sample), "--report", str(report))
     assert (done.returncode, done.stderr) == (0, "")

@@ -20,8 +20,8 @@ It rolls away.
 Fix: eat it.
 Source: a kitchen.
 """
-from checker.package.package import Package
-from checker.rule import Concern, Findings, Severity, finding, rule
+from subt_check.package.package import Package
+from subt_check.rule import Concern, Findings, Severity, finding, rule
 
 
 @rule("{id}", "cheese-wheel", Severity.WARNING, Concern.ROBOT)

@@ -99,8 +99,13 @@ def test_other_settings_are_another_report(packages: Path) -> None:
     assert key_of(packages / GOOD) != key_of(packages / GOOD, ignore=("PKG",))
 
 
-def test_a_lone_file_is_not_worth_remembering(packages: Path) -> None:
-    assert key_of(packages / GOOD / "model.sdf") == ""
+def test_what_lies_around_a_lone_file_belongs_to_it(packages: Path) -> None:
+    file = packages / GOOD / "model.sdf"
+    before = key_of(file)
+    assert before == key_of(file) != ""
+    (packages / GOOD / "meshes").mkdir(exist_ok=True)
+    (packages / GOOD / "meshes/new.stl").touch()
+    assert key_of(file) != before
 
 
 @pytest.mark.parametrize("name", [GOOD, BROKEN])
@@ -119,11 +124,31 @@ def test_what_is_remembered_is_recalled_under_the_path_of_now(tmp_path: Path) ->
     assert recalled(cache, "", "other/path") is None
 
 
-@pytest.mark.parametrize("cause", [Cause.CRASHED, Cause.NOT_AT_HAND])
-def test_what_could_not_be_looked_at_is_looked_for_again(tmp_path: Path, cause: Cause) -> None:
-    unseen = NotChecked("PKG001", "could not run", cause)
-    remember(Cache(tmp_path), "key", replace(static_report(GOOD), not_checked=(unseen,)))
+def test_what_crashed_or_failed_is_tried_again(tmp_path: Path) -> None:
+    crashed = NotChecked("PKG001", "could not run", Cause.CRASHED)
+    remember(Cache(tmp_path), "key", replace(static_report(GOOD), not_checked=(crashed,)))
     assert recalled(Cache(tmp_path), "key", "path") is None
+    failed = Cache(tmp_path)
+    failed.pass_over("mesh")
+    remember(failed, "key", static_report(GOOD))
+    assert recalled(Cache(tmp_path), "key", "path") is None
+
+
+def test_a_missing_sibling_is_remembered_until_it_is_there(packages: Path) -> None:
+    shutil.rmtree(packages / GOOD)
+    heir = packages / SIBLING
+    with_hole = replace(static_report(GOOD), not_checked=(unseen_of(heir),))
+    cache, key = Cache(packages.parent / "cache"), key_of(heir)
+    remember(cache, key, with_hole)
+    assert recalled(cache, key_of(heir), "path") is not None
+    shutil.copytree(SAMPLES / GOOD, packages / GOOD)
+    assert recalled(cache, key_of(heir), "path") is None
+
+
+def unseen_of(package: Path) -> NotChecked:
+    """Return what a rule could not look at because a sibling is missing."""
+    (report,) = check_package(package, Settings(trial=False, cache=False)).packages
+    return next(it for it in report.not_checked if it.cause is Cause.NOT_AT_HAND)
 
 
 @pytest.mark.parametrize("content", ["", "{", "[]", '{"name": 1}', "null", "1e999"])
@@ -133,3 +158,14 @@ def test_a_foreign_entry_counts_as_none(tmp_path: Path, content: str) -> None:
     (entry,) = tmp_path.glob("*/*/*.json")
     entry.write_text(content, "utf-8")
     assert recalled(cache, "key", "path") is None
+
+
+def test_a_reason_of_another_type_is_remembered_as_text(tmp_path: Path) -> None:
+    class Words(str):
+        __slots__ = ()
+
+    missing = NotChecked("PKG001", Words("is missing"), Cause.NOT_AT_HAND)
+    remember(Cache(tmp_path), "key", replace(static_report(GOOD), not_checked=(missing,)))
+    again = recalled(Cache(tmp_path), "key", "path")
+    assert again is not None
+    assert again.not_checked[0].reason == "is missing"

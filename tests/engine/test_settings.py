@@ -163,14 +163,19 @@ def test_the_search_ends_where_it_is_told_to(tmp_path: Path) -> None:
 def test_the_command_line_replaces_what_it_names() -> None:
     settings = Settings(profile="sdf", ignore=("SEN",))
     changed = settings.overridden(profile=None, ignore=("INE",))
-    assert changed == replace(settings, ignore=("INE",))
+    assert changed == replace(settings, ignore=("INE",), commanded=("ignore",))
 
 
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("profile = !", "is not TOML: Invalid value (at line 1, column 11)"),
+        ("profile = !", "is not valid TOML: Invalid value (at line 1, column 11)"),
         (f"profile = {'[' * 3000}", "is nested too deeply"),
+        ("fail_on = 'error'", "unknown key 'fail_on'; did you mean 'fail-on'?"),
+        (
+            "profile = 'gazebo-harmonik'",
+            "profile is 'gazebo-harmonik'; did you mean 'gazebo-harmonic'?",
+        ),
         ("colour = 1", "unknown key 'colour', expected one of profile, distro, select, "),
         ("profile = 'mars'", "profile is 'mars', expected one of subt, sdf, urdf, "),
         ("profile = ['subt']", "profile is ['subt'], expected one of subt, sdf, urdf, "),

@@ -16,7 +16,7 @@ import pytest
 
 from checker.base.errors import CheckerError
 from checker.cli import main
-from checker.cli.fix import fix_paths, write_files
+from checker.cli.check.fix import fix_paths, write_files
 from checker.finding import Safety
 from checker.fix.rounds import Fixed
 from checker.package.inputs import open_input

@@ -15,7 +15,7 @@ import pytest
 
 from checker.base.errors import CheckerError
 from checker.cli import main
-from checker.cli.fix import FixedPackage, fix_paths
+from checker.cli.check.fix import FixedPackage, fix_paths
 from checker.finding import Safety
 from checker.fix.rounds import patch
 from checker.pipeline import check_package

@@ -101,3 +101,17 @@ def assert_well_laid_out(before: Package, after: Package) -> None:
 
 def untidy(text: str) -> int:
     return sum(line != line.rstrip() or not line for line in text.splitlines())
+
+
+def test_names_keep_their_prefix_where_a_text_would_still_mention_it(tmp_path: Path) -> None:
+    (rule,) = (each for each in all_rules() if each.id == "SDF011")
+    example = dict(rule.bad[0])
+    for number, more in enumerate(
+        ({"notes.md": "See X1/wheel."}, {"../other/package.xml": "<package>X1/wheel</package>"})
+    ):
+        with open_input(write_example({**example, **more}, tmp_path / str(number))) as opened:
+            findings = findings_of(
+                opened.packages[0], judge(rule, example, select=("SDF011",)), NO_CACHE
+            )
+            assert [each.fix for each in findings] == [None] * len(findings)
+            assert findings

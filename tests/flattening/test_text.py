@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli.fix import fix_paths
+from checker.cli.check.fix import fix_paths
 from checker.finding import Safety
 from checker.fix.flattening.flatten import obstacle
 from checker.fix.flattening.names import FlatNames, mentions

@@ -46,7 +46,7 @@ def test_what_is_written_is_read(names: tuple[str, ...]) -> None:
 
 
 def test_the_words() -> None:
-    assert summary(packages("a"))["words"] == "Ready: 1 warning to look at"
+    assert summary(packages("a"))["words"] == "Ready: 1 warning"
     assert summary(packages("a", "b", "c"))["words"] == "3 packages: 3 ready"
 
 

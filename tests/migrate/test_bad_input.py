@@ -129,12 +129,30 @@ def test_a_mesh_that_is_not_there_is_said(write: Write, tmp_path: Path) -> None:
     assert any("is in elsewhere, which is not available" in each for each in made.open_points)
 
 
-def test_the_destination_holds_something(write: Write, tmp_path: Path) -> None:
-    (tmp_path / "made").mkdir()
-    (tmp_path / "made/notes.txt").write_text("mine", "utf-8")
-    with pytest.raises(NotMigrated, match=r"made is not empty \(it contains notes.txt\)"):
+def test_the_destination_has_a_package_of_this_name(write: Write, tmp_path: Path) -> None:
+    (tmp_path / "made" / PACKAGE).mkdir(parents=True)
+    with pytest.raises(NotMigrated, match=rf"made/{PACKAGE} exists; move it away"):
         migrate(write({"urdf/a.urdf": ROBOT}), tmp_path / "made", ACME)
-    assert [each.name for each in (tmp_path / "made").iterdir()] == ["notes.txt"]
+    assert [each.name for each in (tmp_path / "made").iterdir()] == [PACKAGE]
+    assert not list((tmp_path / "made" / PACKAGE).iterdir())
+
+
+def test_the_destination_is_a_package(write: Write, tmp_path: Path) -> None:
+    (tmp_path / "made").mkdir()
+    (tmp_path / "made/package.xml").write_text("<package/>", "utf-8")
+    with pytest.raises(NotMigrated, match="made is a package, and ROS finds no package inside"):
+        migrate(write({"urdf/a.urdf": ROBOT}), tmp_path / "made", ACME)
+    assert [each.name for each in (tmp_path / "made").iterdir()] == ["package.xml"]
+
+
+def test_the_destination_is_a_workspace_with_other_packages(write: Write, tmp_path: Path) -> None:
+    other = tmp_path / "made" / "other"
+    other.mkdir(parents=True)
+    (other / "package.xml").write_text("<package><name>other</name></package>", "utf-8")
+    made = migrate(write({"urdf/a.urdf": ROBOT}), tmp_path / "made", ACME)
+    assert made.folder == tmp_path / "made" / PACKAGE
+    assert sorted(each.name for each in (tmp_path / "made").iterdir()) == [PACKAGE, "other"]
+    assert [each.name for each in other.iterdir()] == ["package.xml"]
 
 
 def test_the_destination_lies_inside_the_source(write: Write) -> None:
@@ -250,4 +268,4 @@ def test_the_command_lists_what_is_left_to_do(write: Write, tmp_path: Path) -> N
     assert out.startswith(f"made {tmp_path}/made/my_team_rover_sensor_config_1\ndecided:\n  - ")
     assert "left to you:\n  - the organization's name, here 'my_team' (--organization)\n" in out
     assert "error SEN022" in out
-    assert "Not ready: 1 error of the interface to fix" in out
+    assert "1 error of the robot, 1 of the interface and 1 of the paperwork" in out

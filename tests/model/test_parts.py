@@ -81,7 +81,7 @@ def test_wheels_are_what_a_drive_turns_or_what_is_called_so() -> None:
     driven = sdf(WHEELS + DRIVE.format("ignition::gazebo::systems"))
     assert [link.name.value for link in driven.wheels] == ["left", "wheel_2"]
     assert drive_name(driven.plugins) == "differential or skid-steer drive"
-    assert drive_name(()) == "none found"
+    assert drive_name(()) == "no drive detected"
 
 
 def test_wheels_of_a_nested_model() -> None:

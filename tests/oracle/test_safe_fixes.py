@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from checker.cli.fix import fix_paths
+from checker.cli.check.fix import fix_paths
 from checker.finding import Safety
 from checker.report.report import ReportedFinding
 from tests.conftest import SAMPLES

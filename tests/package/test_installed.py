@@ -50,8 +50,8 @@ def test_the_source_of_what_is_installed(crane: Path, path: str, source: str | N
 def test_xacro_finds_what_is_installed(crane: Path) -> None:
     with open_input(crane) as opened:
         subject = Subject(opened.packages[0])
-        assert not isinstance(subject.descriptions, NotAvailable)
-        description = subject.descriptions[0]
+        assert not isinstance(subject.urdf.descriptions, NotAvailable)
+        description = subject.urdf.descriptions[0]
         assert [link.name.value for link in description.robot.links] == ["hook"]
         subject.close()
 

@@ -67,6 +67,17 @@ def test_packages_one_level_deeper(write: Write) -> None:
     assert names(write({"one/a/model.sdf": MODEL, "two/b/model.sdf": MODEL})) == ["a", "b"]
 
 
+def test_a_workspace_is_searched_at_any_depth(write: Write) -> None:
+    deep = "/".join(f"level{number}" for number in range(20))
+    assert names(write({f"src/{deep}/a/model.sdf": MODEL, "src/b/model.sdf": MODEL})) == ["b", "a"]
+
+
+@pytest.mark.parametrize("mark", ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"])
+def test_what_the_build_tools_ignore_is_left_out(write: Write, mark: str) -> None:
+    files = {f"install/{mark}": "", "install/share/a/model.sdf": MODEL, "src/b/model.sdf": MODEL}
+    assert names(write(files)) == ["b"]
+
+
 def test_what_is_left_out_beside_packages_is_said(write: Write) -> None:
     space = write({**ROVER, "notes/README.md": "hello"})
     (space / "alias").symlink_to(space / "rover")

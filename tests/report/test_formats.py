@@ -53,7 +53,7 @@ def test_a_file_of_a_sibling_has_its_own_path(form: str) -> None:
     assert ("../other/model.sdf" if form == "json" else "models/other/model.sdf") in written
 
 
-@pytest.mark.parametrize("form", sorted(set(FORMATS) - {"text"}))
+@pytest.mark.parametrize("form", sorted(set(FORMATS) - {"text", "concise"}))
 def test_the_command_prints_a_format(
     form: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

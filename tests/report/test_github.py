@@ -85,7 +85,7 @@ def test_the_gravest_come_first_and_the_rest_is_counted() -> None:
     assert names == [n for n in ("error", "warning", "notice") for _ in range(LINES_LIMIT)]
     assert lines(report)[-2:] == [
         "60 errors, 60 warnings and 60 notices in all; GitHub shows the first ten of each",
-        "subt-check: rover: Not ready: 60 errors of portability to fix, 60 warnings to look at",
+        "subt-check: rover: Not ready: 60 errors of portability to fix, 60 warnings",
     ]
 
 

@@ -68,10 +68,10 @@ def test_json_keeps_them_apart() -> None:
 
 
 def test_a_terminal_shows_a_line_for_each_and_what_is_wrong() -> None:
-    lines = to_text(REPORT, Palette(enabled=False)).splitlines()
+    lines = to_text(REPORT, RenderSettings(Palette(enabled=False))).splitlines()
     told = [line for line in lines if line.startswith("robot ")]
     assert [line.partition(", trial ")[2] for line in told] == VERDICTS
-    assert lines[lines.index(told[2]) + 1] == "    speed ratio  0.2  error  warning beyond 0.05"
+    assert lines[lines.index(told[2]) + 1] == "    speed ratio  0.2  error  ok from 0.95 to 1.05"
 
 
 def test_a_comment_has_a_line_for_each() -> None:
@@ -120,7 +120,7 @@ def test_a_part_of_a_robot_that_is_not_in_view_leads_to_no_part_of_another() -> 
         for number, name in enumerate(("ant", "cat"))
     )  # fmt: skip
     tree = page(replace(PACKAGE, findings=found))
-    elements = tree.xpath("//section[@class='finding']/@data-elements")
+    elements = tree.xpath("//article/@data-elements")
     assert elements == ["robot/link[wheel]", ""]
 
 
@@ -138,4 +138,6 @@ def test_a_refused_model_has_its_reason_in_its_place() -> None:
     package = replace(PACKAGE, other_trials=(refused,))
     assert str(robots_of(package)[2].verdict) == "error: MuJoCo refuses the model"
     assert "mass is 0" in words(page(package).xpath("//details[@id='trial-3']")[0])
-    assert "MuJoCo refuses the model" in to_text(Report((package,), {}), Palette(enabled=False))
+    assert "MuJoCo refuses the model" in to_text(
+        Report((package,), {}), RenderSettings(Palette(enabled=False))
+    )

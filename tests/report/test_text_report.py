@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from checker.base.words import count, listed, plain, shortened
 from checker.finding import Concern, Place, Severity
-from checker.report.render_settings import Palette
+from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import (
     Cause,
     InheritedPart,
@@ -18,7 +18,7 @@ from checker.report.report import (
     Report,
     ReportedFinding,
 )
-from checker.report.text_report import to_text
+from checker.report.text_report import TextReport, to_text
 
 LINE = "      <resolution>0.1</resolution>"
 PLACE = Place("model.sdf", 141, 19, 141, 22, snippet=LINE)
@@ -34,10 +34,11 @@ FAULT = ReportedFinding(
     how="write 1.",
 )
 PACKAGE = PackageReport("rover", "models/rover", "base_model", ())
+SETTINGS = RenderSettings(Palette(enabled=False))
 
 
 def text(*packages: PackageReport, not_opened: tuple[NotOpened, ...] = ()) -> str:
-    return to_text(Report(packages, {}, not_opened), Palette(enabled=False))
+    return to_text(Report(packages, {}, not_opened), SETTINGS)
 
 
 def lines(*findings: ReportedFinding) -> list[str]:
@@ -54,9 +55,10 @@ def test_a_finding_has_place_message_frame_why_how_and_page() -> None:
         "        |                   ^^^",
         "    why: Rays are lost.",
         "    fix: write 1.",
-        "    subt-check rule SEN005",
         "",
         "rover: Not ready: 1 error of the interface to fix",
+        "",
+        "`subt-check rule SEN005` explains a rule",
     ]
 
 
@@ -64,11 +66,11 @@ def test_a_finding_about_the_folder_shows_the_folder_alone() -> None:
     assert lines(replace(FAULT, places=(Place(""),)))[2].startswith("models/rover/ error SEN005 ")
 
 
-def test_why_and_how_are_said_once_for_a_rule_in_a_run() -> None:
+def test_why_and_how_are_said_once_for_a_rule_in_a_package() -> None:
     twice = text(
         replace(PACKAGE, findings=(FAULT, FAULT)), replace(PACKAGE, name="b", findings=(FAULT,))
     )
-    assert twice.count("why: ") == 1
+    assert twice.count("why: ") == 2
     assert twice.count("141 |") == 3
 
 
@@ -88,10 +90,46 @@ def test_a_related_place_says_what_it_has_to_do_with_it() -> None:
     )
 
 
-def test_what_is_worth_knowing_takes_one_line() -> None:
-    info = replace(FAULT, severity=Severity.INFO)
-    assert len(lines(info)) == 5
-    assert lines(info)[-1] == "rover: Ready: nothing to fix"
+def test_infos_are_counted_and_take_one_line_where_they_are_asked_for() -> None:
+    package = replace(PACKAGE, findings=(replace(FAULT, severity=Severity.INFO),))
+    assert lines(*package.findings)[2:] == [
+        "1 info, show with --info",
+        "rover: Ready: nothing to fix",
+    ]
+    shown = to_text(Report((package,), {}), replace(SETTINGS, infos=True)).splitlines()
+    assert shown[2].startswith("models/rover/model.sdf:141:19 info SEN005 ")
+    assert shown[3:5] == ["", "rover: Ready: nothing to fix"]
+
+
+def test_quiet_shows_findings_and_nothing_else() -> None:
+    report = Report((replace(PACKAGE, findings=(FAULT,)), PACKAGE), {})
+    shown = to_text(report, replace(SETTINGS, quiet=True)).splitlines()
+    assert shown[0].startswith("models/rover/model.sdf:141:19 error SEN005 ")
+    assert shown[-2:] == ["    fix: write 1.", ""]
+
+
+def test_concise_has_one_line_a_finding_and_the_verdict() -> None:
+    more = replace(FAULT, places=(PLACE, PLACE, PLACE))
+    report = Report((replace(PACKAGE, findings=(FAULT, more)),), {})
+    place = "models/rover/model.sdf:141:19: error: scan resolution is 0.1, expected 1"
+    assert to_text(report, replace(SETTINGS, concise=True)).splitlines() == [
+        f"{place} [SEN005]",
+        f"{place} (and 2 more) [SEN005]",
+        "rover: Not ready: 2 errors of the interface to fix",
+    ]
+
+
+def test_a_package_waits_for_those_whose_files_it_reports() -> None:
+    shared = replace(PLACE, file="../base/model.sdf")
+    heir = replace(PACKAGE, name="a", path="m/a", findings=(replace(FAULT, places=(shared,)),))
+    base = replace(PACKAGE, name="base", path="m/base", findings=(FAULT,))
+    text = TextReport(SETTINGS, ["m/a", "m/b", "m/base"])
+    assert list(text.add([heir], "m/a")) == []
+    assert list(text.add([replace(PACKAGE, name="b", path="m/b")], "m/b")) == []
+    told = list(text.add([base], "m/base"))
+    assert [block.split()[0] for block in told] == ["a", "b", "base"]
+    assert "1 finding in base: listed there" in told[0]
+    assert list(text.rest()) == []
 
 
 def test_the_caret_stays_below_the_marked_words_of_a_long_line() -> None:
@@ -177,9 +215,15 @@ def test_what_was_not_checked_is_grouped_by_its_reason() -> None:
 
 
 def test_facts_have_their_units() -> None:
-    facts = {"robot": "rover", "mass_kg": 18.4, "links": 10, "joints": 1, "drive": "none found"}
+    facts = {
+        "robot": "rover",
+        "mass_kg": 18.4,
+        "links": 10,
+        "joints": 1,
+        "drive": "no drive detected",
+    }
     shown = text(replace(PACKAGE, facts=facts))
-    assert "robot rover, mass 18.4 kg, 10 links, 1 joint, drive none found\n" in shown
+    assert "robot rover, mass 18.4 kg, 10 links, 1 joint, no drive detected\n" in shown
 
 
 def test_inherited_parts_name_their_source() -> None:
@@ -190,7 +234,7 @@ def test_inherited_parts_name_their_source() -> None:
     )
     shown = text(replace(PACKAGE, inherited=parts))
     assert "inherited from base: model and launch/a.launch\n" in shown
-    assert "inherited from gone (not available): spawner\n" in shown
+    assert "inherited from gone (not found): spawner\n" in shown
 
 
 def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
@@ -202,12 +246,15 @@ def test_several_packages_end_with_a_table_and_what_was_not_looked_at() -> None:
             NotOpened("nowhere", "does not exist", failed=True),
         ),
     )
-    assert shown.splitlines()[-5:] == [
-        "rover      not ready      1 error     0 warning     0 info",
-        "long_name  ready          0 error     0 warning     0 info",
+    assert shown.splitlines()[-8:] == [
+        "package    verdict    errors  warnings  infos",
+        "rover      not ready       1         0      0",
+        "long_name  ready           0         0      0",
         "2 packages, 1 ready",
         "",
         "not opened: models/docs contains no package",
+        "",
+        "`subt-check rule SEN005` explains a rule",
     ]
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from checker.report.render_settings import Palette
+from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import NO_TRIAL, Cause, NotChecked, PackageReport, Report
 from checker.report.text_report import to_text
 
@@ -36,7 +36,7 @@ def trial(*figures: dict[str, Any], **changes: Any) -> dict[str, Any]:
 
 def lines(*figures: dict[str, Any], **changes: Any) -> list[str]:
     report = replace(PACKAGE, trial=trial(*figures, **changes))
-    return to_text(Report((report,), {}), PLAIN).splitlines()[2:-1]
+    return to_text(Report((report,), {}), RenderSettings(PLAIN)).splitlines()[2:-1]
 
 
 def test_a_line_for_each_figure_that_matters() -> None:
@@ -46,7 +46,7 @@ def test_a_line_for_each_figure_that_matters() -> None:
         "trial: skid-steer drive, 15 s in MuJoCo 4.0.0",
         "    speed ratio  0.995   ok",
         "    settle tilt  0.705°  ok",
-        "    turn drift   1.23 m  warning  warning above 0.5",
+        "    turn drift   1.23 m  warning  ok up to 0.5 m",
     ]
 
 
@@ -93,5 +93,5 @@ def test_the_verdict_says_that_no_trial_was_run() -> None:
         ((off,), "trial not run"),
         ((off, other), "trial not run, 1 rule switched off"),
     ):
-        said = to_text(Report((replace(PACKAGE, not_checked=reasons),), {}), PLAIN)
+        said = to_text(Report((replace(PACKAGE, not_checked=reasons),), {}), RenderSettings(PLAIN))
         assert said.endswith(f"rover: Ready: nothing to fix ({end})\n")

@@ -323,7 +323,7 @@ def test_what_a_file_that_is_not_at_hand_declares_is_not_missed(read: Read) -> N
     )
     assert not graph.faults
     assert words(graph) == ["$(var x)"]
-    assert graph.includes[0].reason == "package other is not at hand"
+    assert graph.includes[0].reason == "package other is not found"
 
 
 def test_packages_of_both_generations_keep_the_files_of_both(tmp_path: Path) -> None:

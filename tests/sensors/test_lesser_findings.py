@@ -65,7 +65,7 @@ def test_a_sheet_that_leaves_sensors_to_another_does_not_count_them(tmp_path):
     report = report_of({"@fragment": _IMUS, "specifications.md": sheet}, tmp_path, "DOC003")
     assert not report.findings
     assert [each.reason for each in report.not_checked if each.rule == "DOC003"] == [
-        "the specification sheet refers to ../base/specifications.md for its sensors"
+        "specifications.md refers to ../base/specifications.md for its sensors"
     ]
 
 

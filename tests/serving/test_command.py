@@ -5,21 +5,6 @@ from __future__ import annotations
 import pytest
 
 from checker import cli
-from checker.service.processes import command
-
-
-@pytest.mark.parametrize("words", [["serve"], ["serve", "--workers", "0"], ["worker"]])
-def test_without_the_extra_one_sentence_says_how_to_get_it(
-    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(command, "_NEEDED", ("json", "a_library_that_nobody_has"))
-    assert cli.main(words) == 2
-    said = capsys.readouterr()
-    assert said.out == ""
-    assert said.err == (
-        "subt-check: the service needs a_library_that_nobody_has, which is not installed; "
-        "run: pip install 'subt-check[service]'\n"
-    )
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,7 @@ def test_what_is_sent_is_checked_and_told(serve: Serve, tmp_path: Path) -> None:
             timeout=4 * SECONDS,
         )
         assert done.returncode == code, done.stderr
-        assert name in done.stdout.splitlines()[-1]
+        assert f"\n{name}: " in done.stdout
         files = {path.name for path in (tmp_path / name).iterdir()}
         assert files == {"report.html", "report.json", "report.sarif", "robot.glb"}
     assert serving.stop() == 0

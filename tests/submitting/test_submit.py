@@ -281,7 +281,7 @@ def test_who_interrupts_is_asked_whether_the_check_shall_end(
     read_until(terminal, "[y/N]")
     os.write(terminal, typed)
     read_until(terminal, said)
-    assert process.wait(20) == 2
+    assert process.wait(20) == 130
     cancelled = f"DELETE /api/checks/{ID}" in service.lines
     assert cancelled == (typed == b"y\n")
     os.close(terminal)
@@ -302,6 +302,6 @@ def test_without_a_terminal_the_check_goes_on(
         assert time.monotonic() < ends
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
-    assert process.wait(20) == 2
+    assert process.wait(20) == 130
     assert f"the check continues at {service.url}/checks/{ID}\n" in said.read_text("utf-8")
     assert not [line for line in service.lines if line.startswith("DELETE")]

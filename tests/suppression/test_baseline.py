@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.base.errors import InvalidSettings
-from checker.cli.baseline import baseline_to_renew
+from checker.cli.check.baseline import baseline_to_renew
 from checker.finding import Severity
 from checker.report.report import IN_BASELINE
 from checker.rule_testing import NAME, write_example

@@ -198,7 +198,7 @@ def test_trouble_of_the_solver_is_an_error() -> None:
 
 def test_a_drive_that_may_stand_in_an_unread_spawner_is_not_passed() -> None:
     robot = replace(sdf("<link name='base_link'/>"), unread_plugins="the spawner calls system")
-    trial = trial_of(drive="none found", legs=(Leg("settle", 0.0, 2.0),))
+    trial = trial_of(drive="no drive detected", legs=(Leg("settle", 0.0, 2.0),))
     (said,) = RULES["TRI003"].check(RobotTrial(robot, trial))
     assert said == Unchecked("the spawner calls system")
 

@@ -29,7 +29,7 @@ BODY = """
 
 
 def test_transmissions_and_gazebo_tags(describe: Describe) -> None:
-    (description,) = describe({FILE: robot(BODY)}).package_descriptions.files.descriptions
+    (description,) = describe({FILE: robot(BODY)}).urdf.package_descriptions.files.descriptions
     (transmission,) = description.transmissions
     assert transmission.type.value == "transmission_interface/SimpleTransmission"
     assert [end.name.value for end in transmission.joints] == ["shoulder"]
@@ -40,7 +40,7 @@ def test_transmissions_and_gazebo_tags(describe: Describe) -> None:
 
 
 def test_fixed_joints_merge_links_unless_they_are_kept(describe: Describe) -> None:
-    (description,) = describe({FILE: robot(BODY)}).package_descriptions.files.descriptions
+    (description,) = describe({FILE: robot(BODY)}).urdf.package_descriptions.files.descriptions
     groups = Lumping(description).groups
     names = {name: [link.name.value for link in links] for name, links in groups.items()}
     assert names == {"base": ["base"], "arm": ["arm", "hand"], "tool": ["tool"]}
@@ -48,7 +48,9 @@ def test_fixed_joints_merge_links_unless_they_are_kept(describe: Describe) -> No
 
 def test_a_loop_of_fixed_joints_ends(describe: Describe) -> None:
     back = '<joint name="back" type="fixed"><parent link="hand"/><child link="arm"/></joint>'
-    (description,) = describe({FILE: robot(BODY + back)}).package_descriptions.files.descriptions
+    (description,) = describe(
+        {FILE: robot(BODY + back)}
+    ).urdf.package_descriptions.files.descriptions
     assert sum(len(links) for links in Lumping(description).groups.values()) == 4
 
 

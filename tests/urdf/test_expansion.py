@@ -19,7 +19,7 @@ BASE = '<link name="base"/>'
 
 
 def files_of(subject: Subject) -> UrdfFiles:
-    files = subject.urdf_files
+    files = subject.urdf.files
     assert not isinstance(files, NotAvailable)
     return files
 

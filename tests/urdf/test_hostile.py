@@ -36,7 +36,7 @@ STEPS = '<a b="${len([x for x in python.range(30000)])}"/>' * 99
 
 def fault(describe: Describe, body: str, **more: str) -> XacroFault:
     files = {f"{NAME}/urdf/{name}.yaml": text for name, text in more.items()}
-    (found,) = describe({FILE: robot(LINK + body), **files}).package_descriptions.files.faults
+    (found,) = describe({FILE: robot(LINK + body), **files}).urdf.package_descriptions.files.faults
     return found
 
 
@@ -100,7 +100,7 @@ def test_what_is_no_part_of_the_language_is_not_checked(
 ) -> None:
     files = describe(
         {FILE: robot(f'{LINK}\n<a b="${{{expression}}}"/>')}
-    ).package_descriptions.files
+    ).urdf.package_descriptions.files
     assert not files.faults
     (said,) = files.unread
     assert f"expression uses {construct}" in said
@@ -113,7 +113,7 @@ def test_yaml_of_exploding_anchors(describe: Describe) -> None:
 
 
 def test_a_file_that_is_no_utf8_is_not_read(describe: Describe) -> None:
-    files = describe({FILE: robot(LINK).encode() + b"<!-- \xff -->"}).package_descriptions
+    files = describe({FILE: robot(LINK).encode() + b"<!-- \xff -->"}).urdf.package_descriptions
     assert not files.applicable or files.files.unread
 
 

@@ -48,8 +48,8 @@ def test_the_macro_has_the_twelve_parameters_of_the_tutorial(samples: Path) -> N
 
 
 def test_it_weighs_380_grams_and_its_inertia_is_that_of_the_cylinder(ouster: Subject) -> None:
-    assert isinstance(ouster.masses, tuple)
-    lidar = ouster.masses[0].links["os1_sensor"]
+    assert isinstance(ouster.physics.masses, tuple)
+    lidar = ouster.physics.masses[0].links["os1_sensor"]
     across = MASS * (3 * RADIUS**2 + HEIGHT**2) / 12
     along = MASS * RADIUS**2 / 2
     assert lidar.mass == pytest.approx(MASS)
@@ -76,8 +76,8 @@ def test_the_lidar_is_set_to_the_defaults(ouster: Subject) -> None:
 
 
 def test_a_box_that_carries_it_settles(ouster: Subject) -> None:
-    assert isinstance(ouster.driven, tuple)
-    (driven,) = ouster.driven
+    assert isinstance(ouster.physics.driven, tuple)
+    (driven,) = ouster.physics.driven
     assert driven.trial.trouble == ()
     assert driven.trial.refused == ""
     assert driven.trial.value("settle_tilt") == pytest.approx(0.0, abs=0.01)

@@ -77,7 +77,7 @@ def test_a_fault_of_xacro_stands_at_its_element(describe: Describe) -> None:
         {FILE: robot(f'{INCLUDE}\n<link name="a"/>\n<link name="${{b}}"/>')}
         | {f"{NAME}/urdf/wheel.xacro": WHEEL}
     )
-    (fault,) = subject.package_descriptions.files.faults
+    (fault,) = subject.urdf.package_descriptions.files.faults
     assert shown(fault.span) == ("urdf/acme.urdf.xacro", 5, '<link name="${b}"/>')
     assert "'b' is not defined" in fault.message
 
@@ -85,7 +85,7 @@ def test_a_fault_of_xacro_stands_at_its_element(describe: Describe) -> None:
 def test_a_fault_inside_a_macro_names_the_macro(describe: Describe) -> None:
     broken = WHEEL.replace("${mass}", "${maas}")
     subject = describe({FILE: robot(INCLUDE), f"{NAME}/urdf/wheel.xacro": broken})
-    (fault,) = subject.package_descriptions.files.faults
+    (fault,) = subject.urdf.package_descriptions.files.faults
     assert shown(fault.span)[:2] == ("urdf/wheel.xacro", 6)
     assert "in the macro wheel" in fault.message
 

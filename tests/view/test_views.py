@@ -37,7 +37,7 @@ def views(
     with open_input(write_example(changes, folder)) as opened:
         subject = Subject(opened.packages[0], cache)
         try:
-            found = subject.views
+            found = subject.physics.views
             assert isinstance(found, tuple)
             return found[0]
         finally:

@@ -109,7 +109,7 @@ def test_first_findings_come_before_the_trial_ends(chromium: Browser, address: s
         page.go_back()
         report.click()
         page.wait_for_function("() => window.subtCheckStage !== undefined")
-        assert page.locator("article.rule").count() > 50
+        assert page.locator("article.finding").count() > 50
 
 
 def test_two_packages_in_one_archive_without_javascript(

@@ -219,7 +219,7 @@ def _command(
     sandbox: Sandbox, paths: tuple[str, str], control: int, work: Path | None
 ) -> list[str]:
     # `-P` keeps the folder that it runs in out of the search for modules.
-    module = "checker.base.sandbox.launcher_process"
+    module = f"{__package__}.launcher_process"
     arguments = (str(control), json.dumps(to_builtins(sandbox)), *paths)
     own = [sys.executable, "-P", "-m", module, *arguments]
     folder = "" if work is None else str(work)

@@ -8,7 +8,7 @@ import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import closing
 from enum import StrEnum
 from importlib.metadata import PackageNotFoundError, requires
@@ -17,6 +17,7 @@ from pathlib import Path
 
 from checker.base.cache import SIZE_LIMIT, cache_folder
 from checker.base.child_process import Limits, ask
+from checker.base.extras import PHYSICS
 from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.base.resources import UNKNOWN, templates, tool_version, version_of
@@ -109,8 +110,9 @@ _LIMITS = Limits(10.0, 16_000_000_000, draws=True)
 def surroundings() -> Iterator[Result]:
     """Yield what the checker can do without, and would like to have."""
     yield _cache(cache_folder())
-    yield _drawing()
-    yield _viewer()
+    if PHYSICS.is_installed:
+        yield _drawing()
+        yield _viewer()
 
 
 def _cache(folder: Path) -> Result:
@@ -135,7 +137,7 @@ def _size(path: Path) -> int:
 
 
 def _drawing() -> Result:
-    answer = ask("checker.cli.doctor.opengl_frame", b"", _LIMITS)
+    answer = ask(f"{__package__}.opengl_frame", b"", _LIMITS)
     if not isinstance(answer, WorkerFailed) and answer != b"none":
         return Result(State.OK, f"pictures: MuJoCo draws with {answer.decode()}")
     reason = (
@@ -151,13 +153,17 @@ def _drawing() -> Result:
 def _viewer() -> Result:
     if templates("report").joinpath("viewer.js").is_file():
         return Result(State.OK, "3D viewer for reports is built")
-    advice = "reports show pictures instead"
+    # The wheel of a release has it; one that was built where npm is not may lack it.
+    advice = (
+        "reports show pictures instead; install Node.js with npm, then install subt-check again "
+        "(in a checkout: `make viewer`)"
+    )
     return Result(State.NOTE, "3D viewer for reports is not built", advice)
 
 
 LEAST_PYTHON = (3, 11)
-_NEEDED = re.compile(r"([\w.-]+)\s*>=\s*([\d.]+)")
-"""A requirement of `pyproject.toml` that holds everywhere; those of extras end otherwise."""
+_NEEDED = re.compile(r"(([\w.-]+)\s*>=\s*([\d.]+))(?:\s*;\s*extra\s*==\s*['\"](\w+)['\"])?")
+"""A requirement of `pyproject.toml`, of everybody or of an extra."""
 
 
 def installation() -> Iterator[Result]:
@@ -165,7 +171,10 @@ def installation() -> Iterator[Result]:
     yield Result(State.OK, f"subt-check {tool_version()}")
     yield _python()
     yield Result(State.OK, f"{platform.platform()}; no Ruby, Gazebo or ROS is needed")
-    yield from _libraries()
+    yield from _libraries(("", PHYSICS.name) if PHYSICS.is_installed else ("",))
+    if not PHYSICS.is_installed:
+        what = "physics is not installed: no meshes, masses, views of sensors, trials or 3D view"
+        yield Result(State.NOTE, what, PHYSICS.remedy)
 
 
 def _python() -> Result:
@@ -176,7 +185,12 @@ def _python() -> Result:
     return Result(State.PROBLEM, what, f"install subt-check with Python {least} or newer")
 
 
-def _libraries() -> Iterator[Result]:
+def _libraries(extras: Collection[str]) -> Iterator[Result]:
+    """Yield what is wrong with libraries, then those that are well.
+
+    Args:
+        extras: Whose libraries are looked at; empty stands for those that everybody needs.
+    """
     try:
         needed = [_NEEDED.fullmatch(requirement) for requirement in requires("subt-check") or ()]
     except PackageNotFoundError:
@@ -184,13 +198,15 @@ def _libraries() -> Iterator[Result]:
         return
     fitting: dict[str, str] = {}
     for match in filter(None, needed):
-        name, least = match.groups()
+        wanted, name, least, extra = match.groups(default="")
+        if extra not in extras:
+            continue
         version = version_of(name)
         if version == UNKNOWN:
-            yield Result(State.PROBLEM, f"{name} is not installed", f"pip install '{match[0]}'")
+            yield Result(State.PROBLEM, f"{name} is not installed", f"pip install '{wanted}'")
         elif numbers(version) < numbers(least):
             what = f"{name} is {version}, expected {least} or newer"
-            yield Result(State.PROBLEM, what, f"pip install --upgrade '{match[0]}'")
+            yield Result(State.PROBLEM, what, f"pip install --upgrade '{wanted}'")
         else:
             fitting[name] = version
     troubles = import_troubles(fitting)

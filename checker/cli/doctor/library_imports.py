@@ -23,6 +23,11 @@ _MODULES = {
 """What distributions are imported as, where it is not their own name."""
 
 
+def module_of(distribution: str) -> str:
+    """Return what a distribution is imported as."""
+    return _MODULES.get(distribution, distribution.replace("-", "_"))
+
+
 def import_troubles(distributions: Iterable[str]) -> dict[str, str]:
     """Import libraries in a child process.
 
@@ -42,7 +47,7 @@ def answer(request: bytes, _files: Files) -> bytes:
     troubles = {}
     for distribution in json.loads(request):
         try:
-            import_module(_MODULES.get(distribution, distribution.replace("-", "_")))
+            import_module(module_of(distribution))
         except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever it is, it is what was looked for
             troubles[distribution] = f"{type(error).__name__}: {error}"
     return json.dumps(troubles).encode()

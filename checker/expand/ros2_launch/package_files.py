@@ -46,7 +46,7 @@ def read_file(package: Package, path: str) -> SourceText | str:
     local = local_file(package, path)
     if local is None:
         if holder_of(package, target.package) is None:
-            return f"package {target.package} is not at hand"
+            return f"package {target.package} is not found"
         return f"{target} does not exist"
     source = package.read(local)
     return f"{local} {source.reason}" if isinstance(source, NotReadable) else source

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 
 from checker.base.parts import NotAvailable
 from checker.expand.ros2_launch.graph import LaunchFaultKind, LaunchGraph, Ros2Launch
-from checker.expand.ros2_launch.reader import read_launch
 from checker.package.package import Package
 from checker.source.text import SourceText
 from checker.source.xml import XmlDocument
@@ -41,7 +40,7 @@ def ros2_launch(
         unread.append(f"only {FILES_LIMIT} of {len(files)} launch files are read")
     graphs: dict[str, LaunchGraph] = {}
     for file in files[:FILES_LIMIT]:
-        graphs[file] = read_launch(package, file, arguments)
+        graphs[file] = _read(package, file, arguments)
         if any(fault.kind is LaunchFaultKind.LIMIT for fault in graphs[file].faults):
             unread.append(f"{file} and the following files are too large to read")
             break
@@ -70,7 +69,7 @@ def launches_naming(package: Package) -> Iterator[tuple[Package, LaunchGraph]]:
     for other in filter(built_by_ament, others):
         files = [file for file in launch_files(other) if _names(other, file, package)][:left]
         left -= len(files)
-        graphs = {file: read_launch(other, file) for file in files}
+        graphs = {file: _read(other, file) for file in files}
         yield from ((other, graph) for graph in _outermost(graphs))
 
 
@@ -122,3 +121,10 @@ def is_ros2_xml(package: Package, path: str) -> bool:
 def built_by_ament(package: Package) -> bool:
     """Whether package.xml says that the package is one of ROS 2."""
     return _holds(package, "package.xml", _BUILT_BY_AMENT)
+
+
+def _read(package: Package, file: str, arguments: Mapping[str, str] | None = None) -> LaunchGraph:
+    """Read a launch file; packages without any need not load what evaluates them."""
+    from checker.expand.ros2_launch.reader import read_launch
+
+    return read_launch(package, file, arguments)

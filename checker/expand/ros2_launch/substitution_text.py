@@ -95,7 +95,7 @@ class AttributeText:
     def _made(self, name: str, arguments: list[Value], span: Span, written: str) -> Value:
         form = _FORMS.get(name)
         if form is None:
-            message = f"$({name} …) is no substitution of ROS 2"
+            message = f"$({name} …) is not a substitution of ROS 2"
             if name in ROS_1:
                 self._report(LaunchFaultKind.SUBSTITUTION, span, message, name)
             return PlacedText(written, span)

@@ -62,10 +62,10 @@ def perform(  # noqa: PLR0911 - one per kind of value
             if work is not None:
                 with context.allowance:
                     return work(value, context)
-            return Unknown(f"a {name} is no text", value.span)
+            return Unknown(f"a {name} is not text", value.span)
         case OpenFile():
-            return Unknown("an open file is no text", span)
-    return Unknown("is no text", span)
+            return Unknown("an open file is not text", span)
+    return Unknown("is not text", span)
 
 
 def _joined(values: list[Value] | tuple[Value, ...], context: Context, span: Span) -> Text:

@@ -135,7 +135,7 @@ class Expansions:
         self._basis = work_key([texts], ["expand/xacro"], ["xacro", "pyyaml"])
         items = {self._key(job): job for job in self._jobs}
         limits = Limits(SECONDS_FOR_ALL, MEMORY)
-        module = "checker.expand.xacro.worker"
+        module = f"{__package__}.worker"
         work = Work("xacro", module, limits, items, _answer, common, lasts=_lasts)
         begun = Background(work, self._cache)
         begun.begin()

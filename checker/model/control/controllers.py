@@ -21,7 +21,7 @@ class Gain(Record, eq=False):
     """A gain of a PID loop.
 
     Attributes:
-        value: As a number; None where it is no number, NaN where it is known at launch only.
+        value: As a number; None where it is not a number, NaN where it is known at launch only.
         text: As written.
     """
 

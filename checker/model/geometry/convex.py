@@ -9,7 +9,9 @@ takes a search over the sphere, from the directions in which polyhedra part.
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 
 from checker.model.geometry.shapes import Geometry
 from checker.model.geometry.transform import Rotation, Transform, Vector
@@ -87,7 +89,8 @@ def _extent_of(mesh: Mesh, geometry: Geometry, local: Vector) -> Extent:
     """Return the extent of a mesh with its `<scale>`, which mirrors where it is negative."""
     # d · (s p) = (s d) · p: one vector is scaled instead of all corners.
     x, y, z = (a * b for a, b in zip(local, _lengths(geometry, "scale"), strict=True))
-    if len(mesh.hull) > _MANY:
+    # To load numpy takes longer than to go through the corners of a whole robot a few times.
+    if len(mesh.hull) > _MANY and "numpy" in sys.modules:
         a, b, c = mesh.columns
         along = x * a + y * b + z * c
         return float(along.min()), float(along.max())
@@ -97,7 +100,7 @@ def _extent_of(mesh: Mesh, geometry: Geometry, local: Vector) -> Extent:
 
 
 _MANY = 200
-"""Corners from which on it pays to load numpy."""
+"""Corners from which on numpy is the faster."""
 
 
 def _lengths(geometry: Geometry, name: str) -> tuple[float, ...]:
@@ -143,6 +146,9 @@ def overlap_depth(
         tried.append((along(direction), direction))
         if tried[-1][0] <= enough:
             return tried[-1][0]
+    # From here on supports are asked for by the hundred: those of meshes are faster with it.
+    with suppress(ImportError):
+        pass
     for direction in _SPHERE:
         tried.append((along(direction), direction))
         if tried[-1][0] <= enough:

@@ -37,10 +37,13 @@ _FEWEST_LEG_JOINTS = 6
 _WHEEL_JOINT_TAGS = ("left_joint", "right_joint")
 
 
+NO_DRIVE = "no drive detected"
+
+
 def drive_name(plugins: Iterable[Plugin]) -> str:
-    """Return what moves the robot, `none found` without a drive plugin."""
+    """Return what moves the robot, `NO_DRIVE` without a drive plugin."""
     kinds = {DRIVE_CLASSES[p.class_name] for p in plugins if p.class_name in DRIVE_CLASSES}
-    return " and ".join(sorted(kinds)) or "none found"
+    return " and ".join(sorted(kinds)) or NO_DRIVE
 
 
 def driven_joints(plugins: Iterable[Plugin], joints: Iterable[Joint]) -> dict[str, Plugin]:

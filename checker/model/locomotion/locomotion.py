@@ -22,7 +22,7 @@ class DriveKind(enum.StrEnum):
     TRACKED = "tracks"
     MULTICOPTER = "multicopter"
     LEGGED = "legs"
-    NONE = "none found"
+    NONE = "no drive detected"
 
 
 class Side(enum.StrEnum):

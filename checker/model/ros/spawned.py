@@ -113,7 +113,7 @@ class SpawnedReader:
     def _read(self, load: Load) -> _Described | str:
         path = local_path(self._package, load.path)
         if path is None:
-            return f"{shown(load.path)} is not at hand"
+            return f"{shown(load.path)} is not found"
         document: object = self._package.xml(path)
         if load.by_xacro:
             wanted = [Wanted(path, load.args)]

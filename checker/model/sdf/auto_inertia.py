@@ -27,7 +27,7 @@ def is_automatic(inertial: Element | None) -> bool:
 
 
 def automatic_inertial(element: Element, collisions: Iterable[Collision]) -> Inertial:
-    """Return what the simulator works out; a mass that is no number where it needs a mesh.
+    """Return what the simulator works out; a mass that is not a number where it needs a mesh.
 
     Args:
         element: The `<inertial>`.

@@ -10,8 +10,6 @@ from checker.expand.xacro.fault import XacroFault
 from checker.package.package import Package
 from checker.source.xml import XmlDocument
 
-SUFFIX = ".xacro"
-
 
 def expanded_model(package: Package, path: str, cache: Cache) -> XmlDocument | NotAvailable:
     """Return what xacro makes of a file with the defaults of its arguments, or why it cannot."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from xml.sax.saxutils import quoteattr
+from html import escape
 
 from checker.base.record import Record
 from checker.package.package import Package
@@ -48,7 +48,7 @@ class MacroCall(Record, eq=False):
     @property
     def shown(self) -> str:
         """The start tag of the call."""
-        stated = "".join(f" {name}={quoteattr(value)}" for name, value in self.arguments.items())
+        stated = "".join(f' {name}="{escape(value)}"' for name, value in self.arguments.items())
         return f"<xacro:{self.name}{stated}>"
 
     @property

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from checker.expand.launch.expansion import expand_launch
 from checker.expand.launch.launch_file import Load, loads
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS, LaunchFiles
-from checker.expand.ros2_launch.descriptions import loaded_descriptions
 from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch
 from checker.expand.ros2_launch.package_launch import launches_naming
 from checker.model.urdf.candidates import StartedLoad
@@ -36,6 +35,8 @@ def started_loads(package: Package, ros2: Ros2Launch | None) -> Iterator[Started
 
 
 def _loaded(package: Package, graph: LaunchGraph, folder: str) -> Iterator[StartedLoad]:
+    from checker.expand.ros2_launch.descriptions import loaded_descriptions
+
     for described in loaded_descriptions(package, graph):
         missing = dict.fromkeys(described.unknown, f"{folder}{described.node.file}")
         yield StartedLoad(described.load, missing, described.choices)

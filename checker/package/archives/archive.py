@@ -81,7 +81,6 @@ def zip_contents(path: Path, index: ArchiveIndex) -> Iterator[tuple[Member, IO[b
                     yield member, content
 
 
-ARCHIVE_SUFFIXES = (".zip", ".tar.gz", ".tgz")
 CHUNK = 65_536
 # What zipfile and zlib raise on bytes that are no archive.
 _DAMAGE = (

@@ -98,7 +98,7 @@ def _sum(a: _Load, b: _Load) -> _Load:
 
 
 def _held(robot: Robot, joint: Joint, motion: Motion, load: _Load) -> float | None:
-    """Return what an axis holds; None where that is no number."""
+    """Return what an axis holds; None where that is not a number."""
     mass, (x, y, _) = load
     a, b, c = motion.axis
     if motion.freedom is Freedom.SLIDE:

@@ -14,6 +14,7 @@ from msgspec.structs import replace
 from checker.base.background import Background
 from checker.base.cache import NO_CACHE, Cache
 from checker.base.child_server import Server
+from checker.base.extras import PHYSICS
 from checker.base.files import NotReadable, read_bytes
 from checker.base.output import Stages
 from checker.base.parts import WorkerFailed
@@ -60,7 +61,16 @@ class PackageMeshes(Record, eq=False, dict=True):
         return "_by_address" in self.__dict__ or not self.uris
 
     def of(self, uri: Located[str]) -> Mesh | MeshFault:
-        """Return what the file behind a URI holds; the first call reads all files."""
+        """Return what the file behind a URI holds; the first call reads all files.
+
+        Raises:
+            MissingExtra: There is a file to read, and nothing to read it with.
+        """
+        if not PHYSICS.is_installed:
+            place = self.content(uri)
+            if isinstance(place, MeshFault):
+                return place
+            PHYSICS.needed_by("a mesh")
         return self._by_address.get(_address(uri), _UNKNOWN)
 
     def content(self, uri: Located[str]) -> tuple[MeshFile, str] | MeshFault:

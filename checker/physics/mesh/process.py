@@ -19,7 +19,7 @@ from checker.base.files import read_bytes
 from checker.package.index import FileEntry
 from checker.package.package import Package
 
-_MODULE = "checker.physics.mesh.worker"
+_MODULE = f"{__package__}.worker"
 SIZE_LIMIT = 100_000_000
 """Bytes of a file; the largest of 129 real ones has 1.9 MB."""
 SECONDS_FOR_ONE = 20

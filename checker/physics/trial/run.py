@@ -23,7 +23,7 @@ TIMESTEP = 0.002
 """Seconds; contacts and servos are tuned to it."""
 LIMITS = Limits(seconds=20.0, memory=1_000_000_000)
 
-_LIBRARIES = ("mujoco", "numpy", "scipy")
+LIBRARIES = ("mujoco", "numpy", "scipy")
 
 
 def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Background[Trial] | str:
@@ -46,8 +46,8 @@ def start_trial(robot: Robot, cache: Cache, *, thorough: bool = False) -> Backgr
     if scene.unusable:
         return scene.unusable
     item = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
-    key = work_key([json.dumps(item)], ["physics/trial"], _LIBRARIES)
-    module = "checker.physics.trial.worker"
+    key = work_key([json.dumps(item)], ["physics/trial"], LIBRARIES)
+    module = f"{__package__}.worker"
     trial = Background(Work("trial", module, LIMITS, {key: item}, Trial.from_json), cache)
     trial.begin()
     return trial

@@ -136,7 +136,7 @@ class Trial(Record):
         not_driven: Why a robot that moves was only let stand, as the end of a sentence.
         series: Samples by name, all of one length: `time`, `x`, `y`, `z`, `roll`, `pitch`, `yaw`,
             `speed`, `yaw_rate`, `command_linear`, `command_angular`; `load:<link>` (N),
-            `torque:<joint>` (N·m), `joint:<joint>` (rad or m).
+            `torque:<joint>` (N·m, the mean of the 0.1 s before), `joint:<joint>` (rad or m).
         replay: How it moved; None where nothing moved, and of robots of too many moving parts.
     """
 

@@ -1,12 +1,13 @@
-"""Findings as the page shows them: by rule, the gravest first, as many as one can read."""
+"""Findings as the page shows them: the gravest first, as many as one can read."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 
 from checker.base.record import Record
 from checker.base.words import plain, shortened
-from checker.finding import SNIPPET_LIMIT, Edit, Fix, Place, Severity
+from checker.finding import SNIPPET_LIMIT, Concern, Edit, Fix, Place, Severity
 from checker.report.report import ReportedFinding
 
 # A line of source with the fault marked, and what a fix makes of it.
@@ -80,11 +81,13 @@ def _shown_lines(text: str) -> tuple[str, ...]:
 
 
 MOST_OF_A_RULE = 40
-"""Findings of one rule that are shown in full."""
+"""Findings of one rule and severity that are shown in full."""
 MOST = 600
 """Findings that are shown in full; a page with more of them is read by nobody."""
 _PLACES_SHOWN = 8
 _TEXT_LIMIT = 600
+_SHORT_PATCH = 8
+"""Lines of a patch that is not folded."""
 
 
 class Spot(Record):
@@ -110,7 +113,13 @@ class ShownFinding(Record):
     """
 
     anchor: str
+    severity: str
+    concern: str
+    rule: str
+    name: str
     message: str
+    why: str
+    how: str
     spot: Spot
     frame: Frame | None
     others: tuple[Spot, ...]
@@ -119,55 +128,98 @@ class ShownFinding(Record):
     safety: str
     changes: tuple[Change, ...]
 
+    @property
+    def is_short(self) -> bool:
+        """Whether its patch is read at a glance."""
+        return sum(len(each.removed) + len(each.added) for each in self.changes) <= _SHORT_PATCH
 
-class RuleGroup(Record):
-    """The findings of one rule and severity.
+
+class Grade(Record):
+    """The findings of one severity.
 
     Attributes:
-        hidden: How many are not shown.
+        total: How many there are.
+        hidden: How many of them are not shown.
     """
 
     severity: str
-    concern: str
-    rule: str
-    name: str
-    why: str
-    how: str
+    total: int
     findings: tuple[ShownFinding, ...]
     hidden: int
 
 
-def groups_of(findings: Sequence[ReportedFinding], unseen: Collection[str] = ()) -> list[RuleGroup]:
-    """Return findings by severity and rule, in the order of each rule's first finding.
+class RulePage(Record):
+    """What the page says of a rule that found something."""
+
+    rule: str
+    name: str
+    title: str
+    why: str
+    how: str
+    source: str
+    findings: int
+
+
+def in_order(findings: Sequence[ReportedFinding]) -> list[ReportedFinding]:
+    """Return findings by severity and concern, then by place."""
+
+    def key(finding: ReportedFinding) -> tuple[int, int, str, int, int, str]:
+        place = finding.places[0]
+        concern = list(Concern).index(finding.concern)
+        grade = finding.severity.rank, concern
+        return *grade, place.file, place.line, place.column, finding.rule
+
+    return sorted(findings, key=key)
+
+
+def grades_of(findings: Sequence[ReportedFinding], unseen: Collection[str] = ()) -> list[Grade]:
+    """Return findings by severity, each in order.
 
     Args:
         findings: Of a package.
         unseen: Files of robots that the 3D view does not show.
     """
-    by_rule: dict[tuple[Severity, str], list[ReportedFinding]] = {}
-    for finding in findings:
-        by_rule.setdefault((finding.severity, finding.rule), []).append(finding)
+    by_severity = {severity: list[ReportedFinding]() for severity in Severity}
+    for finding in in_order(findings):
+        by_severity[finding.severity].append(finding)
     room = MOST
-    groups = []
-    for (severity, _), of_rule in by_rule.items():
-        shown = of_rule[: min(MOST_OF_A_RULE, room)]
+    grades = []
+    for severity, own in by_severity.items():
+        of_rule = Counter[str]()
+        shown: list[ShownFinding] = []
+        for finding in own:
+            of_rule[finding.rule] += 1
+            if len(shown) < room and of_rule[finding.rule] <= MOST_OF_A_RULE:
+                shown.append(_shown(finding, unseen))
         room -= len(shown)
-        first = of_rule[0]
-        groups.append(
-            RuleGroup(
-                str(severity), str(first.concern), plain(first.rule), plain(first.name),
-                plain(first.why), plain(first.how),
-                tuple(_shown(finding, unseen) for finding in shown),
-                len(of_rule) - len(shown),
-            )
-        )  # fmt: skip
-    return groups
+        if own:
+            grades.append(Grade(str(severity), len(own), tuple(shown), len(own) - len(shown)))
+    return grades
+
+
+def rule_pages(findings: Sequence[ReportedFinding]) -> list[RulePage]:
+    """Return what is said of each rule that found something, by its id."""
+    number = Counter(finding.rule for finding in findings)
+    firsts = {finding.rule: finding for finding in reversed(findings)}
+    return [
+        RulePage(
+            plain(rule), plain(first.name), plain(first.title), plain(first.why), plain(first.how),
+            plain(first.source), number[rule],
+        )
+        for rule, first in sorted(firsts.items())
+    ]  # fmt: skip
 
 
 def _shown(reported: ReportedFinding, unseen: Collection[str]) -> ShownFinding:
     main, *others = reported.places
     return ShownFinding(
-        anchor=f"f-{reported.fingerprint}",
+        anchor=anchor_of(reported),
+        severity=str(reported.severity),
+        concern=str(reported.concern),
+        rule=plain(reported.rule),
+        name=plain(reported.name),
+        why=plain(reported.why),
+        how=plain(reported.how),
         message=plain(shortened(reported.message, _TEXT_LIMIT)),
         spot=_spot(main),
         frame=frame_of(main),
@@ -177,6 +229,11 @@ def _shown(reported: ReportedFinding, unseen: Collection[str]) -> ShownFinding:
         safety=str(reported.fix.safety) if reported.fix else "",
         changes=tuple(changes_of(reported.fix)) if reported.fix else (),
     )
+
+
+def anchor_of(reported: ReportedFinding) -> str:
+    """Return what follows `#` in the address of a finding; it stays while lines move."""
+    return f"f-{reported.fingerprint}"
 
 
 def _spot(place: Place) -> Spot:

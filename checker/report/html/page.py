@@ -7,15 +7,17 @@ import shlex
 from base64 import b64encode
 from collections.abc import Sequence
 from functools import cache
-from itertools import chain, repeat
+from itertools import chain, islice, repeat
 from typing import TYPE_CHECKING, Any
 
 from checker.base.record import Record
 from checker.base.resources import templates
-from checker.base.words import count, plain, shortened
-from checker.finding import Severity
-from checker.report.html.findings import groups_of
-from checker.report.html.robots import files_out_of_view, shown_robots
+from checker.base.words import count, listed, plain, shortened
+from checker.finding import Concern, Severity
+from checker.report.html.findings import grades_of, rule_pages
+from checker.report.html.index import common_problems, entry_of
+from checker.report.html.overview import first_tasks, told_trial
+from checker.report.html.robots import ShownRobot, files_out_of_view, shown_robots
 from checker.report.json_report import to_json
 from checker.report.render_settings import RenderSettings
 from checker.report.report import Cause, NotChecked, PackageReport, Report, Suppressed, VerdictKind
@@ -93,6 +95,7 @@ def why_not_driven(not_checked: Sequence[NotChecked]) -> str:
     return plain(shortened(next(reasons, ""), _TEXT_LIMIT))
 
 
+_CONCERNS = list(Concern)
 SCRIPTS = ("findings.js", "plots.js", "stage.js")
 """The page's own behaviour, in the order of their dependence."""
 VIEWER = "viewer.js"
@@ -101,21 +104,27 @@ DOWNLOADS_LIMIT = 1_500_000
 """Bytes of other reports that a page carries along; `--report` writes them beside it."""
 
 
-def to_html(package: PackageReport, report: Report, manner: RenderSettings) -> str:
+def to_html(package: PackageReport, report: Report, manner: RenderSettings, index: str = "") -> str:
     """Return the page of one package.
 
     Args:
         package: What was found out.
         report: Of the run that it belongs to.
         manner: Where the command was run, and which it was.
+        index: Address of the list of all packages, relative to this page; empty without.
     """
-    script = _script(with_viewer=package.display is not None)
     robots, reasons = shown_robots(package), reasons_of(package.not_checked)
+    driven = any(robot.trial for robot in robots)
+    script = _script(SCRIPTS, with_viewer=driven or package.display is not None)
     return environment().get_template("report.html.j2").render(
         package=package,
         sentence=sentence(package),
-        groups=groups_of(package.findings, frozenset(files_out_of_view(robots))),
-        counts=[(level, package.count(level)) for level in Severity],
+        tasks=first_tasks(package),
+        told=_told(robots, why_not_driven(package.blind_spots)),
+        grades=grades_of(package.findings, frozenset(files_out_of_view(robots))),
+        rules=rule_pages(package.findings),
+        concerns=sorted({finding.concern for finding in package.findings}, key=_CONCERNS.index),
+        index=index,
         robots=robots,
         reasons=reasons[:SHOWN],
         more_reasons=max(0, len(reasons) - SHOWN),
@@ -132,6 +141,18 @@ def to_html(package: PackageReport, report: Report, manner: RenderSettings) -> s
         script=script,
         script_hash=_hash(script),
     )  # fmt: skip
+
+
+def _told(robots: Sequence[ShownRobot], unseen: str) -> list[str]:
+    """Return what came of the trial as sentences; of several robots, that of the first driven."""
+    driven = next((robot for robot in robots if robot.trial), None)
+    if driven is None or driven.trial is None:
+        return []
+    if len(robots) == 1:
+        return told_trial(driven.trial, unseen=unseen)
+    others = [each.name for each in robots if each is not driven and each.has_fault]
+    also = [f"Faults in the trials of others: {listed(others)}."] if others else []
+    return [*told_trial(driven.trial, driven.name, unseen), *also]
 
 
 def has_viewer() -> bool:
@@ -187,22 +208,29 @@ def to_index(report: Report, links: Sequence[str]) -> str:
         report: Of all packages.
         links: Address of each package's own page, relative to this one; none where it is empty.
     """
+    script = _script(("index.js",), with_viewer=False)
+    sentences = map(sentence, report.packages)
+    addresses = list(islice(chain(links, repeat("")), len(report.packages)))
     return environment().get_template("index.html.j2").render(
         report=report,
         entries=[
-            (item, sentence(item), link)
-            for item, link in zip(report.packages, chain(links, repeat("")), strict=False)
+            entry_of(package, said.lead, said.aside, link)
+            for package, said, link in zip(report.packages, sentences, addresses, strict=True)
         ],
+        common=common_problems(report.packages, addresses),
         levels=list(Severity),
         with_suppressed=has_suppressed(report.packages),
+        with_pictures=any(each.display and each.display.pictures for each in report.packages),
         ready=sum(package.verdict is VerdictKind.READY for package in report.packages),
         style=text_of("report.css"),
+        script=script,
+        script_hash=_hash(script),
     )  # fmt: skip
 
 
-def _script(*, with_viewer: bool) -> str:
+def _script(own: Sequence[str], *, with_viewer: bool) -> str:
     """Return all JavaScript of a page; an end tag inside a text ends no script."""
-    names = (VIEWER, *SCRIPTS) if with_viewer and has_viewer() else SCRIPTS
+    names = (VIEWER, *own) if with_viewer and has_viewer() else own
     return "\n".join(text_of(name) for name in names).replace("</script", "<\\/script")
 
 

@@ -1,201 +1,113 @@
-"""Plots of a trial as SVG paths; the page adds words, axes and the moment that is shown."""
+"""What a trial's plots show: curves over time, the legs of the course, limits and scales."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Mapping
 from typing import Any
 
+import msgspec
+
 from checker.base.record import Record
-from checker.base.words import plain, shortened
+from checker.report.html.scale import Named, Values, extent, known, scale_of
+from checker.report.html.themes import Course, Leg, Theme, themes_of
 
-WIDTH, HEIGHT = 1000.0, 100.0
-"""Of a plot's own units; the page stretches them to whatever room there is."""
-_CLIMB = "climb"
-"""The leg of a copter whose command is the rate of its height."""
 _LINES_SHOWN = 8
-_MARGIN = 0.08
-"""Share of the range that is left free above and below."""
-
-Values = Sequence[float | None]
 
 
-class Line(Record):
-    """One curve: its name and its points, as SVG's `points` has them, piece by piece."""
+class Curve(Record):
+    """One curve.
+
+    Attributes:
+        kind: `measured`, `command` or `limit`.
+        hue: Number of its colour; curves of one number belong together.
+    """
 
     name: str
-    style: str
-    pieces: tuple[str, ...]
-
-
-class Tick(Record):
-    """A value on the axis, and how far down it stands, in per cent."""
-
-    value: str
-    top: float
+    kind: str
+    hue: int
+    values: tuple[float | None, ...]
 
 
 class Plot(Record):
-    """Curves of one unit over the time of a trial.
+    """Curves of one unit.
 
     Attributes:
-        zero: Where zero stands, in the plot's units; None outside.
-        more: Curves that are not shown.
+        note: How the figures were made, and what the scale leaves out, as sentences.
+        low: Where the axis begins.
+        high: Where it ends.
     """
 
     title: str
     unit: str
-    lines: tuple[Line, ...]
-    ticks: tuple[Tick, ...]
-    zero: float | None
-    more: int
+    note: str
+    low: float
+    high: float
+    curves: tuple[Curve, ...]
 
 
-class Span(Record):
-    """A leg of the course: its name, where it starts and how long it is, in per cent."""
+class TrialPlots(Record):
+    """The plots of a trial over one axis of time."""
 
-    name: str
-    start: float
-    width: float
+    time: tuple[float, ...]
+    legs: tuple[Leg, ...]
+    plots: tuple[Plot, ...]
 
-
-def spans_of(course: Sequence[Mapping[str, Any]]) -> list[Span]:
-    """Return the legs of a course on the time axis."""
-    end = max((leg["end"] for leg in course), default=0.0)
-    if end <= 0.0:
-        return []
-    return [
-        Span(
-            leg["name"],
-            round(100 * leg["start"] / end, 3),
-            round(100 * (leg["end"] - leg["start"]) / end, 3),
-        )
-        for leg in course
-    ]
+    @property
+    def json(self) -> str:
+        """All of it as the page's script reads it."""
+        return msgspec.json.encode(self).decode()
 
 
-def plots_of(trial: Mapping[str, Any]) -> list[Plot]:
-    """Return the plots of a trial; `PackageReport.trial` holds the series."""
-    series, course = trial["series"], trial["course"]
-    time = series.get("time") or ()
-    end = max((leg["end"] for leg in course), default=0.0)
-    if not time or end <= 0.0:
-        return []
-    climbs = any(leg["name"] == _CLIMB for leg in course)
-    themes = (_climbing(series) if climbs else _driving(series), *_themes(series))
-    drawn = (_plot(title, unit, curves, time, end) for title, unit, curves in themes)
-    return [plot for plot in drawn if plot.lines]
+def plots_of(trial: Mapping[str, Any], mass: float | None = None) -> TrialPlots | None:
+    """Return the plots of a trial; None where there are no samples.
+
+    Args:
+        trial: As `PackageReport.trial` has it.
+        mass: Of the robot, kg, where it is known.
+    """
+    moments = trial["series"].get("time") or ()
+    legs = tuple(Leg(leg["name"], leg["start"], leg["end"]) for leg in trial["course"])
+    if not legs or any(moment is None for moment in moments) or len(moments) < 2:
+        return None
+    course = Course(trial, tuple(moments), legs, mass)
+    drawn = (_plot(theme) for theme in themes_of(course))
+    plots = tuple(plot for plot in drawn if plot is not None)
+    return TrialPlots(course.time, legs, plots) if plots else None
 
 
-_Curves = list[tuple[str, str, Values]]
-"""Name, style and values of each."""
+def _plot(theme: Theme) -> Plot | None:
+    curves = [(name, values) for name, values in theme.measured if any(True for _ in known(values))]
+    if not curves:
+        return None
+    shown = _greatest(curves)
+    limits = [(name, values) for name, values in theme.limits if any(True for _ in known(values))]
+    scale = scale_of(shown, theme.command, limits, theme.floor)
+    notes = [theme.note] if theme.note else []
+    if len(curves) > len(shown):
+        notes.append(f"{len(curves) - len(shown)} parts of lower values are not drawn.")
+    if scale.peak:
+        notes.append(f"A peak of {scale.peak:.3g} {theme.unit} is beyond the scale.")
+    beyond = sorted({extent([values]) for _, values in limits if not scale.holds(values)})
+    if beyond:
+        shown_limits = " and ".join(f"{limit:.3g}" for limit in beyond[:2])
+        notes.append(f"Beyond the scale: the limit of {shown_limits} {theme.unit}.")
+    drawn = [_curve(name, "measured", hue, values) for hue, (name, values) in enumerate(shown)]
+    if any(value is not None for value in theme.command):
+        drawn.append(_curve("commanded", "command", 0, theme.command))
+    for hue, name in enumerate(dict.fromkeys(name for name, _ in limits)):
+        drawn += [
+            _curve(name, "limit", hue, values)
+            for own, values in limits
+            if own == name and scale.holds(values)
+        ]
+    return Plot(theme.title, theme.unit, " ".join(notes), scale.low, scale.high, tuple(drawn))
 
 
-_Theme = tuple[str, str, _Curves]
-"""Title, unit and curves of a plot."""
+def _curve(name: str, kind: str, hue: int, values: Values) -> Curve:
+    return Curve(name, kind, hue, tuple(v if v is None else float(f"{v:.4g}") for v in values))
 
 
-def _driving(series: Mapping[str, Values]) -> _Theme:
-    return "Speed", "m/s", _pair(series.get("command_linear", ()), series.get("speed", ()))
-
-
-def _climbing(series: Mapping[str, Values]) -> _Theme:
-    """Return the rate of height, which is what a copter is told (`Leg.linear`)."""
-    rates = _rates(series.get("time", ()), series.get("z", ()))
-    return "Climb rate", "m/s", _pair(series.get("command_linear", ()), rates)
-
-
-def _rates(time: Values, values: Values) -> Values:
-    """Return how fast a value changes from each sample to the next."""
-    rates: list[float | None] = []
-    for (start, value), (end, after) in pairwise(zip(time, values, strict=False)):
-        if start is None or end is None or value is None or after is None or end <= start:
-            rates.append(None)
-        else:
-            rates.append((after - value) / (end - start))
-    return rates
-
-
-def _themes(series: Mapping[str, Values]) -> Iterator[_Theme]:
-    turning = _pair(series.get("command_angular", ()), series.get("yaw_rate", ()))
-    yield "Turn rate", "rad/s", turning
-    roll, pitch = _degrees(series.get("roll", ())), _degrees(series.get("pitch", ()))
-    yield "Tilt", "°", [("roll", "line-0", roll), ("pitch", "line-1", pitch)]
-    yield "Height", "m", [("robot", "line-0", series.get("z", ()))]
-    yield "Load on the ground", "N", _parts(series, "load:")
-    yield "Torque", "N·m", _parts(series, "torque:")
-
-
-def _pair(command: Values, reached: Values) -> _Curves:
-    # The command is drawn last: dashes on top of a curve leave both to be seen.
-    return [("reached", "line-0", reached), ("commanded", "command", command)]
-
-
-def _parts(series: Mapping[str, Values], prefix: str) -> _Curves:
-    names = [name for name in series if name.startswith(prefix)]
-    return [
-        (plain(shortened(name.removeprefix(prefix), 60)), f"line-{number % 8}", series[name])
-        for number, name in enumerate(names)
-    ]
-
-
-def _degrees(values: Values) -> Values:
-    return [None if value is None else math.degrees(value) for value in values]
-
-
-def _plot(title: str, unit: str, curves: _Curves, time: Values, end: float) -> Plot:
-    curves = [curve for curve in curves if any(value is not None for value in curve[2])]
-    shown = curves[:_LINES_SHOWN]
-    low, high = _range([values for _, _, values in shown])
-    lines = tuple(
-        Line(name, style, tuple(_pieces(time, values, end, low, high)))
-        for name, style, values in shown
-    )
-    zero = _down(0.0, low, high) if low < 0.0 < high else None
-    return Plot(title, unit, lines, _ticks(low, high), zero, len(curves) - len(shown))
-
-
-def _range(curves: Sequence[Values]) -> tuple[float, float]:
-    """Return what the axis spans: all values and some room, never less than can be told apart."""
-    values = [value for curve in curves for value in curve if value is not None]
-    low, high = min(values, default=0.0), max(values, default=1.0)
-    low, high = (min(low, 0.0), max(high, 0.0)) if _near_zero(low, high) else (low, high)
-    room = max((high - low) * _MARGIN, 0.01)
-    return low - room, high + room
-
-
-def _near_zero(low: float, high: float) -> bool:
-    """Say whether zero is near enough to be shown."""
-    return min(abs(low), abs(high)) < 2 * (high - low) or low * high <= 0.0
-
-
-def _ticks(low: float, high: float) -> tuple[Tick, ...]:
-    """Return two or three round values on the axis; none where figures are beyond all bounds."""
-    if not 0.0 < high - low < math.inf:
-        return ()
-    step = 10 ** math.floor(math.log10((high - low) / 2))
-    step *= next((factor for factor in (5, 2) if (high - low) / (step * factor) >= 2), 1)
-    first = math.ceil(low / step)
-    values = [number * step for number in range(first, math.floor(high / step) + 1)]
-    return tuple(
-        Tick(f"{value + 0.0:.4g}", round(_down(value, low, high), 2)) for value in values[:6]
-    )
-
-
-def _down(value: float, low: float, high: float) -> float:
-    return HEIGHT * (high - value) / (high - low)
-
-
-def _pieces(time: Values, values: Values, end: float, low: float, high: float) -> Iterator[str]:
-    """Yield a curve's points; where a value is missing, another piece begins."""
-    points: list[str] = []
-    for moment, value in zip(time, values, strict=False):
-        if moment is None or value is None:
-            if points:
-                yield " ".join(points)
-            points = []
-        else:
-            points.append(f"{WIDTH * moment / end:.1f},{_down(value, low, high):.1f}")
-    if points:
-        yield " ".join(points)
+def _greatest(curves: list[Named]) -> list[Named]:
+    """Return the curves with the greatest values, in their own order."""
+    ranked = sorted(range(len(curves)), key=lambda n: -extent([curves[n][1]]))
+    return [curves[number] for number in sorted(ranked[:_LINES_SHOWN])]

@@ -9,7 +9,7 @@ from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.finding import Severity
 from checker.report.figures import Row, facts_in_words, rows_of
-from checker.report.html.plots import Plot, Span, plots_of, spans_of
+from checker.report.html.plots import TrialPlots, plots_of
 from checker.report.report import PackageReport
 from checker.report.robots import ReportedRobot, robots_of
 
@@ -41,8 +41,21 @@ class ShownRobot(Record):
     facts: tuple[tuple[str, str], ...]
     trial: Mapping[str, Any] | None
     rows: tuple[Row, ...] = ()
-    plots: tuple[Plot, ...] = ()
-    spans: tuple[Span, ...] = ()
+    plots: TrialPlots | None = None
+
+    @property
+    def has_fault(self) -> bool:
+        """Whether a rule objects to its trial."""
+        return self.badge in map(str, Severity)
+
+    @property
+    def in_a_line(self) -> str:
+        """What one wants to know of it first."""
+        known = dict(self.facts)
+        phrases = [known[name] for name in ("drive", "mass", "size") if name in known]
+        counted = ((name, known[name]) for name in ("links", "joints", "sensors") if name in known)
+        phrases += [f"{number} {name[:-1] if number == '1' else name}" for name, number in counted]
+        return ", ".join(phrases)
 
 
 def shown_robots(package: PackageReport) -> list[ShownRobot]:
@@ -66,9 +79,13 @@ def _shown(robot: ReportedRobot) -> ShownRobot:
         facts=tuple(facts.items()),
         trial=trial,
         rows=tuple(rows_of(trial["measurements"])) if trial else (),
-        plots=tuple(plots_of(trial)) if trial else (),
-        spans=tuple(spans_of(trial["course"])) if trial else (),
+        plots=plots_of(trial, _mass(robot.facts)) if trial else None,
     )
+
+
+def _mass(facts: Mapping[str, Any]) -> float | None:
+    mass = facts.get("mass_kg")
+    return float(mass) if isinstance(mass, int | float) else None
 
 
 def files_out_of_view(robots: list[ShownRobot]) -> Iterator[str]:

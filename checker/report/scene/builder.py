@@ -137,20 +137,24 @@ _MARKS: Mapping[Layer, _Maker] = {
 }
 
 
-def scene_of(robot: Robot, trial: Trial | None, surfaces: Surfaces) -> DisplayScene:
+def scene_of(
+    robot: Robot, trial: Trial | None, surfaces: Surfaces, *, marked: bool = True
+) -> DisplayScene:
     """Return what is shown of a robot.
 
     Args:
         robot: It.
         trial: How it moved; None without a trial.
         surfaces: What its mesh files look like.
+        marked: Whether marks such as joints and views are among it, beside its shapes.
     """
     notes = Notes()
     showing = Showing(robot, _frames(robot, notes), surfaces, notes)
     shapes = list(_hung(_SHAPES, showing))
     size = sphere_around(shapes, showing.frames).radius
     hung: dict[str, list[Item]] = {}
-    for name, item in (*shapes, *_hung(_MARKS, replace(showing, size=size))):
+    marks = _hung(_MARKS, replace(showing, size=size)) if marked else ()
+    for name, item in (*shapes, *marks):
         hung.setdefault(name, []).append(item)
     replay = trial.replay if trial is not None else None
     links = [

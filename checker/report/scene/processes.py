@@ -38,7 +38,7 @@ NO_PROCESSES = StartedProcesses()
 
 def drawing_module(platform: str) -> str:
     """Return the name of the module that draws by one of `PLATFORMS`."""
-    return f"checker.report.scene.drawing.by_{platform}"
+    return f"{__package__}.drawing.by_{platform}"
 
 
 def drawing_process() -> Child:

@@ -9,9 +9,8 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, closing, contextmanager, nullcontext, suppress
 from functools import cache
 from time import monotonic, sleep
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-import httpx
 import msgspec
 
 from checker.base.errors import CheckerError
@@ -20,6 +19,9 @@ from checker.base.record import Record
 from checker.base.words import plain, shortened
 from checker.service.client.server import Server
 from checker.service.client.upload import Upload
+
+if TYPE_CHECKING:
+    import httpx
 
 T = TypeVar("T")
 Trace = Callable[[str, Mapping[str, Any]], None]
@@ -138,6 +140,8 @@ class Connection(Record):
         return answer
 
     def _once(self, method: str, path: str, upload: Upload | None, limit: int) -> Answer:
+        import httpx
+
         form: AbstractContextManager[Mapping[str, Any]] = (
             upload.form() if upload else nullcontext({})
         )
@@ -159,6 +163,8 @@ class Connection(Record):
     def _request(
         self, method: str, path: str, members: Mapping[str, Any], trace: Trace
     ) -> httpx.Request:
+        import httpx
+
         headers = {"Accept": "application/json", "User-Agent": "subt-check"}
         # Nothing packed is asked for, and nothing is unpacked: it could be a bomb.
         headers |= {"Accept-Encoding": "identity", "Connection": "close"}
@@ -235,6 +241,8 @@ def _cause(error: BaseException) -> BaseException:
 
 def _is_final(cause: BaseException) -> bool:
     """Whether it stays so: a wrong name or certificate does not become right in a minute."""
+    import httpx
+
     if isinstance(cause, socket.gaierror):
         return cause.errno != socket.EAI_AGAIN
     return isinstance(cause, httpx.InvalidURL | ValueError)

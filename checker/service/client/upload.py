@@ -15,10 +15,9 @@ from checker.base.errors import CheckerError, UnreadableInput
 from checker.base.output import Say, say_nothing
 from checker.base.record import Record
 from checker.base.words import count, listed, plain, shortened
-from checker.package.archives.archive import ARCHIVE_SUFFIXES
 from checker.package.archives.index import ArchiveLimits
 from checker.package.index import EntryKind, FileEntry, FileIndex
-from checker.package.inputs import SINGLE_FILE_SUFFIXES
+from checker.package.inputs import ARCHIVE_SUFFIXES, SINGLE_FILE_SUFFIXES
 from checker.package.kind import enclosing_package
 from checker.package.walk import MAX_ENTRIES, build_index
 

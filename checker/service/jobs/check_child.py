@@ -22,6 +22,7 @@ from msgspec.structs import asdict, replace
 
 from checker.base.child_server import Server
 from checker.base.record import Record
+from checker.base.resources import PACKAGE
 from checker.base.sandbox.files import Content, Files
 from checker.base.sandbox.task import INPUT, Answer
 from checker.physics.mesh.process import mesh_server
@@ -65,7 +66,7 @@ def _changed(value: Any, change: Callable[[str], str]) -> Any:
     return value
 
 
-_NEEDED = ("checker.engine.review", "checker.report.files", "markdown_it", "pinocchio")
+_NEEDED = (f"{PACKAGE}.engine.review", f"{PACKAGE}.report.files", "markdown_it", "pinocchio")
 """What nearly every check loads; some of it starts threads."""
 _IDLE = 0.5
 """Seconds without a check, after which the next one is taken for that of a new upload: of one that

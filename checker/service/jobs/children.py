@@ -17,7 +17,7 @@ from checker.base.sandbox.launcher import OwnLauncher
 from checker.service.jobs.exchange import NICENESS, StageLimits
 from checker.service.store.store import Store
 
-MODULE = "checker.service.jobs.check_child"
+MODULE = f"{__package__}.check_child"
 ANSWER_LIMIT = 5_000_000
 """Bytes of the answer, besides the files of the result."""
 _LOOK = 0.2

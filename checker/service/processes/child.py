@@ -131,7 +131,7 @@ class ProxyConnection(Connection):
     per_client = 0
 
 
-CHILD = (sys.executable, "-P", "-m", "checker.service.processes.child")
+CHILD = (sys.executable, "-P", "-m", f"{__package__}.child")
 """Starts such a process; what follows says whose child it is, and which."""
 _CONNECTIONS = 1_000
 """At once; further ones are told that the service is busy."""

@@ -9,7 +9,6 @@ import signal
 import socket
 import threading
 from collections.abc import Iterator, Mapping, Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,7 +25,6 @@ from checker.service.store.place import data_folder
 if TYPE_CHECKING:
     from checker.service.store.store import Store
 
-_NEEDED = ("blake3", "dbos", "fastapi", "prometheus_client", "uvicorn")
 _MOST_WORKERS = 2
 """Unless more are asked for: a trial keeps a core busy."""
 
@@ -35,10 +33,9 @@ def serve(options: argparse.Namespace, pace: Pace | None = None) -> int:
     """Run the web server and its workers until SIGTERM or SIGINT; a second one ends all at once.
 
     Raises:
-        CheckerError: The service is not installed, its database does not answer, or what is asked
+        CheckerError: The database does not answer, or what is asked
             for makes no sense.
     """
-    _refuse_without_extra()
     store = _data_made(options)
     _refuse_without_database()
     environment = _environment(options)
@@ -60,9 +57,8 @@ def worker(options: argparse.Namespace) -> int:
     """Be a worker of a service until SIGTERM or SIGINT; see `jobs.durable.worker.work`.
 
     Raises:
-        CheckerError: The service is not installed, or its database does not answer.
+        CheckerError: The database does not answer.
     """
-    _refuse_without_extra()
     from checker.service.jobs.durable.database import database_url
     from checker.service.jobs.durable.worker import WorkerOptions, work
     from checker.service.jobs.port import JobsUnreachable
@@ -75,14 +71,6 @@ def worker(options: argparse.Namespace) -> int:
     except JobsUnreachable as error:
         raise CheckerError(str(error)) from None
     return EXIT_CLEAN
-
-
-def _refuse_without_extra() -> None:
-    if missing := [name for name in _NEEDED if find_spec(name) is None]:
-        raise CheckerError(
-            f"the service needs {missing[0]}, which is not installed; run: pip install "
-            "'subt-check[service]'"
-        )
 
 
 def _refuse_without_database() -> None:

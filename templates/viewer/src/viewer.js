@@ -1,4 +1,7 @@
-/** The viewer: what the page calls. The bundle offers `create` as `SubtCheckViewer.create`. */
+/**
+ * The viewer: what the page calls. The bundle offers `create` as `SubtCheckViewer.create`, and
+ * `plot` likewise.
+ */
 
 import { Quaternion, Vector3 } from "three";
 import { Appearance } from "./appearance.js";
@@ -14,6 +17,8 @@ import { Robot } from "./robot.js";
 import { Stage } from "./stage.js";
 import { themeOf } from "./theme.js";
 import { Trail } from "./trail.js";
+
+export { plot } from "./plot.js";
 
 /**
  * Show a robot.

@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from checker.base.words import plain
 from checker.finding import Concern, Edit, Fix, Place, Safety, Severity
+from checker.report.files import artefacts
 from checker.report.html.page import to_html, to_index, with_code
 from checker.report.render_settings import Palette, RenderSettings
 from checker.report.report import (
@@ -104,16 +105,73 @@ def test_ten_thousand_findings_are_capped_and_counted() -> None:
     said = rendered(report)
     tree = html.fromstring(said)
     assert len(said) < 5_000_000
-    shown = len(tree.xpath("//section[contains(@class, 'finding')]"))
-    hidden = sum(map(int, re.findall(r"and (\d+) more findings", said)))
+    shown = len(tree.xpath("//article[contains(@class, 'finding')]"))
+    hidden = sum(map(int, re.findall(r"and (\d+) more findings of this severity", said)))
     assert shown + hidden == 10_000
     assert "3334 errors" in said
 
 
-def test_groups_stand_with_the_gravest_first() -> None:
-    found = sorted((finding("a", n) for n in range(6)), key=lambda each: each.severity.rank)
-    tree = page(replace(package("rover"), findings=tuple(found)))
-    assert tree.xpath("//article/@data-severity") == ["error", "warning", "info"]
+def test_findings_stand_by_severity_and_concern_and_then_by_place() -> None:
+    def at(line: int, severity: Severity, concern: Concern) -> ReportedFinding:
+        place = Place("model.sdf", line, 1, line, 2)
+        own = replace(finding("a", line), severity=severity, concern=concern, places=(place,))
+        return replace(own, message=f"line {line}")
+
+    found = (
+        at(1, Severity.INFO, Concern.ROBOT),
+        at(2, Severity.ERROR, Concern.PAPERWORK),
+        at(4, Severity.ERROR, Concern.ROBOT),
+        at(3, Severity.ERROR, Concern.ROBOT),
+        at(5, Severity.WARNING, Concern.INTERFACE),
+    )
+    tree = page(replace(package("rover"), findings=found))
+    said = tree.xpath("//article//h4/bdi/text()")
+    assert said == ["line 3", "line 4", "line 2", "line 5", "line 1"]
+    assert tree.xpath("//details[@data-severity='info']//h4/bdi/text()") == ["line 1"]
+    assert tree.xpath("//ol[@class='tasks']/li/a/bdi/text()") == ["line 3", "line 5"]
+
+
+def test_each_finding_leads_to_its_rule_and_to_itself() -> None:
+    tree = page(package("rover", findings=3))
+    anchors = set(tree.xpath("//@id"))
+    links = tree.xpath("//article//a/@href | //ol[@class='tasks']//a/@href")
+    assert len(links) > 6
+    assert {link.removeprefix("#") for link in links} <= anchors
+    assert "Why." in tree.xpath("//*[@id='rule-SEN005']")[0].text_content()
+
+
+def test_the_message_comes_before_place_patch_and_why() -> None:
+    (article,) = page(package("rover")).xpath("//article")
+    parts = [each.get("class", each.tag).split()[0] for each in article]
+    assert parts == ["message", "place", "frame", "also", "patch", "why", "about"]
+
+
+def test_what_could_not_be_checked_is_the_first_thing_to_do_of_an_incomplete_package() -> None:
+    unseen = NotChecked("SEN001", "model.sdf is not available", Cause.NOT_AT_HAND)
+    tree = page(replace(package("rover"), findings=(), not_checked=(unseen,)))
+    (task,) = tree.xpath("//ol[@class='tasks']/li/a")
+    assert task.get("href") == "#not-checked"
+    assert task.text_content() == "1 rule not checked: model.sdf is not available"
+
+
+def test_a_page_leads_back_to_the_list_it_belongs_to() -> None:
+    manner = RenderSettings(Palette(enabled=False), "/work")
+    report = Report((package("a"), package("b")), VERSIONS)
+    files = {name: text for name, text in artefacts(report, manner) if name.endswith(".html")}
+    assert set(files) == {"a/report.html", "b/report.html", "index.html"}
+    assert html.fromstring(files["a/report.html"]).xpath("//header//a/@href") == ["../index.html"]
+    alone = dict(artefacts(Report((package("a"),), VERSIONS), manner))
+    assert not html.fromstring(alone["report.html"]).xpath("//header//a")
+
+
+def test_the_index_counts_what_several_packages_have() -> None:
+    report = Report((package("a"), package("b"), replace(package("c"), findings=())), VERSIONS)
+    tree = html.fromstring(to_index(report, ["a.html", "b.html", "c.html"]))
+    (common,) = tree.xpath("//section[@aria-labelledby='common-title']//details")
+    assert "in 2 of 3" in common.findtext("summary/span[@class='aside']")
+    (print_a, print_b) = common.xpath(".//li/a/@href")
+    assert print_a == f"a.html#f-{0:016x}"
+    assert print_b.startswith("b.html#f-")
 
 
 def test_backticks_of_a_page_are_code() -> None:
@@ -171,7 +229,7 @@ def test_inherited_parts_are_named_without_a_robot() -> None:
     parts = (InheritedPart("model.sdf", "rover_sensor_config_1", at_hand=False),)
     tree = page(replace(package("rover"), facts={}, inherited=parts))
     said = " ".join(" ".join(tree.xpath("//section[@id='facts']//text()")).split())
-    assert "inherited from rover_sensor_config_1 , which is not available" in said
+    assert "inherited from rover_sensor_config_1 (not found)" in said
 
 
 def test_what_was_not_opened_is_named() -> None:

@@ -66,7 +66,7 @@ def _include_arguments(visitor: Visitor, made: Made, context: Context) -> dict[s
     arguments: dict[str, Located[str]] = {}
     for pair in map(chosen, pairs):
         if not isinstance(pair, tuple | list) or len(pair) != 2:
-            reason = pair.reason if isinstance(pair, Unknown) else "it is no pair"
+            reason = pair.reason if isinstance(pair, Unknown) else "it is not a pair"
             visitor.unread(reason, span_of(pair, made.span))
             continue
         name = perform(pair[0], context, made.span)

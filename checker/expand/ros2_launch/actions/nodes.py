@@ -139,7 +139,7 @@ def bridge(visitor: Visitor, made: Made, context: Context) -> None:
 
 def component_node(visitor: Visitor, made: Made, _: Context) -> None:
     """Note a component that stands where an action is expected."""
-    visitor.unread("a ComposableNode is no action of its own", made.span)
+    visitor.unread("a ComposableNode is not an action of its own", made.span)
 
 
 def _components(made: Made, context: Context, unread: list[Unread]) -> Iterator[Component]:
@@ -150,7 +150,7 @@ def _components(made: Made, context: Context, unread: list[Unread]) -> Iterator[
     there = (v for v in given if not (isinstance(v, Guarded) and v.holds is False))
     for item in map(chosen, there):
         if not isinstance(item, Made):
-            reason = item.reason if isinstance(item, Unknown) else "it is no component"
+            reason = item.reason if isinstance(item, Unknown) else "it is not a component"
             unread.append(Unread(reason, span_of(item, made.span)))
             continue
         parameters = parameters_of(item.values.get("parameters"), context, item.span, unread)

@@ -69,7 +69,7 @@ def remaps_of(made: Made, context: Context, unread: list[Unread]) -> tuple[Remap
     own = []
     for pair in map(chosen, value if isinstance(value, list | tuple) else ()):
         if not isinstance(pair, tuple | list) or len(pair) != 2:
-            reason = pair.reason if isinstance(pair, Unknown) else "it is no pair"
+            reason = pair.reason if isinstance(pair, Unknown) else "it is not a pair"
             unread.append(Unread(reason, span_of(pair, made.span)))
             continue
         source, target = (perform(part, context, made.span) for part in pair)

@@ -20,8 +20,8 @@ class BridgeFaultKind(enum.Enum):
     """What sort of fault it is."""
 
     ARGUMENT = "the bridge ends at an argument that it cannot read"
-    UNREADABLE = "the file is no YAML"
-    NO_SEQUENCE = "the file is no sequence"
+    UNREADABLE = "the file is not valid YAML"
+    NO_SEQUENCE = "the file is not a sequence"
     DROPPED = "an entry is left out"
     UNKNOWN_KEY = "a key is ignored"
 

@@ -56,7 +56,9 @@ def read_bridge_file(document: YamlDocument) -> Iterator[Item]:
     for fault in document.faults:
         if document.root is None:
             yield BridgeFault(
-                BridgeFaultKind.UNREADABLE, fault.span, f"the file is no YAML: {fault.message}"
+                BridgeFaultKind.UNREADABLE,
+                fault.span,
+                f"the file is not valid YAML: {fault.message}",
             )
     root = document.root
     if root is None:

@@ -259,7 +259,7 @@ class _Reader:
             else:
                 self._faults.append(item)
                 if item.kind is BridgeFaultKind.UNREADABLE:
-                    self._unread.append(f"{document.source.file} is no YAML")
+                    self._unread.append(f"{document.source.file} is not valid YAML")
 
 
 def _names_topic(word: Located[str]) -> bool:

@@ -140,7 +140,7 @@ def _joined(run: Interpreter, node: ast.JoinedStr, scope: Scope) -> Value:
     for part in node.values:
         value = evaluate(run, part, scope)
         if not isinstance(value, str):
-            return value if isinstance(value, Unknown) else run.unknown(part, "is no text")
+            return value if isinstance(value, Unknown) else run.unknown(part, "is not text")
         parts.append(str(value))
         run.allowance.spend_on_text(sum(map(len, parts)))
     return PlacedText("".join(parts), run.span(node))
@@ -218,7 +218,7 @@ def _dict(run: Interpreter, node: ast.Dict, scope: Scope) -> Value:
         if key_node is None:
             value = chosen(value)
             if not isinstance(value, dict):
-                reason = value.reason if isinstance(value, Unknown) else "it is no dictionary"
+                reason = value.reason if isinstance(value, Unknown) else "it is not a dictionary"
                 return run.unknown(value_node, reason)
             run.allowance.spend(len(value))
             entries |= value

@@ -243,7 +243,7 @@ class Interpreter:
             if isinstance(part, Unknown):
                 return part
             if not isinstance(part, str | FilePath):
-                return self.unknown(node, "a path is made of what is no text")
+                return self.unknown(node, "a path is made of what is not text")
             texts.append(str(part.text if isinstance(part, FilePath) else part))
         self.allowance.spend_on_text(sum(map(len, texts)))
         return FilePath(posixpath.join(*texts) if texts else ".")
@@ -277,7 +277,7 @@ class Interpreter:
                 continue
             value = chosen(value)
             if not isinstance(value, dict):
-                reason = value.reason if isinstance(value, Unknown) else "it is no dictionary"
+                reason = value.reason if isinstance(value, Unknown) else "it is not a dictionary"
                 return self.unknown(keyword.value, reason)
             named |= {str(key): item for key, item in value.items()}
         return self.called(function, positional, named, node, places)
@@ -304,7 +304,7 @@ class Interpreter:
                     return methods.call(self, owner, name, positional, named, node)
                 case Symbol():
                     return self._called_symbol(function, positional, named, node, places or {})
-        return self.unknown(node, "what is called is no function")
+        return self.unknown(node, "what is called is not a function")
 
     def _called_symbol(
         self,

@@ -42,7 +42,7 @@ def read_python(source: SourceText, allowance: Allowance, world: World, found: G
         # Newer releases of Python read f-strings that this one does not.
         return Unknown(f"the file is not read: {tree}", source.whole())
     if isinstance(tree, str):
-        message = f"the launch file is no Python that can be read: {tree}"
+        message = f"the launch file is not Python that can be read: {tree}"
         found.faults.append(LaunchFault(LaunchFaultKind.SYNTAX, _line(source, tree), message))
         return Unknown(message, source.whole())
     run = Interpreter(source, allowance, world)
@@ -117,7 +117,7 @@ def expression(text: str, span: Span, allowance: Allowance, world: World) -> Val
     try:
         tree = ast.parse(text.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return Unknown("is no expression of Python", span)
+        return Unknown("is not an expression of Python", span)
     run = Interpreter(SourceText(span.source.file, text.strip()), allowance, world)
     value = chosen(evaluate(run, tree.body, Scope()))
     return Unknown(value.reason, span) if isinstance(value, Unknown) else value

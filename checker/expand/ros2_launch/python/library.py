@@ -53,7 +53,7 @@ def text_of(run: Interpreter, value: Value, node: ast.AST) -> PlacedText | Unkno
         return value
     if isinstance(value, Made):
         return run.unknown(node, f"a text is made of a {value.name} before the launch")
-    return run.unknown(node, "is no text")
+    return run.unknown(node, "is not text")
 
 
 def texts_of(

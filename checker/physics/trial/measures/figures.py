@@ -34,7 +34,7 @@ MEASURES: dict[str, Measure] = {
     "path_sideways": Measure("sideways / forward on the straight", "", "TRI004"),
     "path_heading": Measure("heading change on the straight", "rad", "TRI004"),
     "stop_speed": Measure("speed left after a stop", "m/s", "TRI008"),
-    "stop_distance": Measure("way to stop", "m"),
+    "stop_distance": Measure("stopping distance", "m"),
     "tilt_max": Measure("largest tilt", "rad"),
     # turn in place, or a circle with Ackermann steering
     "yaw_rate": Measure("turn rate reached", "rad/s", "TRI005"),
@@ -52,7 +52,7 @@ MEASURES: dict[str, Measure] = {
     "full_acceleration_limit": Measure("acceleration limit", "m/s²"),
     # wheels, tracks, joints (one figure a part)
     "load_share": Measure("load / equal share", "", "TRI007"),
-    "torque": Measure("largest torque needed", "N·m", "TRI009"),
+    "torque": Measure("largest torque, mean over 0.1 s", "N·m", "TRI009"),
     "torque_limit": Measure("effort limit", "N·m"),
     # copters
     "thrust_to_weight": Measure("largest thrust / weight", "", "DRV010"),

@@ -18,7 +18,7 @@ from checker.physics.trial.course import (
 )
 from checker.physics.trial.measures.drive import measure_drive, measure_turn
 from checker.physics.trial.measures.ground import loads
-from checker.physics.trial.measures.motion import Motion
+from checker.physics.trial.measures.motion import Motion, averaged
 from checker.physics.trial.trial import Leg, Measurement
 
 # Hovering and climbing.
@@ -55,13 +55,10 @@ def _hover(motion: Motion) -> Iterator[Measurement]:
     yield Measurement("hover_tilt", float(motion.tilt[end].max()))
 
 
-# The torque that the course asks of the joints.
-#
-# It is averaged over 0.1 s: a stiff servo asks for a spike at each bend of its command, which a
-# motor would round off. Full speed is left out, where only the plugin's limits temper the command.
+# The torque that the course asks of the joints. Full speed is left out, where only the plugin's
+# limits temper the command.
 
 
-_SECONDS = 0.1
 _LEGS = (DRIVE, STOP_DRIVE, TURN, STOP_TURN, HOLD, HOVER, CLIMB)
 
 
@@ -73,10 +70,8 @@ def measure_torque(motion: Motion) -> Iterator[Measurement]:
     legs = [leg for leg in map(motion.leg, _LEGS) if leg is not None]
     if not legs or not run.rig.names:
         return
-    count = max(round(_SECONDS / run.timestep), 1)
     first, behind = (round(t / run.timestep) for t in (legs[0].start, legs[-1].end))
-    sums = np.cumsum(np.array(run.forces)[first:behind], axis=0)
-    means = np.abs(sums[count:] - sums[:-count]) / count
+    means = np.abs(averaged(np.array(run.forces)[first:behind], run.timestep))
     for number, joint in enumerate(run.rig.names):
         yield Measurement("torque", float(means[:, number].max(initial=0.0)), joint)
         if joint in motion.plan.efforts:

@@ -99,6 +99,26 @@ class Motion:
         return self.run.rig.mass * float(np.linalg.norm(self.run.rig.model.opt.gravity))
 
 
+AVERAGED_SECONDS = 0.1
+"""Over which the torque of a joint is averaged, in figures and plots: a stiff servo asks for a
+spike at each bend of its command, which a motor would round off."""
+
+
+def averaged(forces: Array, timestep: float) -> Array:
+    """Return the mean of each stretch of `AVERAGED_SECONDS`; the first ends with its last step.
+
+    Args:
+        forces: One row a step.
+        timestep: Seconds.
+    """
+    import numpy as np
+
+    count = max(round(AVERAGED_SECONDS / timestep), 1)
+    sums = np.cumsum(forces, axis=0)
+    means: Array = (sums[count:] - sums[:-count]) / count
+    return means
+
+
 # What happened over time, for plots and replays.
 
 
@@ -154,13 +174,24 @@ def series_of(motion: Motion) -> dict[str, Sequence[float]]:
         "command_angular": np.array([value_at(motion.plan.angular, t) for t in motion.time]),
     }
     steps = np.rint(motion.time / motion.run.timestep).astype(int)
-    forces = np.array(motion.run.forces)[steps]
+    forces = _averaged_at(steps, motion.run)
     places = np.array(samples.joints)
     for number, joint in enumerate(rig.names[:_MOST_PARTS]):
         curves[f"torque:{joint}"] = forces[:, number]
         curves[f"joint:{joint}"] = places[:, number]
     curves |= _loads(motion)
     return {name: tuple(values.tolist()) for name, values in curves.items() if len(values)}
+
+
+def _averaged_at(steps: NDArray[np.int64], run: Run) -> Array:
+    """Return the averaged forces of the stretches that end at some steps; before that, zero."""
+    import numpy as np
+
+    forces = np.array(run.forces)
+    means = averaged(forces, run.timestep)
+    padded = np.concatenate((np.zeros((len(forces) - len(means), forces.shape[1])), means))
+    at: Array = padded[steps]
+    return at
 
 
 def _loads(motion: Motion) -> dict[str, Array]:

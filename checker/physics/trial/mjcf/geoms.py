@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import operator
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from checker.base.record import Record
@@ -63,6 +64,8 @@ Points = tuple[Vector, ...]
 _CONE_CORNERS = 32
 _THIN = 1e-6
 """Metres, and share of the length: MuJoCo keeps the corners of meshes in single precision."""
+_THICK = 1e-3
+"""Share of its length by which a body is thick beyond doubt."""
 _SERIOUS = (MeshTrouble.MISSING, MeshTrouble.UNREADABLE)
 _DOWN: Vector = (0.0, 0.0, -1.0)
 
@@ -122,14 +125,8 @@ class GeomReader:
 
     def _at(self, link: Link, collision: Collision) -> Transform | None:
         """Return where a shape is in its link's frame."""
-        pose = collision.pose.transform
-        if collision.pose.relative_to:
-            frame = self.robot.pose_of(link.scoped_name)
-            at = self.robot.pose_of_part(link, collision.pose)
-            if frame is None or at is None:
-                return None
-            pose = frame.inverse @ at
-        return pose if well_placed(pose) else None
+        pose = self.robot.pose_in_link(link, collision.pose)
+        return pose if pose is not None and well_placed(pose) else None
 
     def _primitive(self, link: Link, collision: Collision) -> str:
         """Return `type` and `size`; nothing for what is left out."""
@@ -224,9 +221,33 @@ def _scaled(mesh: Mesh | MeshFault | None, geometry: Geometry) -> Points | str:
 
 def _has_volume(points: Points) -> bool:
     """Return whether points span more than a plane: MuJoCo makes a hull of nothing less."""
-    import numpy as np
-
     if len(points) < 4:
         return False
+    if _is_thick(points):
+        return True
+    import numpy as np
+
     spread = np.linalg.svd(np.array(points) - np.mean(points, axis=0), compute_uv=False)
     return bool(spread[2] > _THIN * spread[0] and spread[0] > _THIN)
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return math.fsum(map(operator.mul, a, b))
+
+
+def _is_thick(points: Points) -> bool:
+    """Say of most bodies that they have a volume, without loading what decides on thin ones.
+
+    Of the scatter matrix with eigenvalues a ≥ b ≥ c, c = det / (a b) ≥ 4 det / trace².
+    """
+    middle = [math.fsum(column) / len(points) for column in zip(*points, strict=True)]
+    x, y, z = (
+        [number - mean for number in column]
+        for column, mean in zip(zip(*points, strict=True), middle, strict=True)
+    )
+    xx, yy, zz = _dot(x, x), _dot(y, y), _dot(z, z)
+    xy, xz, yz = _dot(x, y), _dot(x, z), _dot(y, z)
+    trace = xx + yy + zz
+    det = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    least = (_THICK * trace) ** 2 * trace
+    return bool(trace > _THICK**3 and 4.0 * det > least)

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    Matrix = NDArray[np.float64]
+Rows = tuple[Vector, Vector, Vector]
+"""Of a symmetric 3×3 matrix."""
 
 LEAST_MASS = 1e-3
 """Kilograms taken for a moving link that has none."""
@@ -34,6 +35,8 @@ _ROUNDING = 1e-9
 """Share of the moments by which rounding may break the triangle inequality of a flat body."""
 _FLAT = 1e-11
 """Share of the moments that a flat body is given as thickness, so that rounding cannot harm."""
+_CLEARLY = 1e-6
+"""Share of the trace by which a moment is above zero beyond doubt."""
 
 
 class BodyInertia(Record, eq=False):
@@ -42,16 +45,18 @@ class BodyInertia(Record, eq=False):
     Attributes:
         mass: Kilograms.
         centre: Centre of mass in the link's frame, metres.
-        moments: 3×3 about the centre of mass along the link's axes, kg·m².
+        moments: Rows of the inertia about the centre of mass along the link's axes, kg·m².
     """
 
     mass: float
     centre: Vector
-    moments: Matrix
+    moments: Rows
 
     @property
     def sound(self) -> bool:
         """Whether MuJoCo lets a body with this move: its mass and moments are not zero."""
+        if _is_clearly_positive(self.moments):
+            return self.mass > _NOTHING
         import numpy as np
 
         least, _, largest = np.linalg.eigvalsh(self.moments).tolist()
@@ -60,13 +65,13 @@ class BodyInertia(Record, eq=False):
     @property
     def mjcf(self) -> str:
         """The element `<inertial>`; nothing for a body of no mass and inertia."""
-        if self.mass == 0.0 and not self.moments.any():
+        if self.mass == 0.0 and not any(map(any, self.moments)):
             return ""
         head = f'<inertial mass="{numbers([self.mass])}"'
         if self.sound:
-            m = self.moments
-            six = (m[0, 0], m[1, 1], m[2, 2], m[0, 1], m[0, 2], m[1, 2])
-            return f'{head} pos="{numbers(self.centre)}" fullinertia="{numbers(six)}"/>'
+            (xx, xy, xz), (_, yy, yz), (_, _, zz) = self.moments
+            six = numbers((xx, yy, zz, xy, xz, yz))
+            return f'{head} pos="{numbers(self.centre)}" fullinertia="{six}"/>'
         return f"{head} {self._principal()}/>"
 
     def _principal(self) -> str:
@@ -86,12 +91,10 @@ class BodyInertia(Record, eq=False):
 
 def inertia_of(robot: Robot, link: Link, ledger: Ledger) -> BodyInertia:
     """Return what a link weighs; the nearest that a body can have where it states another."""
-    import numpy as np
-
     name = link.scoped_name
     mass = _mass_of(link, ledger)
     if link.inertial is None:
-        return BodyInertia(mass, (0.0, 0.0, 0.0), np.eye(3) * (1.0 if link.default_mass else 0.0))
+        return BodyInertia(mass, (0.0, 0.0, 0.0), _ball(1.0 if link.default_mass else 0.0))
     pose = _pose_of(robot, link, link.inertial.pose)
     if pose is None:
         ledger.repair(name, "has an unknown centre of mass; the link's origin is used")
@@ -105,12 +108,51 @@ def inertia_of(robot: Robot, link: Link, ledger: Ledger) -> BodyInertia:
             ),
             serious=True,
         )  # fmt: skip
-        return BodyInertia(mass, pose.translation, np.eye(3) * LEAST_MOMENT)
+        return BodyInertia(mass, pose.translation, _ball(LEAST_MOMENT))
     xx, xy, xz, yy, yz, zz = stated
-    own = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    turn = np.array(pose.rotation)
-    moments = turn @ _physical(own, name, ledger) @ turn.T
-    return BodyInertia(mass, pose.translation, (moments + moments.T) / 2)
+    own = _physical(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), name, ledger)
+    return BodyInertia(mass, pose.translation, _turned(own, pose.rotation))
+
+
+def _ball(moment: float) -> Rows:
+    return (moment, 0.0, 0.0), (0.0, moment, 0.0), (0.0, 0.0, moment)
+
+
+def _turned(moments: Rows, turn: Rows) -> Rows:
+    """Return R M Rᵀ, of which rounding leaves each half as it is."""
+    half = [[sum(a * m for a, m in zip(row, column, strict=True)) for column in moments]
+            for row in turn]  # fmt: skip
+    full = [[sum(a * b for a, b in zip(row, other, strict=True)) for other in turn] for row in half]
+    xy, xz, yz = ((full[i][j] + full[j][i]) / 2 for i, j in ((0, 1), (0, 2), (1, 2)))
+    return (full[0][0], xy, xz), (xy, full[1][1], yz), (xz, yz, full[2][2])
+
+
+def _is_clearly_positive(moments: Rows) -> bool:
+    """Say of most bodies that no principal moment is near zero, without solving for them.
+
+    By Sylvester's criterion for M − s I, where s is a small share of the trace.
+    """
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = moments
+    trace = xx + yy + zz
+    least = _CLEARLY * trace
+    if not trace > _CLEARLY:
+        return False
+    xx, yy, zz = xx - least, yy - least, zz - least
+    second = xx * yy - xy * xy
+    third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    return xx > 0.0 and second > 0.0 and third > 0.0
+
+
+def _second_moments(moments: Rows) -> Rows:
+    """Return trace/2 − I: how far the mass is from the centre along each axis, squared."""
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = moments
+    half = (xx + yy + zz) / 2
+    return (half - xx, -xy, -xz), (-xy, half - yy, -yz), (-xz, -yz, half - zz)
+
+
+def _as_rows(matrix: NDArray[np.float64]) -> Rows:
+    (a, b, c), (d, e, f), (g, h, i) = matrix.tolist()
+    return (a, b, c), (d, e, f), (g, h, i)
 
 
 def _mass_of(link: Link, ledger: Ledger) -> float:
@@ -125,21 +167,18 @@ def _mass_of(link: Link, ledger: Ledger) -> float:
 
 def _pose_of(robot: Robot, link: Link, stated: Pose) -> Transform | None:
     """Return where the centre of mass and its axes are in the link's frame."""
-    pose = stated.transform
-    if stated.relative_to:
-        frame, at = robot.pose_of(link.scoped_name), robot.pose_of_part(link, stated)
-        if frame is None or at is None:
-            return None
-        pose = frame.inverse @ at
-    return pose if well_placed(pose) else None
+    pose = robot.pose_in_link(link, stated)
+    return pose if pose is not None and well_placed(pose) else None
 
 
-def _physical(moments: Matrix, name: str, ledger: Ledger) -> Matrix:
+def _physical(moments: Rows, name: str, ledger: Ledger) -> Rows:
     """Return the nearest inertia that a body can have.
 
     The second moments of mass along the principal axes, trace/2 − I, must not be negative: that
     says positive moments and the triangle inequality at once.
     """
+    if _is_clearly_positive(_second_moments(moments)):
+        return moments
     import numpy as np
 
     values, axes = np.linalg.eigh(moments)
@@ -163,7 +202,7 @@ def _physical(moments: Matrix, name: str, ledger: Ledger) -> Matrix:
         return moments
     second = np.maximum(second, floor)
     physical = second.sum() - second
-    return np.asarray((axes * physical) @ axes.T)
+    return _as_rows((axes * physical) @ axes.T)
 
 
 def thickened(body: BodyInertia, name: str, ledger: Ledger) -> BodyInertia:
@@ -180,4 +219,4 @@ def thickened(body: BodyInertia, name: str, ledger: Ledger) -> BodyInertia:
     least = max(LEAST_MOMENT, _ROUNDING * float(values[2]))
     ledger.repair(name, f"has a zero principal moment; {least:g} kg·m² is used", serious=True)
     moments = (axes * np.maximum(values, least)) @ axes.T
-    return BodyInertia(mass, body.centre, _physical(moments, name, Ledger()))
+    return BodyInertia(mass, body.centre, _physical(_as_rows(moments), name, Ledger()))

@@ -80,12 +80,17 @@ class Allocation(Record):
         thrusts: Array = carrying + self.steer @ np.array((0.0, *torque))
         return thrusts
 
-    def given(self, thrusts: Array) -> tuple[Array, Array]:
-        """Return force (N) and torque (N·m) that come when these thrusts are asked for."""
+    def given(self, thrusts: Array) -> Array:
+        """Return the thrusts that come when these are asked for, N."""
         import numpy as np
 
-        wrench = self.effect @ np.clip(thrusts * self.gain, 0.0, self.most)
-        return wrench[:3], wrench[3:]
+        clipped: Array = np.clip(thrusts * self.gain, 0.0, self.most)
+        return clipped
+
+    def wrench(self, given: Array) -> tuple[Array, Array]:
+        """Return the force (N) and the torque (N·m) of thrusts that come."""
+        both = self.effect @ given
+        return both[:3], both[3:]
 
 
 def balanced(effect: Array, wanted: Array) -> Array | None:
@@ -165,13 +170,13 @@ class Pilot:
         """Newtons."""
         return self.rig.mass * self.gravity
 
-    def fly(self, time: float) -> None:
-        """Set the forces of the rotors until the next call."""
+    def fly(self, time: float) -> Array:
+        """Set the forces of the rotors until the next call; return their thrusts, N."""
         import mujoco
         import numpy as np
 
         if self.allocation is None:
-            return
+            return np.zeros(len(self.plan.rotors))
         model, data, rig = self.rig.model, self.rig.data, self.rig
         _, rotation = rig.pose()
         motion = np.zeros(6)
@@ -180,12 +185,14 @@ class Pilot:
         thrusts = self.allocation.thrusts(
             float(push @ rotation[:, 2]), self._twist(push, rotation, motion[:3])
         )
-        forces, torques = self.allocation.given(thrusts)
+        given = self.allocation.given(thrusts)
+        forces, torques = self.allocation.wrench(given)
         data.qfrc_applied[:] = 0.0
         force, torque = rotation @ forces, rotation @ torques
         mujoco.mj_applyFT(
             model, data, force, torque, data.subtree_com[0], rig.root, data.qfrc_applied
         )
+        return given
 
     def _push(self, time: float) -> Array:
         """Return the force that place and height ask for, N, in the world's frame."""

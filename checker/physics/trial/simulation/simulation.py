@@ -95,6 +95,25 @@ _WARNINGS = {
 }
 
 
+SETTLED, HOVERING = "settled", "hovering"
+"""Names of states: at the end of the leg in which the robot comes to rest, and lifted up."""
+
+
+@dataclass(frozen=True)
+class State:
+    """Where everything stands before a step.
+
+    Attributes:
+        step: Its number.
+        positions: Of all degrees of freedom, as MuJoCo's `qpos`.
+        velocities: As MuJoCo's `qvel`.
+    """
+
+    step: int
+    positions: Array
+    velocities: Array
+
+
 @dataclass
 class Run:
     """A simulation.
@@ -108,6 +127,10 @@ class Run:
         hover_effort: Largest share of its greatest thrust that a rotor gives to carry the weight;
             None if no shares keep the balance, and for what does not fly.
         trouble: What ended it before its time, as the end of a sentence; else empty.
+        commands: Of the servos in each step (steps × servos), rad/s, rad or m.
+        thrusts: Of the rotors, N, each with the step in which they begin.
+        states: Where everything stands before a step, by the names of states.
+        belts: What has surfaces that move; None without.
     """
 
     rig: Rig
@@ -117,6 +140,10 @@ class Run:
     forces: list[Array] = field(default_factory=list)
     hover_effort: float | None = None
     trouble: str = ""
+    commands: Array | None = None
+    thrusts: list[tuple[int, Array]] = field(default_factory=list)
+    states: dict[str, State] = field(default_factory=dict)
+    belts: Belts | None = None
 
 
 def drive(scene: Scene, plan: Plan, timestep: float) -> Run:
@@ -137,21 +164,25 @@ def drive(scene: Scene, plan: Plan, timestep: float) -> Run:
     steps = round(plan.seconds / timestep)
     every, often = round(SAMPLE_SECONDS / timestep), round(PILOT_SECONDS / timestep)
     commands = _commands({**plan.speeds, **plan.places}, rig.names, steps, timestep)
-    belts = _Belts(rig, plan, steps, timestep) if plan.belts else None
+    belts = run.belts = Belts(rig, plan, steps, timestep) if plan.belts else None
     pilot = Pilot(rig, plan) if plan.rotors else None
     model, data = rig.model, rig.data
     step = mujoco.mj_step
-    lift = _step_of(plan, HOVER, timestep)
+    run.commands = commands
+    lift, rest = _step_of(plan, HOVER, timestep), _rest_of(plan, timestep)
     touched = _touched(plan, steps, every, timestep)
     for number in range(steps):
+        if number == rest:
+            run.states[SETTLED] = _state(rig, number)
         data.ctrl[:] = commands[number]
         if belts is not None and number in belts.changes:
             model.geom_surfacevel[belts.geoms, :3] = belts.velocities(number)
         if pilot is not None and number >= lift:
             if number == lift:
                 run.hover_effort = pilot.take_over()
+                run.states[HOVERING] = _state(rig, number)
             if (number - lift) % often == 0:
-                pilot.fly(number * timestep)
+                run.thrusts.append((number, pilot.fly(number * timestep)))
         step(model, data)
         run.forces.append(data.actuator_force.copy())
         if number in touched:
@@ -162,6 +193,16 @@ def drive(scene: Scene, plan: Plan, timestep: float) -> Run:
             if run.trouble:
                 break
     return run
+
+
+def _state(rig: Rig, step: int) -> State:
+    return State(step, rig.data.qpos.copy(), rig.data.qvel.copy())
+
+
+def _rest_of(plan: Plan, timestep: float) -> int:
+    """Return the step at the end of the leg in which the robot comes to rest."""
+    settling = plan.leg(SETTLE)
+    return round(settling.end / timestep) if settling is not None else 0
 
 
 def _step_of(plan: Plan, leg: str, timestep: float) -> int:
@@ -197,11 +238,13 @@ def _sampled(line: Knots, steps: int, timestep: float) -> Array:
     return sampled
 
 
-class _Belts:
+class Belts:
     """The surfaces of belts.
 
     Attributes:
         geoms: Whose surfaces move.
+        surfaces: Velocity of each at 1 m/s, in its own frame (geoms × 3).
+        speeds: Of each in each step, m/s (steps × geoms).
         changes: Steps in which a belt changes its speed.
     """
 
@@ -209,16 +252,16 @@ class _Belts:
         import numpy as np
 
         self.geoms, surfaces = rig.belts
-        self._surfaces = np.array(surfaces).reshape(-1, 3)
+        self.surfaces = np.array(surfaces).reshape(-1, 3)
         lines = {belt.link: _sampled(belt.speed, steps, timestep) for belt in plan.belts}
         speeds = [lines[rig.parts[geom]] for geom in self.geoms]
-        self._speeds = np.array(speeds).reshape(-1, steps).T
-        changed = (np.diff(self._speeds, axis=0) != 0.0).any(axis=1)
+        self.speeds = np.array(speeds).reshape(-1, steps).T
+        changed = (np.diff(self.speeds, axis=0) != 0.0).any(axis=1)
         self.changes = {0, *(np.flatnonzero(changed) + 1).tolist()}
 
     def velocities(self, number: int) -> Array:
         """Return the velocities of the surfaces in a step, m/s, in the frames of their geoms."""
-        moved: Array = self._speeds[number][:, None] * self._surfaces
+        moved: Array = self.speeds[number][:, None] * self.surfaces
         return moved
 
 

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 from checker.base.record import Record
 from checker.base.words import count, plain
-from checker.package.archives.archive import ARCHIVE_SUFFIXES
 from checker.package.archives.index import ArchiveLimits
-from checker.package.inputs import SINGLE_FILE_SUFFIXES
+from checker.package.inputs import ARCHIVE_SUFFIXES, SINGLE_FILE_SUFFIXES
 from checker.rulebook.discovery import all_rules
 from checker.rulebook.pages import about, escaped, parse_page, told
 from checker.rulebook.profiles import profile, profile_names

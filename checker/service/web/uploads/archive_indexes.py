@@ -15,9 +15,10 @@ from typing import Any
 from checker.base.child_process import from_json
 from checker.base.errors import UnreadableInput
 from checker.base.files import open_file
+from checker.base.resources import PACKAGE
 from checker.base.sandbox.launcher import Launcher, Order, OwnLauncher
 
-_MODULE = "checker.package.archives.index_process"
+_MODULE = f"{PACKAGE}.package.archives.index_process"
 _SECONDS, _PROCESSOR_SECONDS = 30.0, 30
 """For one index."""
 _MEMORY = 500_000_000

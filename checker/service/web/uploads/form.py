@@ -7,8 +7,7 @@ from collections.abc import Callable, Mapping
 
 from multipart import MultipartError, MultipartSegment, PushMultipartParser, parse_options_header
 
-from checker.package.archives.archive import ARCHIVE_SUFFIXES
-from checker.package.inputs import SINGLE_FILE_SUFFIXES
+from checker.package.inputs import ARCHIVE_SUFFIXES, SINGLE_FILE_SUFFIXES
 from checker.service.web.answers.refusal import Refused, sentence
 
 # Names that clients send, made safe; they are shown and tell the kind, and never become paths.

@@ -18,7 +18,7 @@ from starlette.requests import Request
 
 from checker.base.errors import UnreadableInput
 from checker.base.words import plain
-from checker.package.archives.archive import ARCHIVE_SUFFIXES
+from checker.package.inputs import ARCHIVE_SUFFIXES
 from checker.rulebook.profiles import profile_names
 from checker.service.jobs.port import Order
 from checker.service.store.store import Store

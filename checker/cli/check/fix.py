@@ -19,6 +19,7 @@ from checker.base.words import count, listed, plain
 from checker.engine.review import findings_of
 from checker.finding import Safety
 from checker.fix.rounds import Fixed, FixedFile, Judge, fix_package, patch
+from checker.fix.uncommitted import uncommitted
 from checker.package.inputs import open_input, with_package_path
 from checker.package.package import Package
 from checker.pipeline import Task
@@ -122,6 +123,8 @@ def _sync_folder(folder: Path) -> None:
 # Fixes the packages that the user names: on disk, or only as a patch.
 
 
+_NAMED = 8
+"""Files that a message names."""
 _ARCHIVES_STAY = "unpack it first; --diff shows what would change"
 
 
@@ -139,26 +142,48 @@ def fix_paths(
     allowed: Collection[Safety],
     *,
     write: bool,
+    dirty: bool = False,
 ) -> list[FixedPackage]:
-    """Fix every package at the paths, one after the other.
+    """Fix every package at the paths; files are written when all packages are looked at.
 
     Args:
         paths: What to fix.
         wishes: Fields of `Settings` that the command line sets; None leaves them.
         allowed: Fixes that may be made.
         write: Whether files are changed; else it is only found out what would change.
+        dirty: Whether files may be changed that have changes which git does not know.
 
     Raises:
         UnreadableInput: There is nothing to fix at a path, or it is an archive; then nothing was
             written at any.
-        NotWritten: A file cannot be written.
+        NotWritten: A file cannot be written, or has uncommitted changes; in the latter case
+            nothing was written.
         InvalidSettings: The settings name what does not exist.
     """
     for path in paths if write else ():
         _refuse_archives(path)
-    return [
-        fixed for path in paths for fixed in _fix_input(Task(path, wishes=wishes), allowed, write)
+    found = [fixed for path in paths for fixed in _fix_input(Task(path, wishes=wishes), allowed)]
+    if write and not dirty:
+        _refuse_uncommitted(found)
+    for package, fixed in found if write else ():
+        write_files(package, fixed.fixed.files)
+    return [fixed for _, fixed in found]
+
+
+def _refuse_uncommitted(found: Sequence[tuple[Package, FixedPackage]]) -> None:
+    """Raise where a fix would mix with changes that nobody could tell from it afterwards."""
+    names = [
+        posixpath.join(fixed.shown, path) if not package.only else fixed.shown
+        for package, fixed in found
+        for path in uncommitted(package.root, [file.path for file in fixed.fixed.files])
     ]
+    if names:
+        more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+        raise NotWritten(
+            f"nothing is fixed, because {count(len(names), 'file')} to change "
+            f"{'has' if len(names) == 1 else 'have'} uncommitted changes: "
+            f"{', '.join(names[:_NAMED])}{more}; commit or stash them, or use --allow-dirty"
+        )
 
 
 def _refuse_archives(path: Path) -> None:
@@ -168,15 +193,13 @@ def _refuse_archives(path: Path) -> None:
             raise UnreadableInput(path, "is an archive; archives are not changed", _ARCHIVES_STAY)
 
 
-def _fix_input(task: Task, allowed: Collection[Safety], write: bool) -> Iterator[FixedPackage]:
+def _fix_input(task: Task, allowed: Collection[Safety]) -> Iterator[tuple[Package, FixedPackage]]:
     with open_input(task.path) as opened:
         for given in opened.packages:
             settings = task.settings_for(given)
             package = with_package_path(given, settings.package_path)
             fixed = fix_package(package, _judge(settings), allowed)
-            if write:
-                write_files(package, fixed.files)
-            yield FixedPackage(package.name, task.shown(package), fixed)
+            yield package, FixedPackage(package.name, task.shown_of(package), fixed)
 
 
 def _judge(settings: Settings) -> Judge:
@@ -213,10 +236,14 @@ def _folder(package: FixedPackage, packages: Sequence[FixedPackage]) -> str:
 
 
 def apply_fixes(
-    paths: Sequence[Path], wishes: Mapping[str, Any], allowed: Collection[Safety]
+    paths: Sequence[Path],
+    wishes: Mapping[str, Any],
+    allowed: Collection[Safety],
+    *,
+    dirty: bool = False,
 ) -> None:
-    """Fix files, and say on the standard error what was done."""
-    for package in fix_paths(paths, wishes, allowed, write=True):
+    """Fix files, and say on the standard error what was done; `dirty` as in `fix_paths`."""
+    for package in fix_paths(paths, wishes, allowed, write=True, dirty=dirty):
         for line in _summary(package):
             say_progress(f"{plain(package.shown)}: {line}")
 

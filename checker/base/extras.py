@@ -1,0 +1,94 @@
+"""What may be installed beside the static rules: physics, and the service.
+
+Here alone is decided whether an extra of `pyproject.toml` is there. Nothing is imported for it.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.util import find_spec
+
+from checker.base.errors import CheckerError
+from checker.base.record import Record
+
+
+class Extra(Record):
+    """An extra of the distribution.
+
+    Attributes:
+        name: As pip knows it.
+        modules: What of it is imported; without one of them the extra is not installed.
+    """
+
+    name: str
+    modules: tuple[str, ...]
+
+    @property
+    def is_installed(self) -> bool:
+        """Whether all its modules can be found."""
+        return all(map(_is_found, self.modules))
+
+    @property
+    def missing(self) -> str:
+        """Say that it is not installed, and the remedy, as a sentence without its dot."""
+        return f"{self.name} is not installed: {self.remedy}"
+
+    @property
+    def remedy(self) -> str:
+        """The command that installs it."""
+        return f"pip install 'subt-check[{self.name}]'"
+
+    def needed_by(self, what: str) -> None:
+        """Go on only where it is installed.
+
+        Args:
+            what: Who needs it, as the beginning of a sentence.
+
+        Raises:
+            MissingExtra: It is not.
+        """
+        if not self.is_installed:
+            raise MissingExtra(self, what)
+
+
+class MissingExtra(CheckerError):
+    """Something was asked for that only an extra can do.
+
+    Attributes:
+        extra: Which.
+    """
+
+    def __init__(self, extra: Extra, what: str) -> None:
+        super().__init__(extra, what)
+        self.extra, self.what = extra, what
+
+    def __str__(self) -> str:
+        """Give who needs it, and the remedy."""
+        name, remedy = self.extra.name, self.extra.remedy
+        return f"{self.what} needs the extra {name!r}, which is not installed: {remedy}"
+
+
+PHYSICS = Extra(
+    "physics",
+    (
+        *("collada", "fast_simplification", "mujoco", "numpy", "PIL", "pinocchio"),
+        *("scipy", "yourdfpy"),
+    ),
+)
+"""Reads meshes, weighs robots, looks through their sensors, drives and draws them."""
+SERVICE = Extra(
+    "service",
+    (
+        *("blake3", "dbos", "fastapi", "httpx", "multipart", "prometheus_client"),
+        *("sqlalchemy", "uvicorn"),
+    ),
+)
+"""Serves checks, and sends packages to such a service."""
+
+
+@cache
+def _is_found(module: str) -> bool:
+    try:
+        return find_spec(module) is not None
+    except (ImportError, ValueError):
+        return False

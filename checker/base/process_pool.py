@@ -1,0 +1,120 @@
+"""Doing one thing after the other in several processes, which all end when one is interrupted.
+
+The workers of `concurrent.futures` go on to their next item when they are told to terminate, and
+its executor waits for them: an interrupted check would end after some twenty seconds.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from typing import Any, TypeVar
+
+Given = TypeVar("Given")
+Made = TypeVar("Made")
+_ENDS_SECONDS = 0.3
+"""For what is in work to be put away; what is not done then is killed."""
+
+
+def in_processes(
+    work: Callable[[Given], Made], items: Sequence[Given], processes: int
+) -> Iterator[Made]:
+    """Yield what is made of each item, in their order.
+
+    Args:
+        work: A function that another process can import.
+        items: What can be sent to another process; none of them is None.
+        processes: At most.
+
+    Raises:
+        RuntimeError: A process ended before its work was done.
+    """
+    started = [_Process(work) for _ in range(min(processes, len(items)))]
+    try:
+        yield from _made(started, items)
+        for process in started:
+            process.finish()
+    finally:
+        # Whoever interrupts does not wait for what the others are doing.
+        for process in started:
+            process.ask_to_end()
+        for process in started:
+            process.end()
+
+
+def _made(processes: Sequence[_Process], items: Sequence[Any]) -> Iterator[Any]:
+    """Hand out the items, and yield what comes back in their order."""
+    at = {process.connection: process for process in processes}
+    waiting = list(range(len(items)))[::-1]
+    known: dict[int, Any] = {}
+    for process in processes:
+        process.take(waiting.pop(), items)
+    for number in range(len(items)):
+        while number not in known:
+            for connection in wait([process.connection for process in processes]):
+                process = at[connection]  # type: ignore[index]  # we gave connections alone
+                known[process.number] = process.result()
+                if waiting:
+                    process.take(waiting.pop(), items)
+        yield known.pop(number)
+
+
+class _Process:
+    """A process, and the number of the item that it works on."""
+
+    def __init__(self, work: Callable[[Any], Any]) -> None:
+        self.number = 0
+        self.connection, theirs = multiprocessing.Pipe()
+        self._process: BaseProcess = multiprocessing.get_context().Process(
+            target=_serve, args=(theirs, work)
+        )
+        self._process.start()
+        theirs.close()
+
+    def take(self, number: int, items: Sequence[Any]) -> None:
+        self.number = number
+        self.connection.send(items[number])
+
+    def result(self) -> Any:
+        try:
+            is_made, value = self.connection.recv()
+        except EOFError:
+            raise RuntimeError("a process ended before its work was done") from None
+        if not is_made:
+            raise value
+        return value
+
+    def finish(self) -> None:
+        """Let it end as it likes."""
+        # Not by closing the pipe: processes that were forked later hold it, too.
+        self.connection.send(None)
+        self._process.join()
+
+    def ask_to_end(self) -> None:
+        if self._process.is_alive():
+            self._process.terminate()
+
+    def end(self) -> None:
+        self._process.join(_ENDS_SECONDS)
+        if self._process.is_alive():
+            self._process.kill()
+
+
+def _serve(connection: Connection, work: Callable[[Any], Any]) -> None:
+    """Work on what comes, until nothing can come any more."""
+    # A key that interrupts reaches all processes of a terminal: who started this one ends it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # What it has begun is put away on the way out.
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))
+    with suppress(EOFError, BrokenPipeError):
+        while (item := connection.recv()) is not None:
+            try:
+                answer: tuple[bool, Any] = True, work(item)
+            except Exception as error:  # noqa: BLE001 - raised where it was asked for
+                answer = False, error
+            connection.send(answer)

@@ -1,0 +1,67 @@
+"""`subt-check completion`: prints what completes the command in a shell."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping
+
+from checker.base.output import EXIT_CLEAN, show
+from checker.rulebook.discovery import all_rules
+
+SHELLS = ("bash", "zsh", "fish")
+_FOLDERS = ("DEST", "DIR", "FOLDER")
+_FILES = ("FILE", "PACKAGE", "PATH", "SOURCE")
+"""What arguments are called that name files."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.description = (
+        "Print a script; put it into ~/.local/share/bash-completion/completions/subt-check for "
+        "bash, into _subt-check in a folder of $fpath for zsh, and into "
+        "~/.config/fish/completions/subt-check.fish for fish."
+    )
+    parser.add_argument("shell", choices=SHELLS)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the script."""
+    show(script(options.shell))
+    return EXIT_CLEAN
+
+
+def script(shell: str) -> str:
+    """Return the script for a shell; it names the rules that there are now."""
+    import shtab
+
+    from checker.cli import build_parser
+
+    parser = build_parser()
+    for action in _actions(parser):
+        _describe(action, {"file": shtab.FILE, "folder": shtab.DIRECTORY})
+    text: str = shtab.complete(parser, shell)
+    # `subt-check PATH` is short for `subt-check check PATH`: what is no command may be a file.
+    return text.replace("complete -o bashdefault ", "complete -o bashdefault -o default ") + "\n"
+
+
+def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
+    """Yield all arguments of a command and of those below it."""
+    for action in parser._actions:  # argparse names no other way
+        yield action
+        if isinstance(action, argparse._SubParsersAction):
+            for command in action.choices.values():
+                yield from _actions(command)
+
+
+def _describe(action: argparse.Action, places: Mapping[str, object]) -> None:
+    """Say what an argument takes, for completion alone."""
+    rules = all_rules()
+    if action.dest == "id":
+        action.choices = [name for rule in rules for name in (rule.id, rule.name)]
+    elif action.metavar == "IDS":
+        names = {name for rule in rules for name in rule.selectors}
+        # zsh takes a colon for the end of the list.
+        action.choices = sorted(name for name in names if ":" not in name)
+    elif action.metavar in (*_FILES, *_FOLDERS):
+        kind = "folder" if action.metavar in _FOLDERS else "file"
+        action.complete = places[kind]  # type: ignore[attr-defined]  # what shtab reads

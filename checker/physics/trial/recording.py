@@ -1,0 +1,195 @@
+"""The trial as numbers that MuJoCo needs to repeat it: gains, states and commands.
+
+As a module behind `checker.base.child_process` it drives the robot; `recorded` asks it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from msgspec import field, to_builtins
+
+from checker.base.background import Background, Work, work_key
+from checker.base.cache import Cache
+from checker.base.parts import WorkerFailed
+from checker.base.record import Record
+from checker.base.sandbox.files import NO_FILES, Files
+from checker.physics.trial.mjcf.scene import Scene
+from checker.physics.trial.plan import Plan
+from checker.physics.trial.run import LIBRARIES, LIMITS
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    from checker.physics.trial.simulation.simulation import Run
+
+
+Changes = tuple[tuple[int, tuple[float, ...]], ...]
+"""Values with the step in which they begin; they last to the next."""
+
+
+class Servo(Record):
+    """A servo as it was tuned.
+
+    Attributes:
+        joint: Scoped name.
+        stiffness: N·m/rad or N/m; 0 for a servo that holds a velocity.
+        damping: N·m·s/rad or N·s/m; of one that holds a velocity, its gain.
+    """
+
+    joint: str
+    stiffness: float
+    damping: float
+
+
+class BeltSurface(Record):
+    """A geom of the scene that moves as the surface of a belt: its direction, in its own frame."""
+
+    geom: str
+    direction: tuple[float, ...]
+
+
+class RecordedState(Record):
+    """Where everything stands before a step, as MuJoCo's `qpos` and `qvel`."""
+
+    step: int
+    positions: tuple[float, ...]
+    velocities: tuple[float, ...]
+
+
+class Recording(Record):
+    """What was driven.
+
+    Attributes:
+        timestep: Seconds.
+        servos: In the order of the scene's actuators.
+        states: By name: `settled`, and `hovering` for what flies.
+        commands: Of each servo, in the steps in which one of them changes; each lasts to the next.
+        thrusts: Of each rotor likewise, N.
+        belts: What moves as the surface of a belt.
+        speeds: Of each of them likewise, m/s.
+        refused: Why MuJoCo refuses the scene; else empty.
+    """
+
+    timestep: float = 0.0
+    servos: tuple[Servo, ...] = ()
+    states: Mapping[str, RecordedState] = field(default_factory=dict)
+    commands: Changes = ()
+    thrusts: Changes = ()
+    belts: tuple[BeltSurface, ...] = ()
+    speeds: Changes = ()
+    refused: str = ""
+
+    @classmethod
+    def from_json(cls, data: Any) -> Recording:
+        """Return the recording that `answer` expressed.
+
+        Raises:
+            KeyError, TypeError, ValueError: It is none.
+        """
+        return cls(
+            float(data["timestep"]),
+            tuple(
+                Servo(str(each["joint"]), float(each["stiffness"]), float(each["damping"]))
+                for each in data["servos"]
+            ),
+            {
+                str(name): RecordedState(
+                    int(each["step"]), _floats(each["positions"]), _floats(each["velocities"])
+                )
+                for name, each in data["states"].items()
+            },
+            _read(data["commands"]),
+            _read(data["thrusts"]),
+            tuple(
+                BeltSurface(str(each["geom"]), _floats(each["direction"])) for each in data["belts"]
+            ),
+            _read(data["speeds"]),
+            str(data["refused"]),
+        )
+
+
+def _read(changes: Any) -> Changes:
+    return tuple((int(step), _floats(values)) for step, values in changes)
+
+
+def _floats(values: Any) -> tuple[float, ...]:
+    return tuple(map(float, values))
+
+
+def recorded(scene: Scene, plan: Plan, timestep: float, cache: Cache) -> Recording | WorkerFailed:
+    """Drive a robot in a child process, and return what MuJoCo needs to repeat it."""
+    item = {"scene": scene.as_json(), "plan": plan.as_json(), "timestep": timestep}
+    key = work_key([json.dumps(item)], ["physics/trial"], LIBRARIES)
+    work = Work("recording", __name__, LIMITS, {key: item}, Recording.from_json)
+    return Background(work, cache).result()
+
+
+def answer(request: bytes, _files: Files = NO_FILES) -> bytes:
+    """Drive robots.
+
+    Args:
+        request: JSON; `items` with `scene`, `plan` and `timestep` (seconds) each.
+
+    Returns:
+        JSON of the recordings.
+    """
+    items = json.loads(request)["items"]
+    return json.dumps([to_builtins(_recording(item)) for item in items]).encode()
+
+
+def _recording(item: Mapping[str, Any]) -> Recording:
+    from checker.physics.trial.simulation.simulation import drive
+
+    scene, plan = Scene.from_json(item["scene"]), Plan.from_json(item["plan"])
+    timestep = item["timestep"]
+    try:
+        run = drive(scene, plan, timestep)
+        if run.trouble:  # as the trial does
+            run = drive(scene, plan, timestep / 2)
+    except ValueError as refusal:
+        return Recording(timestep, refused=" ".join(str(refusal).split()))
+    return _of(run)
+
+
+def _of(run: Run) -> Recording:
+    model = run.rig.model
+    servos = (
+        Servo(name, -float(model.actuator_biasprm[i, 1]), -float(model.actuator_biasprm[i, 2]))
+        for i, name in enumerate(run.rig.names)
+    )
+    states = {
+        name: RecordedState(
+            state.step, tuple(state.positions.tolist()), tuple(state.velocities.tolist())
+        )
+        for name, state in run.states.items()
+    }
+    thrusts = tuple((step, tuple(given.tolist())) for step, given in run.thrusts)
+    belts: tuple[BeltSurface, ...] = ()
+    if run.belts is not None:
+        named = zip(run.belts.geoms, run.belts.surfaces.tolist(), strict=True)
+        belts = tuple(BeltSurface(model.geom(geom).name, tuple(way)) for geom, way in named)
+    return Recording(
+        run.timestep,
+        tuple(servos),
+        states,
+        _changes(run.commands),
+        thrusts,
+        belts,
+        _changes(run.belts.speeds if run.belts is not None else None),
+    )
+
+
+def _changes(rows: Array | None) -> Changes:
+    """Return the rows (one a step) that differ from the one before."""
+    import numpy as np
+
+    if rows is None or not len(rows):
+        return ()
+    differing = (np.diff(rows, axis=0) != 0.0).any(axis=1)
+    steps = [0, *(np.flatnonzero(differing) + 1).tolist()]
+    return tuple((step, tuple(rows[step].tolist())) for step in steps)

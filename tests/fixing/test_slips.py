@@ -1,0 +1,36 @@
+"""A fix writes a name only for a slip of the pen that can mean no other name."""
+
+from __future__ import annotations
+
+import pytest
+
+from checker.base.words import Suggestions
+
+JOINTS = ("front_left_wheel", "front_right_wheel", "rear_left_wheel", "arm_1", "arm_2")
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("front_lef_wheel", "front_left_wheel"),
+        ("front_letf_wheel", "front_left_wheel"),
+        ("Rear_left_Wheel", "rear_left_wheel"),
+        # As near as another, another part of the same kind, or too far off.
+        ("arm_3", None),
+        ("arm_", None),
+        ("rear_right_wheel", None),
+        ("front_wheel", None),
+        ("gripper", None),
+    ],
+)
+def test_slips(written: str, meant: str | None) -> None:
+    assert Suggestions(JOINTS).sure(written) == meant
+
+
+def test_the_only_wheel_that_there_is_may_still_be_another_one() -> None:
+    assert Suggestions(["front_left_wheel_joint"]).near("front_right_wheel_joint") is not None
+    assert Suggestions(["front_left_wheel_joint"]).sure("front_right_wheel_joint") is None
+
+
+def test_of_two_that_are_as_near_none_is_written() -> None:
+    assert Suggestions(["wheel_a", "wheel_b"]).sure("wheel_") is None
