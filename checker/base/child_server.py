@@ -46,6 +46,11 @@ class _Process(Child):
         self._given += 1
         return Asked(self, self._given - 1)
 
+    @property
+    def bytes_given(self) -> int:
+        """Size of all requests so far, which stay on disk until it ends."""
+        return 0 if self._stopped else os.fstat(self._request.fileno()).st_size
+
     def answer_to(self, number: int, deadline: float) -> bytes | WorkerFailed:
         """Wait for the answer to a request; a process that takes too long is stopped."""
         poll = select.poll()
@@ -108,6 +113,11 @@ class Server:
     def alive(self) -> bool:
         """Whether its process waits for requests, or works at one."""
         return self._process is not None and self._process.alive
+
+    @property
+    def bytes_given(self) -> int:
+        """Size of all requests to its process, which stay on disk until it is stopped."""
+        return self._process.bytes_given if self._process is not None else 0
 
     def start(self) -> Server:
         """Start the process, if there is none."""

@@ -1,4 +1,4 @@
-"""What may be installed beside the static rules: physics, and the service.
+"""What may be installed beside the static rules: physics, the service, and the language server.
 
 Here alone is decided whether an extra of `pyproject.toml` is there. Nothing is imported for it.
 """
@@ -84,6 +84,8 @@ SERVICE = Extra(
     ),
 )
 """Serves checks, and sends packages to such a service."""
+EDITOR = Extra("editor", ("lsprotocol", "pygls"))
+"""Tells editors of faults while a package is written."""
 
 
 @cache

@@ -19,6 +19,7 @@ COMMANDS = {
     "export": "write a package's robot as URDF or MJCF",
     "migrate": "convert a description for Gazebo 9 to a package for SubT",
     "submit": "check a package with a service",
+    "server": "start the language server, which tells editors of faults",
     "serve": "start the web service with its worker processes",
     "worker": "start another worker process of a service",
     "init": "write a settings file and a pre-commit hook",

@@ -80,7 +80,7 @@ class Ros2Parts(Record, eq=False, dict=True):
         known = None if isinstance(launch, NotAvailable) else launch
         from checker.model.ros.simulation import simulations
 
-        found = simulations(self.subject.package, known, self.subject.cache, self.control_reader)
+        found = simulations(self.subject.package, known, self.subject.expander, self.control_reader)
         if any(each.bridges.is_there or each.starts_gazebo for each in found.all):
             return found
         return self.subject.without_simulation

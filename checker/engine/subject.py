@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from checker.engine.submission_parts import SubmissionParts
     from checker.engine.urdf_parts import UrdfParts
     from checker.expand.ros2_launch.graph import Ros2Launch
+    from checker.expand.xacro.expansion import Expander
     from checker.model.ros.simulation import Simulations
     from checker.model.ros2_control.launched import LaunchedControl
     from checker.model.ros2_control.robot_control import RobotControl
@@ -138,6 +139,8 @@ class Subject(Record, eq=False, dict=True):
         """End what was begun and nobody asked for."""
         self.processes.stop()
         self.mesh_server.stop()
+        if "expander" in vars(self):
+            self.expander.server.stop()
         robots = vars(self).get("robots")
         for robot in robots if isinstance(robots, tuple) else ():
             if isinstance(robot.meshes, PackageMeshes):
@@ -179,7 +182,11 @@ class Subject(Record, eq=False, dict=True):
 
     def robots_of(self, other: Package) -> tuple[Robot, ...] | NotAvailable:
         """Return the robots of another package, to compare with."""
-        return Subject(other)._read_robots()
+        subject = Subject(other)
+        try:
+            return subject._read_robots()
+        finally:
+            subject.close()
 
     @cached_property
     def paperwork(self) -> Paperwork:
@@ -218,7 +225,7 @@ class Subject(Record, eq=False, dict=True):
         if document.root.tag == "sdf" and path.lower().endswith(".xacro"):
             from checker.model.sdf.expanded import expanded_model
 
-            return expanded_model(self.package, path, self.cache)
+            return expanded_model(self.package, path, self.expander)
         return document
 
     @cached_property
@@ -263,6 +270,13 @@ class Subject(Record, eq=False, dict=True):
     def mesh_server(self) -> Server:
         """The process that reads mesh files; it is started when there is one to read."""
         return self.processes.meshes or mesh_server()
+
+    @cached_property
+    def expander(self) -> Expander:
+        """What expands xacro files; its process is started when there is one to expand."""
+        from checker.expand.xacro.expansion import Expander, xacro_server
+
+        return Expander(self.cache, self.processes.xacro or xacro_server())
 
     def _read_robots(self) -> tuple[Robot, ...] | NotAvailable:
         """Return the robot with the plugins that the spawner adds; of a lone file all robots."""

@@ -33,7 +33,7 @@ class UrdfParts(Record, eq=False, dict=True):
         subject, launch = self.subject, self.subject.ros2_launch
         ros2 = None if isinstance(launch, NotAvailable) else launch
         args = subject.xacro_args
-        return PackageDescriptions(subject.package, subject.cache, args=args, ros2=ros2)
+        return PackageDescriptions(subject.package, subject.expander, args=args, ros2=ros2)
 
     @property
     def files(self) -> UrdfFiles | NotAvailable:

@@ -12,6 +12,7 @@ from pathlib import Path
 from checker.base.cache import NO_CACHE
 from checker.base.record import Record
 from checker.convert.xml_writer import document_text
+from checker.expand.xacro.expansion import Expander, xacro_server
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.migrate.options import NotMigrated
 from checker.model.urdf.description import UrdfDescription
@@ -59,11 +60,13 @@ def opened_source(path: Path, urdf: str, args: Mapping[str, str]) -> Iterator[So
     with open_input(path) as opened:
         package = _package_of(opened, path, urdf)
         chosen = _file_in(package, urdf) if urdf else ""
-        descriptions = PackageDescriptions(package, NO_CACHE, only=chosen, args=args)
+        server = xacro_server()
+        expander = Expander(NO_CACHE, server)
         try:
+            descriptions = PackageDescriptions(package, expander, only=chosen, args=args)
             yield Source(package, _only_one(descriptions.files, package, path))
         finally:
-            descriptions.stop()
+            server.stop()
 
 
 def _package_of(opened: Opened, path: Path, urdf: str) -> Package:

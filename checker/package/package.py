@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import field
 from msgspec.structs import replace
 
-from checker.base.files import NotReadable, read_bytes
+from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.finding import Place
 from checker.package.index import (
@@ -34,6 +34,7 @@ from checker.package.installed import data_file_items, installed_items
 from checker.package.kind import PackageKind, kind_of
 from checker.package.mentions import mentioned_names
 from checker.package.model_file import own_model
+from checker.package.overlay import Overlay, OverlayText
 from checker.package.references import (
     Reference,
     dependencies,
@@ -46,7 +47,6 @@ from checker.package.walk import build_index, entry_at
 from checker.source.cmake import CMakeFile, read_cmake
 from checker.source.setup_py import SetupFile, read_setup
 from checker.source.text import SourceText
-from checker.source.text_file import read_text
 from checker.source.xml import XmlDocument, parse_xml
 from checker.source.xml_positions import XmlFault
 
@@ -79,12 +79,47 @@ class Package(Record, eq=False, dict=True):
 
     def with_texts(self, texts: Mapping[str, SourceText]) -> Package:
         """Return the package as if some of its files held other texts; nothing is written."""
-        return Package(self.root, self.workspace, self.only, {**self._texts, **texts})
+        added = {
+            self._location(path): OverlayText(source.text, source.encoding)
+            for path, source in texts.items()
+        }
+        overlay = Overlay({**self.workspace.overlay.texts, **added})
+        return self.in_workspace(self.workspace.with_overlay(overlay))
+
+    def in_workspace(self, workspace: Workspace) -> Package:
+        """Return the package of another state of its workspace."""
+        if not self.only:
+            return workspace.at(self.root)
+        return self.kept(workspace, self.workspace.overlay.changed(workspace.overlay))
+
+    def kept(self, workspace: Workspace, changed: Collection[Path]) -> Package:
+        """Return the package in another state of its workspace, with all that was read before.
+
+        Args:
+            workspace: The other state.
+            changed: Places of the files that hold another text there.
+        """
+        same = [path for path in self._texts if self._location(path) not in changed]
+        package = Package(
+            self.root,
+            workspace,
+            self.only,
+            {path: self._texts[path] for path in same},
+            {path: self._documents[path] for path in same if path in self._documents},
+        )
+        if (on_disk := vars(self).get("on_disk")) is not None:
+            vars(package)["on_disk"] = on_disk
+        return package
+
+    def _location(self, path: str) -> Path:
+        """Return where a file lies, or would lie, on disk."""
+        entry = self._file(path)
+        return entry.location if isinstance(entry, FileEntry) else self.root / path
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Send a package to another process as the place where it lies."""
         space = self.workspace
-        return _package_at, (self.root, self.only, space.directories, space.within)
+        return _package_at, (self.root, self.only, space.directories, space.within, space.overlay)
 
     @property
     def name(self) -> str:
@@ -105,12 +140,17 @@ class Package(Record, eq=False, dict=True):
         return tuple(package for package in packages if package.root != self.root)
 
     @cached_property
-    def index(self) -> FileIndex:
-        """All files, folders and links."""
+    def on_disk(self) -> FileIndex:
+        """All files, folders and links that are on disk."""
         if self.only:
             entry = entry_at(self.root / self.only, self.only, self.root, self.workspace.holds)
             return FileIndex({self.only: entry} if entry else {})
         return build_index(self.root, self.workspace.holds)
+
+    @cached_property
+    def index(self) -> FileIndex:
+        """All files, folders and links, with what is not saved."""
+        return self.workspace.overlay.indexed(self.on_disk, self.root / self.only)
 
     @cached_property
     def kind(self) -> PackageKind:
@@ -174,14 +214,18 @@ class Package(Record, eq=False, dict=True):
         if path not in self._texts:
             entry = self._file(path)
             self._texts[path] = (
-                entry if isinstance(entry, NotReadable) else read_text(entry.location, path)
+                entry
+                if isinstance(entry, NotReadable)
+                else self.workspace.overlay.read(entry.location, path)
             )
         return self._texts[path]
 
     def read_bytes(self, path: str, limit: int = BYTES_LIMIT) -> bytes | NotReadable:
         """Return a file's content, of at most `limit` bytes; it is not kept."""
         entry = self._file(path)
-        return entry if isinstance(entry, NotReadable) else read_bytes(entry.location, path, limit)
+        if isinstance(entry, NotReadable):
+            return entry
+        return self.workspace.overlay.read_bytes(entry.location, path, limit)
 
     def _canonical(self, path: str) -> str:
         """Return the one spelling of a path under which its file is kept."""
@@ -299,10 +343,10 @@ class Package(Record, eq=False, dict=True):
 
 
 def _package_at(
-    root: Path, only: str, directories: tuple[Path, ...], within: Path | None
+    root: Path, only: str, directories: tuple[Path, ...], within: Path | None, overlay: Overlay
 ) -> Package:
     """Return the package of a folder or file again."""
     from checker.package.workspace import Workspace
 
-    space = Workspace(directories, within)
+    space = Workspace(directories, within, overlay)
     return Package(root, space, only) if only else space.at(root)

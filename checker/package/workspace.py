@@ -13,10 +13,10 @@ from msgspec import field
 from checker.base.files import NotReadable
 from checker.base.record import Record
 from checker.package.kind import looks_like_package
+from checker.package.overlay import Overlay
 from checker.package.package import Package
 from checker.package.references import PROVIDED
 from checker.package.walk import build_index
-from checker.source.text_file import read_text
 
 MAX_FOLDERS = 5_000
 MANIFEST_LIMIT = 1_000_000
@@ -35,12 +35,22 @@ class Workspace(Record, eq=False, dict=True):
         directories: Links resolved. The first is where the checked packages lie; further ones
             come from the user, to find siblings in.
         within: The folder that an archive was unpacked into, which nothing leaves; else None.
+        overlay: Texts that stand for what files hold.
     """
 
     directories: tuple[Path, ...]
     within: Path | None = None
+    overlay: Overlay = field(default_factory=Overlay)
     _packages: dict[Path, Package] = field(default_factory=dict)
     _found: dict[str, Package | None] = field(default_factory=dict)
+
+    def with_overlay(self, overlay: Overlay) -> Workspace:
+        """Return the workspace as if files held other texts; what stays is not read again."""
+        changed = self.overlay.changed(overlay)
+        other = Workspace(self.directories, self.within, overlay)
+        for root, package in self._packages.items():
+            other._packages[root] = package.kept(other, changed)
+        return other
 
     def package(self, name: str) -> Package | None:
         """Return the package of a folder name, else of a `package.xml` name, else None."""
@@ -118,9 +128,27 @@ class Workspace(Record, eq=False, dict=True):
         names: dict[str, Path] = {}
         for directory in self.directories:
             for folder in _subfolders(directory):
-                if name := _declared_name(folder):
+                if name := self._declared_name(folder):
                     names.setdefault(name, folder)
         return names
+
+    def _declared_name(self, folder: Path) -> str:
+        """Return the `<name>` of a folder's package.xml, or nothing."""
+        manifest = folder / "package.xml"
+        if manifest.is_symlink() or not manifest.is_file():
+            return ""
+        source = self.overlay.read(manifest, "package.xml", MANIFEST_LIMIT)
+        if isinstance(source, NotReadable):
+            return ""
+        # Without places, which take ten times as long: a workspace may have hundreds of packages.
+        parser = etree.XMLParser(
+            encoding="utf-8", resolve_entities=False, no_network=True, load_dtd=False, recover=True
+        )
+        try:
+            tree = etree.fromstring(source.text.encode(), parser)
+        except etree.XMLSyntaxError:  # there is nothing at all in it
+            return ""
+        return str(tree.xpath("string(name)")).strip() if tree is not None else ""
 
 
 def _is_package(folder: Path) -> bool:
@@ -141,22 +169,3 @@ def _subfolders(directory: Path) -> list[Path]:
     except OSError:
         return []
     return sorted(folders)
-
-
-def _declared_name(folder: Path) -> str:
-    """Return the `<name>` of a folder's package.xml, or nothing."""
-    manifest = folder / "package.xml"
-    if manifest.is_symlink() or not manifest.is_file():
-        return ""
-    source = read_text(manifest, "package.xml", MANIFEST_LIMIT)
-    if isinstance(source, NotReadable):
-        return ""
-    # Without places, which take ten times as long: a workspace may have hundreds of packages.
-    parser = etree.XMLParser(
-        encoding="utf-8", resolve_entities=False, no_network=True, load_dtd=False, recover=True
-    )
-    try:
-        tree = etree.fromstring(source.text.encode(), parser)
-    except etree.XMLSyntaxError:  # there is nothing at all in it
-        return ""
-    return str(tree.xpath("string(name)")).strip() if tree is not None else ""

@@ -9,6 +9,7 @@ from typing import Any
 from checker.base.background import Background, Work, work_key
 from checker.base.cache import Cache, key_of
 from checker.base.child_process import Limits
+from checker.base.child_server import Server
 from checker.base.parts import WorkerFailed
 from checker.base.record import Record
 from checker.expand.xacro.expanded import expanded_document
@@ -57,6 +58,8 @@ def _is_told(at: Any, through: Any) -> bool:
 
 MEMORY = 500_000_000
 """Bytes of address space."""
+_LIMITS = Limits(SECONDS_FOR_ALL, MEMORY)
+_WORKER = f"{__package__}.worker"
 _ROUNDS = 6
 """How often the child may ask for a file whose name is computed."""
 
@@ -87,12 +90,29 @@ class Unread(Record):
 Outcome = XmlDocument | XacroFault | Unread
 
 
+class Expander(Record, eq=False):
+    """Expands files, one request after the other.
+
+    Attributes:
+        cache: Where results are kept.
+        server: The process that does it; it is started when a file is not in the cache.
+    """
+
+    cache: Cache
+    server: Server
+
+
+def xacro_server() -> Server:
+    """Return what expands xacro files, its process not started yet."""
+    return Server(_WORKER, _LIMITS)
+
+
 class Expansions:
     """The expansion of some files of one package, begun at once and waited for later."""
 
-    def __init__(self, package: Package, wanted: Sequence[Wanted], cache: Cache) -> None:
+    def __init__(self, package: Package, wanted: Sequence[Wanted], expander: Expander) -> None:
         """Begin; files that were expanded before are taken from the cache."""
-        self._cache = cache
+        self._expander = expander
         self._gathered = Gathered(package)
         self._jobs: list[dict[str, Any]] = [
             {"file": path_of(package, wish.path), "args": dict(wish.args)}
@@ -134,10 +154,8 @@ class Expansions:
         texts = json.dumps(common, sort_keys=True)
         self._basis = work_key([texts], ["expand/xacro"], ["xacro", "pyyaml"])
         items = {self._key(job): job for job in self._jobs}
-        limits = Limits(SECONDS_FOR_ALL, MEMORY)
-        module = f"{__package__}.worker"
-        work = Work("xacro", module, limits, items, _answer, common, lasts=_lasts)
-        begun = Background(work, self._cache)
+        work = Work("xacro", _WORKER, _LIMITS, items, _answer, common, lasts=_lasts)
+        begun = Background(work, self._expander.cache, self._expander.server)
         begun.begin()
         return begun
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from checker.base.cache import Cache
 from checker.base.record import Record
 from checker.expand.ros2_launch.bridges.entry import BridgeEntry
 from checker.expand.ros2_launch.bridges.reader import Bridges, loose_bridges, read_bridges
 from checker.expand.ros2_launch.graph import LaunchGraph, Ros2Launch, shown
+from checker.expand.xacro.expansion import Expander
 from checker.model.robot import Robot
 from checker.model.ros.servers import GazeboServer, is_gazebo, is_gazebo_include, read_servers
 from checker.model.ros.simulated_topics import (
@@ -155,18 +155,18 @@ class Simulations(Record, eq=False):
 
 
 def simulations(
-    package: Package, launch: Ros2Launch | None, cache: Cache, control: ControlReader
+    package: Package, launch: Ros2Launch | None, expander: Expander, control: ControlReader
 ) -> Simulations:
     """Read what the launch files of a package simulate, those that start Gazebo or a bridge.
 
     Args:
         package: That is checked.
         launch: Its launch files.
-        cache: Where what xacro makes is kept.
+        expander: Expands the files that are xacro.
         control: Reads ros2_control of the robots.
     """
     graphs = launch.entries if launch is not None else ()
-    reader = SpawnedReader(package, cache, control)
+    reader = SpawnedReader(package, expander, control)
     launched = tuple(_simulation(package, graph, reader) for graph in graphs)
     named = {file for each in launched for file in each.bridges.files}
     return Simulations(launched, Simulation(None, loose_bridges(package, named)))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from checker.base.cache import Cache
 from checker.base.record import Record
 from checker.expand.launch.launch_file import Load
 from checker.expand.ros2_launch.descriptions import LoadedDescription, loaded_descriptions
@@ -18,7 +17,7 @@ from checker.expand.ros2_launch.graph import (
     share_path,
     shown,
 )
-from checker.expand.xacro.expansion import Expansions, Wanted
+from checker.expand.xacro.expansion import Expander, Expansions, Wanted
 from checker.expand.xacro.files import local_path
 from checker.model.robot import Robot
 from checker.model.ros.servers import is_gazebo_include
@@ -65,16 +64,16 @@ class _Described(Record, eq=False):
 class SpawnedReader:
     """Reads the robots that launch files of a package spawn; each file is read once."""
 
-    def __init__(self, package: Package, cache: Cache, control: ControlReader) -> None:
+    def __init__(self, package: Package, expander: Expander, control: ControlReader) -> None:
         """Begin with nothing read.
 
         Args:
             package: That is checked.
-            cache: Where what xacro makes is kept.
+            expander: Expands the files that are xacro.
             control: Reads ros2_control of its robots.
         """
         self._package = package
-        self._cache = cache
+        self._expander = expander
         self._known: dict[str, _Described | str] = {}
         self._control = control
 
@@ -117,7 +116,7 @@ class SpawnedReader:
         document: object = self._package.xml(path)
         if load.by_xacro:
             wanted = [Wanted(path, load.args)]
-            (document,) = Expansions(self._package, wanted, self._cache).outcomes()
+            (document,) = Expansions(self._package, wanted, self._expander).outcomes()
         if not isinstance(document, XmlDocument):
             return f"{path} cannot be read"
         if document.root.tag == "robot":

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from checker.base.cache import Cache
 from checker.base.parts import NotAvailable
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS
-from checker.expand.xacro.expansion import Expansions, Unread, Wanted
+from checker.expand.xacro.expansion import Expander, Expansions, Unread, Wanted
 from checker.expand.xacro.fault import XacroFault
 from checker.package.package import Package
 from checker.source.xml import XmlDocument
 
 
-def expanded_model(package: Package, path: str, cache: Cache) -> XmlDocument | NotAvailable:
+def expanded_model(package: Package, path: str, expander: Expander) -> XmlDocument | NotAvailable:
     """Return what xacro makes of a file with the defaults of its arguments, or why it cannot."""
-    (outcome,) = Expansions(package, [Wanted(path, SAMPLE_ARGUMENTS)], cache).outcomes()
+    (outcome,) = Expansions(package, [Wanted(path, SAMPLE_ARGUMENTS)], expander).outcomes()
     if isinstance(outcome, XacroFault):
         return NotAvailable(f"{path} is not expanded: {outcome.message}")
     return NotAvailable(outcome.reason) if isinstance(outcome, Unread) else outcome

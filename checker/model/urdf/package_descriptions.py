@@ -9,11 +9,10 @@ from types import MappingProxyType
 
 from msgspec.structs import replace
 
-from checker.base.cache import Cache
 from checker.base.files import NotReadable
 from checker.expand.launch.package_launch import SAMPLE_ARGUMENTS
 from checker.expand.ros2_launch.graph import Ros2Launch
-from checker.expand.xacro.expansion import Expansions, Outcome, Unread, Wanted
+from checker.expand.xacro.expansion import Expander, Expansions, Outcome, Unread, Wanted
 from checker.expand.xacro.fault import XacroFault, XacroFaultKind
 from checker.model.urdf.candidates import (
     Candidate,
@@ -46,7 +45,7 @@ class PackageDescriptions:
     def __init__(
         self,
         package: Package,
-        cache: Cache,
+        expander: Expander,
         *,
         only: str = "",
         args: Mapping[str, str] = MappingProxyType({}),
@@ -56,14 +55,14 @@ class PackageDescriptions:
 
         Args:
             package: Whose files they are.
-            cache: Where expansions are kept.
+            expander: Expands the files that are xacro.
             only: The one file to read, whatever launch files load; empty to choose.
             args: Arguments for xacro, before those that launch files give.
             ros2: What the ROS 2 launch files of the package start, if it has any.
         """
         self._package = package
         self._args = args
-        self._cache = cache
+        self._expander = expander
         self._for_rviz = package.kind not in _URDF_KINDS
         self._candidates: Sequence[Candidate] = ()
         if only:
@@ -75,7 +74,7 @@ class PackageDescriptions:
             for candidate in self._candidates
             if _needs_xacro(package, candidate)
         ]
-        self._expansions = Expansions(package, self._wanted, cache) if self._wanted else None
+        self._expansions = Expansions(package, self._wanted, expander) if self._wanted else None
 
     def _wish(self, candidate: Candidate, choice: int = 0) -> Wanted:
         """Return what to expand, with one of the choices for arguments that nobody gives."""
@@ -134,7 +133,7 @@ class PackageDescriptions:
             Wanted(path, {**SAMPLE_ARGUMENTS, **self._args}, call=call.added)
             for path, call in calls.items()
         ]
-        outcomes = Expansions(self._package, wanted, self._cache).outcomes() if wanted else []
+        outcomes = Expansions(self._package, wanted, self._expander).outcomes() if wanted else []
         for path, outcome in zip(calls, outcomes, strict=True):
             # What a macro takes from the file that includes it is not known: that is no fault.
             if isinstance(outcome, XmlDocument) and _holds_robot(outcome, Candidate(path)):
@@ -185,7 +184,7 @@ class PackageDescriptions:
         unfit = [each for each in assuming if misfits[each.path]]
         tried = [(each, number) for each in unfit for number in _further(each)]
         wanted = [self._wish(*each) for each in tried]
-        outcomes = Expansions(self._package, wanted, self._cache).outcomes() if wanted else []
+        outcomes = Expansions(self._package, wanted, self._expander).outcomes() if wanted else []
         unread = []
         for (candidate, number), outcome in zip(tried, outcomes, strict=True):
             if isinstance(outcome, XmlDocument) and (why := misfits.pop(candidate.path, "")):
@@ -204,7 +203,7 @@ class PackageDescriptions:
         again = [replace(wish, as_melodic=True) for wish in self._wanted if wish.path in refused]
         if not again:
             return ()
-        expansions = Expansions(self._package, again, self._cache)
+        expansions = Expansions(self._package, again, self._expander)
         taken = []
         for wish, outcome in zip(again, expansions.outcomes(), strict=True):
             if isinstance(outcome, XmlDocument) and _refusal(outcome, wish.path) is None:

@@ -21,14 +21,16 @@ class StartedProcesses(Record):
     Attributes:
         meshes: For mesh files to read.
         drawing: For a scene to draw.
+        xacro: For xacro files to expand.
     """
 
     meshes: Server | None = None
     drawing: Child | None = None
+    xacro: Server | None = None
 
     def stop(self) -> None:
         """End them."""
-        for process in (self.meshes, self.drawing):
+        for process in (self.meshes, self.drawing, self.xacro):
             if process is not None:
                 process.stop()
 

@@ -1,0 +1,28 @@
+"""`subt-check server`: the language server for editors."""
+
+from __future__ import annotations
+
+import argparse
+
+from checker.base.extras import EDITOR
+from checker.base.output import EXIT_CLEAN
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what the command takes."""
+    parser.description = (
+        "Start the language server: an editor starts it, and talks to it by standard input and "
+        "output. docs/editors.md says how to set up editors."
+    )
+    parser.add_argument(
+        "--stdio", action="store_true", help="by standard input and output (always; for editors)"
+    )
+
+
+def run(_options: argparse.Namespace) -> int:
+    """Serve until the editor ends it."""
+    EDITOR.needed_by("server")
+    from checker.editor.server import serve
+
+    serve()
+    return EXIT_CLEAN

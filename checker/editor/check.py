@@ -1,0 +1,79 @@
+"""A check of a package while it is written: by the rules that need neither weights nor a trial."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from checker.base.cache import Cache
+from checker.engine.options import check_against_rules
+from checker.engine.review import run_and_set_aside
+from checker.engine.run import TRIALS, Outcome
+from checker.engine.subject import Subject
+from checker.model.devices.known import known_devices
+from checker.package.package import Package
+from checker.report.report import Cause, NotChecked, ReportedFinding
+from checker.report.scene.processes import StartedProcesses
+from checker.rule import Rule
+from checker.rulebook.profiles import profile
+from checker.rulebook.rule_index import rules
+from checker.settings import Settings
+
+MEASURED = TRIALS | {"MassProperties", "SensorViews"}
+"""Parts that take long: what Pinocchio weighs, what sensors see, and the trial."""
+
+
+class Checked:
+    """What is known of a package in one state of its texts.
+
+    Attributes:
+        package: In this state.
+        subject: Its parts, each read when it is first asked for.
+        settings: By which it was judged.
+        outcome: What the rules said.
+    """
+
+    def __init__(
+        self, package: Package, settings: Settings, cache: Cache, processes: StartedProcesses
+    ) -> None:
+        """Check it.
+
+        Args:
+            package: With the texts of the editor.
+            settings: The user's.
+            cache: Where results are kept.
+            processes: That expand xacro files and read meshes; they go on.
+
+        Raises:
+            InvalidSettings: The settings name a rule or option that does not exist.
+        """
+        known = rules(cache)
+        check_against_rules(settings, known)
+        self.package = package
+        self.settings = settings.overridden(trial=False).suiting(package)
+        devices, args = known_devices(settings.devices), settings.xacro_args
+        self.subject = Subject(
+            package, cache, devices=devices, processes=processes, xacro_args=args
+        )
+        self.outcome = self._outcome(known)
+
+    def _outcome(self, known: tuple[Rule, ...]) -> Outcome:
+        settings = self.settings
+        chosen = [rule for rule in known if not is_measured(rule)]
+        judge = profile(settings.profile, settings.distro)
+        return run_and_set_aside(chosen, known, self.subject, judge, settings)
+
+    @property
+    def findings(self) -> tuple[ReportedFinding, ...]:
+        """What the rules found."""
+        return self.outcome.findings
+
+    @cached_property
+    def blind_spots(self) -> tuple[NotChecked, ...]:
+        """Rules that could not run, each with its reason."""
+        causes = (Cause.NOT_AT_HAND, Cause.CRASHED)
+        return tuple(each for each in self.outcome.not_checked if each.cause in causes)
+
+
+def is_measured(rule: Rule) -> bool:
+    """Whether a rule needs what takes long."""
+    return not MEASURED.isdisjoint(rule.needs.values())

@@ -1,0 +1,155 @@
+"""What the user asks for by name: a check with weights and trial, the robot in 3D, a drive."""
+
+from __future__ import annotations
+
+import asyncio
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+
+from lsprotocol import types as lsp
+
+from checker.base.cache import cache_folder
+from checker.base.extras import PHYSICS
+from checker.base.files import make_folder
+from checker.base.output import write
+from checker.base.parts import WorkerFailed
+from checker.editor.check import is_measured
+from checker.editor.full_check import FullCheck, Order
+from checker.editor.measured import Measured
+from checker.editor.server import Server
+from checker.editor.session import State
+from checker.pipeline import joined_report
+from checker.report.files import PAGE, artefacts
+from checker.report.html.overview import told_trial
+from checker.report.render_settings import Palette, RenderSettings
+from checker.report.report import PackageReport
+from checker.report.summary import sentence
+from checker.rulebook.rule_index import rules
+
+CHECK = "subt-check.server.check"
+SHOW = "subt-check.server.show3d"
+DRIVE = "subt-check.server.drive"
+_LOOKS_SECONDS = 0.1
+"""Between two looks whether the user has cancelled."""
+
+
+def register(server: Server) -> None:
+    """Add the commands to a server; each is given the URI of a file."""
+
+    @server.command(CHECK)
+    async def _(uri: str) -> str | None:
+        report = await measure(server, uri)
+        return str(sentence(report)) if report is not None else None
+
+    @server.command(SHOW)
+    async def _(uri: str) -> dict[str, str] | None:
+        report = await measure(server, uri, display=True)
+        return await _shown(server, report) if report is not None else None
+
+    @server.command(DRIVE)
+    async def _(uri: str) -> str | None:
+        report = await measure(server, uri)
+        if report is None:
+            return None
+        told = " ".join(_drives(report))
+        server.window_show_message(lsp.ShowMessageParams(lsp.MessageType.Info, told))
+        return told
+
+
+async def measure(server: Server, uri: str, *, display: bool = False) -> PackageReport | None:
+    """Check the package of a file with weights and trial, and tell the editor what is found.
+
+    The user sees that it goes on, and may cancel it.
+
+    Args:
+        server: Of the editor.
+        uri: Of the file.
+        display: Whether the report is to hold the robot in 3D.
+
+    Returns:
+        The report; None where there is none, of which the user is told.
+    """
+    known = await server.state_of(uri)
+    if known is None or known[1].checked is None:
+        problem = known[1].problem if known else None
+        why = problem.message if problem else "the file is not part of a package"
+        _complain(server, f"not checked: {why}")
+        return None
+    if not PHYSICS.is_installed:
+        _complain(server, PHYSICS.missing)
+        return None
+    state = known[1]
+    order = await server.read(lambda: _order(state, display=display))
+    done = await _watched(server, FullCheck(order), state.unit.package.name)
+    if isinstance(done, WorkerFailed):
+        _complain(server, f"the check {done.reason}")
+        return None
+    await server.read(lambda: _note(server, state, order, done))
+    await server.publish()
+    return done
+
+
+def _order(state: State, *, display: bool) -> Order:
+    if state.checked is None:
+        raise ValueError("a package that is not checked cannot be measured")
+    wishes = {"trial": True, "display": True if display else None}
+    return Order(state.checked.package, state.checked.settings.overridden(**wishes))
+
+
+def _note(server: Server, state: State, order: Order, report: PackageReport) -> None:
+    measured = {rule.id for rule in rules(server.session.cache) if is_measured(rule)}
+    server.session.note_measured(state.unit.key, Measured(order.package, report, measured))
+
+
+async def _watched(server: Server, check: FullCheck, name: str) -> PackageReport | WorkerFailed:
+    """Wait for a check; the editor shows that it goes on, and may cancel it."""
+    window = server.client_capabilities.window
+    if window is None or not window.work_done_progress:
+        return await asyncio.to_thread(check.result)
+    progress, token = server.work_done_progress, str(uuid4())
+    await progress.create_async(token)
+    progress.begin(token, lsp.WorkDoneProgressBegin(f"{name}: weights and trial", cancellable=True))
+    waiting = asyncio.create_task(asyncio.to_thread(check.result))
+    try:
+        while not (await asyncio.wait([waiting], timeout=_LOOKS_SECONDS))[0]:
+            if progress.tokens[token].cancelled():
+                check.stop()
+        return waiting.result()
+    finally:
+        progress.end(token, lsp.WorkDoneProgressEnd())
+        progress.tokens.pop(token, None)
+
+
+async def _shown(server: Server, report: PackageReport) -> dict[str, str]:
+    """Write the page of a report, and have the editor open it."""
+    page = await asyncio.to_thread(_written, report)
+    params = lsp.ShowDocumentParams(page.as_uri(), external=True)
+    window = server.client_capabilities.window
+    if window is not None and window.show_document is not None:
+        await server.window_show_document_async(params)
+    return {"uri": page.as_uri()}
+
+
+def _written(report: PackageReport) -> Path:
+    folder = cache_folder() / "editor"
+    make_folder(folder)
+    place = Path(tempfile.mkdtemp(prefix=f"{report.name[:50]}-", dir=folder))
+    settings = RenderSettings(Palette(enabled=False), report.path)
+    for name, content in artefacts(joined_report([(report,)]), settings):
+        write(place / name, content)
+    return place / PAGE
+
+
+def _drives(report: PackageReport) -> Sequence[str]:
+    """Say what came of the trial."""
+    if report.trial is None:
+        return ["The robot was not driven: no drive detected."]
+    name: Any = report.facts.get("name")
+    return told_trial(report.trial, str(name or report.name))
+
+
+def _complain(server: Server, message: str) -> None:
+    server.window_show_message(lsp.ShowMessageParams(lsp.MessageType.Warning, message))

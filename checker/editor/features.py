@@ -1,0 +1,112 @@
+"""What the language server answers: each feature of the protocol, and who works it out."""
+
+from __future__ import annotations
+
+from lsprotocol import types as lsp
+
+from checker.editor import actions, commands
+from checker.editor.documents import opened
+from checker.editor.lenses import lenses_of
+from checker.editor.server import Server, real_folders
+
+_WATCHED = [lsp.FileSystemWatcher(glob_pattern="**/*")]
+
+
+def register(server: Server) -> None:
+    """Add all features to a server."""
+    _follow_client(server)
+    _follow_documents(server)
+    _add_actions(server)
+    _add_lenses(server)
+    commands.register(server)
+
+
+def _follow_client(server: Server) -> None:
+    @server.feature(lsp.INITIALIZE)
+    def _(params: lsp.InitializeParams) -> None:
+        server.begin(params)
+
+    @server.feature(lsp.INITIALIZED)
+    def _(_: lsp.InitializedParams) -> None:
+        workspace = server.client_capabilities.workspace
+        watching = workspace.did_change_watched_files if workspace else None
+        if watching is not None and watching.dynamic_registration:
+            options = lsp.DidChangeWatchedFilesRegistrationOptions(_WATCHED)
+            name = lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES
+            wanted = lsp.Registration("watched-files", name, options)
+            server.client_register_capability(lsp.RegistrationParams([wanted]))
+
+    @server.feature(lsp.WORKSPACE_DID_CHANGE_CONFIGURATION)
+    def _(params: lsp.DidChangeConfigurationParams) -> None:
+        settings = params.settings
+        server.configure(settings.get("subt-check") if isinstance(settings, dict) else None)
+
+    @server.feature(lsp.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
+    def _(_: lsp.DidChangeWorkspaceFoldersParams) -> None:
+        folders = real_folders(server.workspace.folders)
+
+        def taken() -> None:
+            server.session.units.folders = folders
+            server.session.forget()
+
+        server.reread(taken)
+
+    @server.feature(lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+    def _(params: lsp.DidChangeWatchedFilesParams) -> None:
+        names = [change.uri.rpartition("/")[2] for change in params.changes]
+        if any(not name.startswith(".") for name in names):
+            server.reread(server.session.forget)
+
+
+def _follow_documents(server: Server) -> None:
+    session = server.session
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
+    def _(params: lsp.DidOpenTextDocumentParams) -> None:
+        item = params.text_document
+        document = opened(item.uri, item.version, item.text)
+        if document is not None:
+            session.documents[item.uri] = document
+            server.check_soon()
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
+    def _(params: lsp.DidChangeTextDocumentParams) -> None:
+        document = session.documents.get(params.text_document.uri)
+        if document is not None and params.content_changes:
+            text = params.content_changes[-1].text
+            changed = document.with_text(text, params.text_document.version)
+            session.documents[document.uri] = changed
+            server.check_soon()
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
+    async def _(params: lsp.DidSaveTextDocumentParams) -> None:
+        server.reread(session.forget)
+        if server.measures_on_save:
+            await commands.measure(server, params.text_document.uri)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
+    def _(params: lsp.DidCloseTextDocumentParams) -> None:
+        uri = params.text_document.uri
+        if session.documents.pop(uri, None) is not None:
+            server.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
+            server.check_soon()
+
+
+def _add_actions(server: Server) -> None:
+    kinds = [lsp.CodeActionKind.QuickFix, lsp.CodeActionKind.SourceFixAll, actions.FIX_ALL]
+
+    @server.feature(lsp.TEXT_DOCUMENT_CODE_ACTION, lsp.CodeActionOptions(kinds))
+    async def _(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+        known = await server.state_of(params.text_document.uri)
+        if known is None:
+            return []
+        return await server.read(lambda: actions.wanted(server, *known, params.context))
+
+
+def _add_lenses(server: Server) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_CODE_LENS)
+    async def _(params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
+        known = await server.state_of(params.text_document.uri)
+        if known is None:
+            return []
+        return await server.read(lambda: lenses_of(*known, server.columns))

@@ -1,0 +1,146 @@
+"""The language server: when it checks, and what it tells the editor by itself.
+
+Whatever reads packages works in one thread, one thing after the other; the event loop talks to the
+editor meanwhile. A check begins as soon as a text changes. Changes that come while it runs are
+checked together when it ends.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any, TypeVar
+
+from lsprotocol import types as lsp
+from pygls.lsp.server import LanguageServer
+
+from checker.base.resources import tool_version
+from checker.editor.diagnostics import diagnostics_of
+from checker.editor.documents import Document, path_of
+from checker.editor.positions import Columns
+from checker.editor.session import Session, State
+
+T = TypeVar("T")
+_PAUSE_SECONDS = 0.02
+"""Between a change and its check: keys that are pressed together are checked together."""
+
+
+class Server(LanguageServer):
+    """What serves one editor.
+
+    Attributes:
+        session: What is known of the packages.
+        columns: How the client counts.
+        measures_on_save: Whether weights are taken and the trial is run when a file is saved.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(
+            "subt-check", tool_version(), text_document_sync_kind=lsp.TextDocumentSyncKind.Full
+        )
+        self.session = Session()
+        self.columns = Columns()
+        self.measures_on_save = False
+        self._pause = _PAUSE_SECONDS
+        self._reader = ThreadPoolExecutor(1, "reader")
+        self._is_stale = False
+        self._checking: asyncio.Task[None] | None = None
+
+    def begin(self, params: lsp.InitializeParams) -> None:
+        """Take over what the client says of itself."""
+        folders = [folder.uri for folder in params.workspace_folders or ()]
+        self.session.units.folders = real_folders(folders or [params.root_uri or ""])
+        self.columns = Columns(
+            lsp.PositionEncodingKind(self.workspace.position_encoding or "utf-16")
+        )
+        self.configure(params.initialization_options)
+
+    def configure(self, options: Any) -> None:
+        """Take over the user's settings of the editor; what has another form is passed over."""
+        if isinstance(options, dict):
+            self.measures_on_save = options.get("trial") == "save"
+            if isinstance(pause := options.get("debounce"), int | float):
+                self._pause = min(max(float(pause) / 1000.0, 0.0), 5.0)
+
+    async def read(self, work: Callable[[], T]) -> T:
+        """Have the thread that reads packages do something."""
+        return await asyncio.get_running_loop().run_in_executor(self._reader, work)
+
+    async def state_of(self, uri: str) -> tuple[Document, State] | None:
+        """Return an open file and what is known of its package; None outside of packages."""
+        document = self.session.documents.get(uri)
+        if document is None:
+            return None
+        state = await self.read(lambda: self.session.state_of(document.path))
+        return (document, state) if state is not None else None
+
+    def check_soon(self) -> None:
+        """Have the packages of open files checked; what has not changed takes no time."""
+        self._is_stale = True
+        if self._checking is None or self._checking.done():
+            self._checking = asyncio.get_running_loop().create_task(self._check())
+
+    def reread(self, change: Callable[[], None]) -> None:
+        """Have packages checked after a change of what is known of the disk.
+
+        Args:
+            change: Makes it, in the thread that reads packages.
+        """
+        self._reader.submit(change)
+        self.check_soon()
+
+    async def _check(self) -> None:
+        await asyncio.sleep(self._pause)
+        while self._is_stale:
+            self._is_stale = False
+            await self.read(self.session.check_all)
+            await self.publish()
+
+    async def publish(self) -> None:
+        """Tell the editor what is found in the open files."""
+
+        def told() -> list[tuple[Document, list[lsp.Diagnostic]]]:
+            every = self.session.documents.values()
+            return [(document, self._diagnostics(document)) for document in list(every)]
+
+        for document, diagnostics in await self.read(told):
+            if self.session.documents.get(document.uri) is document:
+                told_of = lsp.PublishDiagnosticsParams(document.uri, diagnostics, document.version)
+                self.text_document_publish_diagnostics(told_of)
+
+    def _diagnostics(self, document: Document) -> list[lsp.Diagnostic]:
+        own = self.session.state_of(document.path)
+        if own is None:
+            return []
+        others = [state for state in self.session.states if state.unit.key != own.unit.key]
+        return diagnostics_of(document, own, others, self.columns)
+
+    def end(self) -> None:
+        """End what was started."""
+        self.session.close()
+        self._reader.shutdown(wait=False, cancel_futures=True)
+
+
+def real_folders(uris: Iterable[str]) -> tuple[Path, ...]:
+    """Return the folders of URIs, the innermost first."""
+    found = {path for uri in uris if uri and (path := path_of(uri)) is not None and path.is_dir()}
+    return tuple(sorted(found, key=lambda path: (-len(path.parts), path)))
+
+
+def serve() -> None:
+    """Serve an editor by standard input and output until it ends the server."""
+    from checker.editor.features import register
+
+    server = Server()
+    register(server)
+    # What a library prints must not end up among the words of the protocol.
+    output = os.fdopen(os.dup(1), "wb")
+    os.dup2(sys.stderr.fileno(), 1)
+    try:
+        server.start_io(stdout=output)
+    finally:
+        server.end()

@@ -1,0 +1,83 @@
+"""Which package, model or world an open file belongs to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from checker.base.errors import UnreadableInput
+from checker.base.record import Record
+from checker.package.inputs import SINGLE_FILE_SUFFIXES, Opened, open_input
+from checker.package.kind import changed_packages
+from checker.package.package import Package
+
+
+class Unit(Record, eq=False):
+    """What is checked by itself, as it lies on disk.
+
+    Attributes:
+        path: What was opened: a folder of the editor's, else the package or file.
+        package: With its siblings, read from disk.
+    """
+
+    path: Path
+    package: Package
+
+    @property
+    def key(self) -> tuple[Path, str]:
+        """What tells it from others."""
+        return self.package.root, self.package.only
+
+
+class Units:
+    """Finds the units of files; folders are looked through once, until they change."""
+
+    def __init__(self, folders: Sequence[Path] = ()) -> None:
+        """Look at nothing yet.
+
+        Args:
+            folders: Of the editor, links resolved.
+        """
+        self.folders = tuple(folders)
+        self._opened: dict[Path, Opened | None] = {}
+
+    def forget(self) -> None:
+        """Look anew at what lies on disk the next time."""
+        self._opened.clear()
+
+    def unit_of(self, file: Path) -> Unit | None:
+        """Return the unit that a file belongs to; None outside of packages.
+
+        A model or world in a package is a unit of its own where the command takes it for one.
+        """
+        for path in self._around(file):
+            opened = self._open(path)
+            holding = [each for each in opened.packages if _holds(each, file)] if opened else []
+            if holding:
+                return Unit(path, max(holding, key=lambda each: (len(each.root.parts), each.only)))
+        return None
+
+    def _around(self, file: Path) -> Iterable[Path]:
+        """Yield what may be opened to find a file, what the user has opened first."""
+        yield from (folder for folder in self.folders if file.is_relative_to(folder))
+        try:
+            yield from changed_packages([file], file.parent)
+        except UnreadableInput:  # a folder
+            return
+        if file.name.lower().endswith(SINGLE_FILE_SUFFIXES):
+            yield file
+
+    def _open(self, path: Path) -> Opened | None:
+        if path not in self._opened:
+            try:
+                with open_input(path) as opened:
+                    self._opened[path] = opened
+            except UnreadableInput:
+                self._opened[path] = None
+        return self._opened[path]
+
+
+def _holds(package: Package, file: Path) -> bool:
+    if package.only:
+        return file == package.root / package.only
+    return file.is_relative_to(package.root)
