@@ -13,7 +13,7 @@ from checker.editor.positions import Columns
 from checker.editor.server import Server
 from checker.editor.session import State
 from checker.editor.suppression import reason_comment, rule_switched_off
-from checker.finding import Edit, Safety
+from checker.finding import Edit, Fix, Safety
 from checker.fix.rounds import FixedFile, fix_package
 from checker.package.package import Package
 from checker.report.report import ReportedFinding
@@ -81,23 +81,29 @@ def _fixes(
     documents: Mapping[str, Document],
     columns: Columns,
 ) -> Iterator[lsp.CodeAction]:
-    """Yield what fixes a finding here, and what fixes it everywhere."""
-    edits = finding.fix.edits if finding.fix is not None else ()
-    spans = [(place.line, place.end_line) for place in finding.places if not place.note]
-    first, last = diagnostic.range.start.line + 1, diagnostic.range.end.line + 1
-    file = next((place.file for place in finding.places if place.line == first), "")
-    here = [e for e in edits if e.place.file == file and first <= e.place.line <= last]
-    for chosen in (here, edits) if len(spans) > 1 and 0 < len(here) < len(edits) else (edits,):
+    """Yield what fixes a finding here, and what fixes it in all of its places."""
+    here = _fix_here(finding, diagnostic)
+    for fix in dict.fromkeys(filter(None, (here, finding.fix))):
         changes = Changes(documents.values(), columns)
-        if chosen and all(changes.add_edit(package, edit) for edit in chosen):
-            is_safe = finding.fix is not None and finding.fix.safety is Safety.SAFE
+        if all(changes.add_edit(package, edit) for edit in fix.edits):
+            is_safe = fix.safety is Safety.SAFE
             yield lsp.CodeAction(
-                title=_title(finding, chosen) + ("" if is_safe else " (changes behaviour)"),
+                title=_title(finding, fix.edits) + ("" if is_safe else " (changes behaviour)"),
                 kind=lsp.CodeActionKind.QuickFix,
                 diagnostics=[diagnostic],
-                is_preferred=is_safe and (chosen is here or not here or len(spans) == 1),
+                is_preferred=is_safe and fix is (here or finding.fix),
                 edit=changes.edit,
             )
+
+
+def _fix_here(finding: ReportedFinding, diagnostic: lsp.Diagnostic) -> Fix | None:
+    """Return the fix of the one place that a diagnostic shows."""
+    first, last = diagnostic.range.start.line + 1, diagnostic.range.end.line + 1
+    file = next((place.file for place in finding.places if place.line == first), "")
+    for fix in finding.fixes:
+        if any(e.place.file == file and first <= e.place.line <= last for e in fix.edits):
+            return fix
+    return None
 
 
 def _title(finding: ReportedFinding, edits: Sequence[Edit]) -> str:

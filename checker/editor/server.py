@@ -103,19 +103,23 @@ class Server(LanguageServer):
     async def publish(self) -> None:
         """Tell the editor what is found in the open files."""
 
-        def told() -> list[tuple[Document, list[lsp.Diagnostic]]]:
+        def told() -> list[tuple[Document, list[lsp.Diagnostic] | None]]:
             every = self.session.documents.values()
             return [(document, self._diagnostics(document)) for document in list(every)]
 
         for document, diagnostics in await self.read(told):
-            if self.session.documents.get(document.uri) is document:
+            # Of a text that has changed meanwhile, the next check tells.
+            if diagnostics is not None and self.session.documents.get(document.uri) is document:
                 told_of = lsp.PublishDiagnosticsParams(document.uri, diagnostics, document.version)
                 self.text_document_publish_diagnostics(told_of)
 
-    def _diagnostics(self, document: Document) -> list[lsp.Diagnostic]:
+    def _diagnostics(self, document: Document) -> list[lsp.Diagnostic] | None:
+        """Return what is found in a file; None where another text of it was checked."""
         own = self.session.state_of(document.path)
         if own is None:
             return []
+        if not own.is_of(document):
+            return None
         others = [state for state in self.session.states if state.unit.key != own.unit.key]
         return diagnostics_of(document, own, others, self.columns)
 

@@ -71,6 +71,13 @@ class State(Record, eq=False, dict=True):
         measured = self.measured.findings_in(self.checked.package) if self.measured else ()
         return (*self.checked.findings, *measured)
 
+    def is_of(self, document: Document) -> bool:
+        """Whether the text of an open file was checked, or cannot be."""
+        if self.checked is None:
+            return True
+        text = self.checked.package.workspace.overlay.texts.get(document.path)
+        return text is not None and text.text == document.text
+
 
 class Session:
     """The open files and their packages. All but `documents` belongs to one thread.

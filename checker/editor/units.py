@@ -11,6 +11,9 @@ from checker.package.inputs import SINGLE_FILE_SUFFIXES, Opened, open_input
 from checker.package.kind import changed_packages
 from checker.package.package import Package
 
+_LONE = tuple(suffix for suffix in SINGLE_FILE_SUFFIXES if suffix != ".xml")
+"""Of models outside of packages; XML may be anything."""
+
 
 class Unit(Record, eq=False):
     """What is checked by itself, as it lies on disk.
@@ -64,7 +67,7 @@ class Units:
             yield from changed_packages([file], file.parent)
         except UnreadableInput:  # a folder
             return
-        if file.name.lower().endswith(SINGLE_FILE_SUFFIXES):
+        if file.name.lower().endswith(_LONE):
             yield file
 
     def _open(self, path: Path) -> Opened | None:

@@ -257,6 +257,7 @@ def _report(
     for (severity, _), group in groups.items():
         first = group[0]
         places = _joined_places(group)
+        fixes = tuple(finding.fix for finding in group if finding.fix)
         yield ReportedFinding(
             rule.id,
             rule.name,
@@ -265,12 +266,13 @@ def _report(
             shortened(first.message, TEXT_LIMIT),
             fingerprint(rule.id, places[0].file, places[0].element, _identity(first)),
             places,
-            _joined_fix([finding.fix for finding in group if finding.fix]),
+            _joined_fix(fixes),
             page.reason,
             " ".join(page.fix.split()),
             first.key,
             page.title,
             " ".join(page.source.split()),
+            fixes if len(group) > 1 else (),
         )
 
 
@@ -286,7 +288,7 @@ def _joined_places(group: Sequence[Finding]) -> tuple[Place, ...]:
     return tuple(places.values())
 
 
-def _joined_fix(fixes: list[Fix]) -> Fix | None:
+def _joined_fix(fixes: Sequence[Fix]) -> Fix | None:
     """Return one fix that makes all edits; it is as safe as the least safe of them."""
     if not fixes:
         return None

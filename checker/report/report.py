@@ -91,6 +91,7 @@ class ReportedFinding(Record):
         key: What its places have in common, where the rule says so.
         title: Of the rule's page: what is wrong in general.
         source: Where the rule comes from.
+        fixes: Where it joins faults in several places, the fix of each that has one.
     """
 
     rule: str
@@ -106,6 +107,7 @@ class ReportedFinding(Record):
     key: str = ""
     title: str = ""
     source: str = ""
+    fixes: tuple[Fix, ...] = ()
 
     @property
     def help(self) -> str:
