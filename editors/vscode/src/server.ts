@@ -1,0 +1,80 @@
+/** The server process: started, restarted and stopped, one after the other. */
+import * as vscode from "vscode";
+
+import { Client } from "./client";
+import { findProgram, NoProgram } from "./programs";
+
+const REMEDY = "pip install 'subt-check[editor]'";
+
+export class Server {
+  #client: Client | undefined;
+  #last: Promise<void> = Promise.resolve();
+
+  /**
+   * @param output Where the log goes.
+   * @param page The address of the page that tells how to install it.
+   */
+  constructor(
+    readonly output: vscode.LogOutputChannel,
+    readonly page: string,
+  ) {}
+
+  get isRunning(): boolean {
+    return this.#client !== undefined;
+  }
+
+  /** Start the server, or start it anew. */
+  restart(): Promise<void> {
+    return this.#next(async () => {
+      await this.#end();
+      await this.#begin();
+    });
+  }
+
+  stop(): Promise<void> {
+    return this.#next(() => this.#end());
+  }
+
+  #next(work: () => Promise<void>): Promise<void> {
+    this.#last = this.#last.then(work);
+    return this.#last;
+  }
+
+  async #begin(): Promise<void> {
+    try {
+      const program = await findProgram((line) => this.output.info(line));
+      this.output.info(`Starting ${program} server`);
+      const client = new Client(program, this.output);
+      await client.begin();
+      this.#client = client;
+    } catch (error) {
+      const reason = error instanceof Error ? error.message : String(error);
+      this.output.error(reason);
+      void this.#tell(error instanceof NoProgram ? reason : `The server did not start: ${reason}`);
+    }
+  }
+
+  async #end(): Promise<void> {
+    const client = this.#client;
+    this.#client = undefined;
+    try {
+      await client?.end();
+    } catch (error) {
+      this.output.warn(`The server did not stop in order: ${String(error)}`);
+    }
+  }
+
+  /** Say what is wrong and what to do. Nobody waits for the answer. */
+  async #tell(problem: string): Promise<void> {
+    const [install, settings, output] = ["How to install", "Open settings", "Show output"];
+    const text = `subt-check: ${problem} To install or update it: ${REMEDY}`;
+    const chosen = await vscode.window.showErrorMessage(text, install, settings, output);
+    if (chosen === install) {
+      await vscode.env.openExternal(vscode.Uri.parse(this.page));
+    } else if (chosen === settings) {
+      await vscode.commands.executeCommand("workbench.action.openSettings", "subt-check.path");
+    } else if (chosen === output) {
+      this.output.show();
+    }
+  }
+}
