@@ -34,9 +34,8 @@ export async function executeCommand(
     return next(command, given);
   }
   const answer = await withProgress(client, title, command, given);
-  if (name === "drive" && typeof answer === "string") {
-    client.outputChannel.appendLine(answer);
-    client.outputChannel.show(true);
+  if (typeof answer === "string") {
+    client.outputChannel.appendLine(answer); // the server shows it, but only for a moment
   }
   return answer;
 }

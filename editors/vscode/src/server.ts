@@ -44,13 +44,22 @@ export class Server {
     try {
       const program = await findProgram((line) => this.output.info(line));
       this.output.info(`Starting ${program} server`);
-      const client = new Client(program, this.output);
+      await this.#serve(program);
+    } catch (error) {
+      const problem = error instanceof NoProgram ? error.message : String(error);
+      this.output.error(problem);
+      void this.#tell(problem);
+    }
+  }
+
+  async #serve(program: string): Promise<void> {
+    const client = new Client(program, this.output);
+    try {
       await client.begin();
       this.#client = client;
     } catch (error) {
-      const reason = error instanceof Error ? error.message : String(error);
-      this.output.error(reason);
-      void this.#tell(error instanceof NoProgram ? reason : `The server did not start: ${reason}`);
+      this.output.error(String(error));
+      throw new NoProgram(`${program} started no server; the output says why.`);
     }
   }
 

@@ -7,7 +7,7 @@ const { afterEach, beforeEach, test } = require("node:test");
 const { URI } = require("vscode-uri");
 
 const { Editor } = require("./editor.cjs");
-const { activate, until } = require("./host.cjs");
+const { activate, ended, until } = require("./host.cjs");
 
 const SDF = "<sdf version='1.9'/>\n";
 const SERVES = `case "$2" in --help) echo "usage: subt-check server [-h]" ;; *) exec "${process.execPath}" "${path.join(__dirname, "recorder.cjs")}" ;; esac`;
@@ -33,7 +33,8 @@ beforeEach(() => {
 afterEach(async () => {
   await end();
   process.env.PATH = PATH;
-  fs.rmSync(folder, { recursive: true, maxRetries: 10 }); // a server that ends may still write
+  await Promise.all(received("initialize").map(({ pid }) => ended(pid))); // until then they write
+  fs.rmSync(folder, { recursive: true });
 });
 
 function write(file, text) {
@@ -137,7 +138,7 @@ test("a server that ends at once is one message, and is not started again", asyn
   program(outside, ENDS);
   const editor = await start();
   assert.equal(editor.messages.length, 1);
-  assert.match(editor.messages[0].message, /The server did not start: .*pip install 'subt-check\[editor\]'$/);
+  assert.match(editor.messages[0].message, /outside\/subt-check started no server; the output says why\. .*pip install 'subt-check\[editor\]'$/);
   await until("the reason in the log", () => editor.log.some((line) => line.includes("pygls is missing")));
   assert.equal(editor.log.filter((line) => line.includes("pygls is missing")).length, 1);
 });
@@ -224,7 +225,6 @@ test("commands of the palette reach the server with the file that is shown", asy
   assert.equal(params.command, "subt-check.server.drive");
   assert.deepEqual(params.arguments, [uri.toString()]);
   assert.ok(editor.log.includes("appendLine: It drove 3.2 m."));
-  assert.ok(editor.outputIsShown);
 });
 
 test("the report is opened once, outside the editor", async () => {
@@ -272,7 +272,13 @@ test("the server ends with the editor", async () => {
   await end();
   end = async () => {};
   assert.equal(received("shutdown").length, 1);
-  await until("its end", () => !fs.existsSync(`/proc/${pid}`));
+  await ended(pid);
+});
+
+test("the output can be shown", async () => {
+  const editor = await start();
+  await editor.module.commands.executeCommand("subt-check.showOutput");
+  assert.ok(editor.outputIsShown);
 });
 
 test("all commands of the manifest are there", async () => {

@@ -38,4 +38,15 @@ async function until(what, find) {
   throw new Error(`not seen: ${what}`);
 }
 
-module.exports = { activate, until };
+/** Wait until a process has ended. */
+function ended(pid) {
+  return until(`the end of process ${pid}`, () => {
+    try {
+      return !process.kill(pid, 0);
+    } catch {
+      return true;
+    }
+  });
+}
+
+module.exports = { activate, ended, until };

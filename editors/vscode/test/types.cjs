@@ -56,9 +56,13 @@ class Range {
   }
 }
 
-/** Edits by file, as `WorkspaceEdit` keeps them. */
+/** Edits by file, and the files that are made first, as `WorkspaceEdit` keeps them. */
 class WorkspaceEdit {
+  created = [];
   #edits = new Map();
+  createFile(uri) {
+    this.created.push(uri);
+  }
   set(uri, edits) {
     this.#edits.set(uri.toString(), [uri, edits.map((edit) => (Array.isArray(edit) ? edit[0] : edit))]);
   }
