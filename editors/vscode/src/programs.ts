@@ -16,8 +16,8 @@ const NOWHERE = "subt-check is in no Python environment of this workspace, and n
 const NOT_ON_PATH =
   "subt-check is not on PATH, and this workspace is not trusted: its environments are not used.";
 
-/** Why there is no program, as a sentence for the user. */
-export class NoProgram extends Error {}
+/** Why no server can be started, as a sentence for the user. */
+export class NoServer extends Error {}
 
 /**
  * Return the path of the first program that has the command `server`.
@@ -26,7 +26,7 @@ export class NoProgram extends Error {}
  * from within it is run.
  *
  * @param tell Is told about each program that is passed over.
- * @throws NoProgram if there is none.
+ * @throws NoServer if there is none.
  */
 export async function findProgram(tell: (line: string) => void): Promise<string> {
   const stated = vscode.workspace.getConfiguration("subt-check").get<string>("path", "").trim();
@@ -39,7 +39,7 @@ export async function findProgram(tell: (line: string) => void): Promise<string>
     tell(fault);
     faults.push(fault);
   }
-  throw new NoProgram(faults[0] ?? (vscode.workspace.isTrusted ? NOWHERE : NOT_ON_PATH));
+  throw new NoServer(faults[0] ?? (vscode.workspace.isTrusted ? NOWHERE : NOT_ON_PATH));
 }
 
 /** Return the programs that exist, those of the workspace first. */

@@ -2,7 +2,7 @@
 import * as vscode from "vscode";
 
 import { Client } from "./client";
-import { findProgram, NoProgram } from "./programs";
+import { findProgram, NoServer } from "./programs";
 
 const REMEDY = "pip install 'subt-check[editor]'";
 
@@ -46,7 +46,7 @@ export class Server {
       this.output.info(`Starting ${program} server`);
       await this.#serve(program);
     } catch (error) {
-      const problem = error instanceof NoProgram ? error.message : String(error);
+      const problem = error instanceof NoServer ? error.message : String(error);
       this.output.error(problem);
       void this.#tell(problem);
     }
@@ -59,7 +59,7 @@ export class Server {
       this.#client = client;
     } catch (error) {
       this.output.error(String(error));
-      throw new NoProgram(`${program} started no server; the output says why.`);
+      throw new NoServer(`${program} started no server; the output says why.`);
     }
   }
 
