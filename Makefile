@@ -17,7 +17,7 @@ VIEWER := templates/report/viewer.js
 # Tests and benches start many processes: these need not compile everything anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: demo dev docs test test-more test-all viewer lint types format bench picture constraints clean golden
+.PHONY: demo dev docs test test-more test-all viewer vscode lint types format bench picture constraints clean golden
 
 demo: .venv/installed $(VIEWER)
 	@mkdir -p demo
@@ -92,7 +92,7 @@ golden: .venv/tested $(VIEWER)
 	@touch $@
 
 .venv/tested: .venv/dev requirements-all.txt
-	scripts/require ruby=ruby git=git chromium=chromium bwrap=bubblewrap \
+	scripts/require ruby=ruby git=git node=nodejs npm=npm chromium=chromium bwrap=bubblewrap \
 	  "libEGL.so.1=libegl1 libgl1-mesa-dri" libOpenGL.so.0=libopengl0 \
 	  zsh=zsh fish=fish g++=g++ pkg-config=pkg-config sdformat12.pc=libsdformat-dev
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -r requirements-all.txt
@@ -109,6 +109,11 @@ viewer: $(VIEWER)
 $(VIEWER): templates/viewer/build templates/viewer/package.json $(wildcard templates/viewer/src/*.js)
 	scripts/require node=nodejs npm=npm
 	templates/viewer/build
+
+# The client for VS Code, bundled with its libraries from npm: dist/subt-check-<version>.vsix.
+vscode:
+	scripts/require node=nodejs npm=npm
+	editors/vscode/build
 
 # The pages of docs/ as a site with a search, in build/docs; a link between them that is dead fails.
 docs: .venv/documented

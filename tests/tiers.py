@@ -18,7 +18,7 @@ TESTS = Path(__file__).parent
 MARKS: Mapping[str, str] = {
     "browser": "needs Chromium and the viewer that is built",
     "service": "needs a network port, a database server or workers of the service",
-    "install": "needs a second installation of the project: a wheel, an image, a hook",
+    "install": "needs a second installation of the project: wheel, image, hook, editor's client",
     "programs": "needs what `make dev` does not install: ruby, git, zsh, Sphinx, OpenGL, schemas",
     "oracle": "needs other programs that read robots: libsdformat, drake",
     "corpus": "needs real packages",
@@ -36,6 +36,7 @@ BY_FIXTURE: Mapping[str, str] = {
 }
 BY_PLACE: Mapping[str, str] = {
     "oracle": "oracle",
+    "editor/test_vscode_client.py": "install",
     "deployment/test_image.py": "install",
     "deployment/test_postgres.py": "service",
     "deployment/test_running.py": "install",
