@@ -1,0 +1,53 @@
+"""Names in Ruby: the strings of a spawner, and the XML that it emits.
+
+The text is read as it stands: names that Ruby puts together are expressions.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from checker.editor.names.mention import WrittenName
+from checker.editor.names.plugin_names import frame_named, is_topic_tag, topic_named
+from checker.editor.names.values import names_in
+from checker.source.text import Located, SourceText, Span
+
+_TEXT = re.compile(
+    r"""<([A-Za-z_][\w.:-]*)(?:\s[^<>]{0,2000})?>\s*([^<>\n]{1,2000}?)\s*</"""
+    r"""|(?<![\w])([A-Za-z_][\w-]*)=(["'])([^"'<>\n]{1,500})\4"""
+    r"""|(["'])((?:(?!\6)[^\\\n]){0,500})\6"""
+)
+_COMMENT = re.compile(r"^[ \t]*#(?!\{)[^\n]*|<!--.*?-->", re.MULTILINE | re.DOTALL)
+_WORDS = re.compile(r"[\s,]+")
+
+
+def ruby_names(source: SourceText) -> Iterator[WrittenName]:
+    """Yield the names of a Ruby file."""
+    text = _COMMENT.sub(lambda match: " " * len(match.group()), source.text)
+    for match in _TEXT.finditer(text):
+        if match[1] is not None:
+            yield from _of_element(source, match)
+        elif match[3] is not None:
+            yield from names_in(match[5], match.start(5), match[3])
+        else:
+            yield from names_in(match[7], match.start(7))
+
+
+def ruby_values(source: SourceText) -> frozenset[str]:
+    """Return the strings of a Ruby file, which its expressions may come to."""
+    found = (match[7] or match[5] for match in _TEXT.finditer(source.text))
+    return frozenset(word for text in found if text for word in (text, *_WORDS.split(text)))
+
+
+def _of_element(source: SourceText, match: re.Match[str]) -> Iterator[WrittenName]:
+    """Yield what an element that is emitted names."""
+    tag, text = match[1], match[2]
+    located = Located(text, Span(source, match.start(2), match.end(2)))
+    if is_topic_tag(tag):
+        yield from topic_named(located)
+    elif "frame" in tag.lower():
+        yield from frame_named(located)
+    else:
+        is_command = tag == "command"
+        yield from names_in(text, match.start(2), "" if is_command else tag, words=is_command)
