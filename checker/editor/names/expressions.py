@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container, Iterator
-from functools import cache
+from functools import lru_cache
 
 EXPRESSION = re.compile(r"\$\{[^{}]{0,400}\}|\$\([^()]{0,400}\)|#\{[^{}]{0,400}\}")
 _NAME_LIMIT = 200
 """Characters; a longer text is not compared with composed names."""
+_PIECES_LIMIT = 12
+"""Of more pieces it is enough that both ends fit."""
 _NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?")
 
 
@@ -17,7 +19,7 @@ def is_composed(name: str) -> bool:
     return ("$" in name or "#{" in name) and EXPRESSION.search(name) is not None
 
 
-@cache
+@lru_cache(4096)
 def literal_pieces(name: str) -> tuple[str, ...]:
     """Return what stands around the expressions of a name: `("", "_wheel")`."""
     return tuple(EXPRESSION.split(name))
@@ -44,6 +46,8 @@ def may_come_to(composed: str, name: str, values: Container[str] | None) -> bool
     pieces = literal_pieces(composed)
     if len(name) > _NAME_LIMIT or not _fits_at_its_ends(pieces, name):
         return False
+    if len(pieces) > _PIECES_LIMIT:
+        return True
     reached = {len(pieces[0])}
     for piece in pieces[1:-1]:
         reached = {

@@ -81,10 +81,14 @@ def _xml(document: XmlDocument | XmlFault | NotReadable, source: SourceText) -> 
         values, parameters = frozenset(xacro.values), frozenset(xacro.parameters)
     return FileNames(
         source,
-        "robot" if is_robot else "sdf",
+        _robot_format(source.file) if is_robot else "sdf",
         tuple(names),
         tuple(included),
         values,
         parameters,
         sdf.model if sdf else "",
     )
+
+
+def _robot_format(path: str) -> str:
+    return "srdf" if path.lower().endswith((".srdf", ".srdf.xacro")) else "robot"

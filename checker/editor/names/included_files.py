@@ -38,7 +38,7 @@ def included_path(package: Package, path: str, included: Included) -> str | None
     if "://" not in included.uri and package.exists(beside):
         return _model_at(package, beside)
     found = path_behind(package, folder, uri)
-    return None if isinstance(found, Unknown) else _model_at(package, found)
+    return _model_named(package, uri) if isinstance(found, Unknown) else _model_at(package, found)
 
 
 def is_computed(included: Included) -> bool:
@@ -57,13 +57,17 @@ def _model_at(package: Package, path: str) -> str | None:
         return f"{path}/{model}" if model is not None else None
     entry = package.resolve(path)
     if entry is None:
-        # Worlds name models of the package by their folders, wherever these are.
-        named = f"/{path.rpartition('/')[2]}/model.sdf"
-        ends = (it.path for it in package.index.files if f"/{it.path}".endswith(named))
-        return next(ends, None)
+        return None
     if entry.is_folder:
         return f"{path}/model.sdf" if package.exists(f"{path}/model.sdf") else None
     return path
+
+
+def _model_named(package: Package, uri: str) -> str | None:
+    """Return the model of the package whose folder a URI names, wherever that is."""
+    ending = f"/{uri.rstrip('/').rpartition('/')[2]}/model.sdf"
+    files = package.index.with_suffix("model.sdf")
+    return next((it.path for it in files if f"/{it.path}".endswith(ending)), None)
 
 
 class Scopes(Record):

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from checker.editor.names.mention import TOPIC_ONLY, NameKind, Role, WrittenName
 from checker.editor.names.plugin_names import written
 from checker.editor.names.topics import is_topic, topic_key
-from checker.editor.names.values import names_in, words_in
+from checker.editor.names.values import LENGTH_LIMIT, names_in, words_in
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
@@ -60,7 +60,7 @@ def _argument(element: Element) -> Iterator[WrittenName]:
 
 def named_arguments(value: str, start: int) -> Iterator[WrittenName]:
     """Yield the arguments in `$(arg x)`, `$(var x)` and `$(eval …)` of a text."""
-    if "$(" not in value:
+    if "$(" not in value or len(value) > LENGTH_LIMIT:
         return
     for match in _NAMED.finditer(value):
         at, end = start + match.start(1), start + match.end(1)

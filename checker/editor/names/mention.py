@@ -111,7 +111,7 @@ class FileNames(Record, eq=False):
 
     Attributes:
         source: The text that they were read from.
-        format: `sdf`, `robot` (URDF, xacro, SRDF), `launch`, `yaml`, `ruby` or `python`.
+        format: `sdf`, `robot` (URDF, xacro), `srdf`, `launch`, `yaml`, `ruby` or `python`.
         names: In no order.
         included: Files that it includes.
         values: Texts that expressions of the file may come to.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 
 from checker.base.resources import table
@@ -19,6 +20,7 @@ from checker.editor.names.values import names_in, scoped_names, words_in
 from checker.source.text import Located
 from checker.source.xml import Element
 
+_LINE_END = re.compile(r"\r\n|[\r\n\t]")
 _LISTS = ("joints", "links", "jointname", "jointnames", "wheelnames")
 """Endings of tags whose text is a list."""
 
@@ -29,10 +31,16 @@ def is_topic_tag(tag: str) -> bool:
 
 
 def written(text: Located[str] | None) -> Located[str] | None:
-    """Return a text whose place holds it letter by letter; None where entities stand in it."""
-    if text is None or not text.stated or text.span.text != text.value:
+    """Return a text as the file writes it; None where entities stand in it.
+
+    XML makes the line ends in an attribute blanks.
+    """
+    if text is None or not text.stated:
         return None
-    return text
+    raw = text.span.text
+    if raw == text.value:
+        return text
+    return Located(raw, text.span) if _LINE_END.sub(" ", raw) == text.value else None
 
 
 def plugin_names(plugin: Element, prefix: str) -> Iterator[WrittenName]:

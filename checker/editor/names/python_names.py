@@ -8,13 +8,13 @@ from collections.abc import Iterator
 
 from checker.editor.names.launch_names import ARGUMENT
 from checker.editor.names.mention import Role, WrittenName
+from checker.editor.names.python_places import PythonPlaces
 from checker.editor.names.values import files_named, names_in
 from checker.source.text import SourceText
 
 _DECLARING = ("DeclareLaunchArgument", "SetLaunchConfiguration")
 _NAMING = ("LaunchConfiguration", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals")
 _QUOTES = re.compile(r"""[A-Za-z]{0,2}('''|\"\"\"|'|")""")
-_LINE_END = re.compile(r"\r\n|\r|\n")
 _FILES_OF = ("IncludeLaunchDescription", "Command", "ExecuteProcess", "Node")
 
 
@@ -31,7 +31,7 @@ class PythonNames:
         self.names: list[WrittenName] = []
         self.values: set[str] = set()
         self._text = source.text
-        self._starts = [0, *(match.end() for match in _LINE_END.finditer(source.text))]
+        self._places = PythonPlaces(source.text)
         waiting: list[tuple[ast.AST, str, tuple[str, ...]]] = [(tree, "", ())]
         while waiting:
             waiting += self._node(*waiting.pop())
@@ -121,7 +121,7 @@ class PythonNames:
             it.value if isinstance(it, ast.Constant) and isinstance(it.value, str) else "#{}"
             for it in node.values
         )
-        start, end = self._offset(node.lineno, node.col_offset), self._end(node)
+        start, end = self._places.of(node)
         for found in names_in("".join(parts), 0, key):
             if found.kinds != ARGUMENT:
                 kinds = found.kinds
@@ -129,24 +129,13 @@ class PythonNames:
 
     def _inside(self, node: ast.Constant, text: str) -> int | None:
         """Return where the text of a string begins; None where it is written otherwise."""
-        start, end = self._offset(node.lineno, node.col_offset), self._end(node)
+        start, end = self._places.of(node)
         quotes = _QUOTES.match(self._text, start)
         if quotes is None:
             return None
         inside = quotes.end()
         written = self._text[inside : end - len(quotes[1])]
         return inside if written == text else None
-
-    def _offset(self, line: int, column: int) -> int:
-        """Return the offset of a line, from 1, and a column in bytes."""
-        start = self._starts[min(line, len(self._starts)) - 1]
-        text = self._text[start : start + column]
-        return start + (
-            column if text.isascii() else len(text.encode()[:column].decode(errors="ignore"))
-        )
-
-    def _end(self, node: ast.expr) -> int:
-        return self._offset(node.end_lineno or node.lineno, node.end_col_offset or 0)
 
 
 def _name(node: ast.AST) -> str:

@@ -35,7 +35,7 @@ _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _PASSED = re.compile(r"([A-Za-z_]\w*):=")
 _REMAPPED = re.compile(r"((?:/|~/)[^\s:]*):=")
 _STEP = re.compile(r"(?<![^/])(model|link|joint|sensor)/([^/]+)")
-_FILE = re.compile(r"[\w.-]+\.(?:launch|launch\.py|launch\.xml|launch\.ya?ml|xacro|urdf|xml)\b")
+_FILE = re.compile(r"(?<![\w.-])[\w.-]{1,200}\.(?:launch(?:\.(?:py|xml|ya?ml))?|xacro|urdf|xml)\b")
 _STEP_KINDS = {
     "model": MODEL_ONLY,
     "link": LINK_ONLY,
