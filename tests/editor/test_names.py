@@ -417,6 +417,16 @@ end
     assert renamed(package, "joint", "LF_HAA", "x")
 
 
+def test_ruby_names_parts_in_escaped_quotes_and_lists_of_words(tmp_path: Path) -> None:
+    model = '<sdf version="1.6"><model name="m"><link name="wheel"/></model></sdf>'
+    ruby = """wheels = %w[wheel other]
+xml = "<plugin name=\\"WheelSlip\\"><wheel link_name=\\"wheel\\"/></plugin>"
+"""
+    package = package_of(tmp_path, {"model.sdf": model, "launch/spawner.rb": ruby})
+    after = renamed(package, "link", "wheel", "tyre")["launch/spawner.rb"]
+    assert after == ruby.replace("%w[wheel", "%w[tyre").replace('\\"wheel\\"', '\\"tyre\\"')
+
+
 def test_model_and_description_are_one_robot(tmp_path: Path) -> None:
     model = '<sdf version="1.6"><model name="m"><link name="base_link"/></model></sdf>'
     urdf = '<robot name="m"><link name="$(arg name)/base_link"/></robot>'
@@ -427,13 +437,27 @@ def test_model_and_description_are_one_robot(tmp_path: Path) -> None:
 
 def test_robots_of_one_package_are_told_apart(tmp_path: Path) -> None:
     urdf = '<robot name="m"><link name="base_link"/></robot>'
-    files = {"urdf/a.urdf": urdf, "urdf/b.urdf": urdf}
+    files = {"urdf/a.urdf": urdf, "urdf/b.urdf": urdf.replace('"m"', '"n"')}
     assert set(renamed(package_of(tmp_path / "1", files), "link", "base_link", "x")) == {
         "urdf/a.urdf"
     }
     joined = {**files, "config/nav.yaml": "base_frame: base_link\n"}
     after = renamed(package_of(tmp_path / "2", joined), "link", "base_link", "x")
     assert set(after) == {*joined}, "a text that tells of no robot means both"
+    after = renamed(
+        package_of(tmp_path / "3", {**files, "urdf/b.urdf": urdf}), "link", "base_link", "x"
+    )
+    assert set(after) == {*files}, "both describe the robot m"
+
+
+def test_what_a_sibling_names_is_not_renamed(tmp_path: Path) -> None:
+    model = '<sdf version="1.6"><model name="m"><link name="hull"/><link name="fin"/></model></sdf>'
+    spawner = "x = 'roslaunch rover_sensor_config_1 d.launch'\nlink = 'hull'\n"
+    other = "../rover_sensor_config_2/launch/spawner.rb"
+    files = {"model.sdf": model, "launch/spawner.rb": "", other: spawner}
+    package = package_of(tmp_path, files, "rover_sensor_config_1")
+    assert f"{other}:2 in another package" in refusal(package, "link", "hull", "keel")
+    assert renamed(package, "link", "fin", "keel")
 
 
 def test_srdf_and_ros2_control_name_joints(tmp_path: Path) -> None:
@@ -562,6 +586,7 @@ def test_the_samples_are_renamed_link_by_link(samples: Path) -> None:
                     and "$" not in thing.name
                 ):
                     edits = index.rename(thing, "quite_new")
-                    assert not isinstance(edits, str) or "compose" in edits, edits
+                    reasons = ("compose", "_config_2/")
+                    assert not isinstance(edits, str) or any(it in edits for it in reasons), edits
                     changed += not isinstance(edits, str)
             assert changed >= 2, folder

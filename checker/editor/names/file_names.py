@@ -86,7 +86,7 @@ def _xml(document: XmlDocument | XmlFault | NotReadable, source: SourceText) -> 
         tuple(included),
         values,
         parameters,
-        sdf.model if sdf else "",
+        sdf.model if sdf else document.root.get("name") or "",
     )
 
 

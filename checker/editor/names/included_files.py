@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from checker.base.record import Record
+from checker.editor.names.expressions import is_composed
 from checker.editor.names.mention import FileNames, Included
 from checker.expand.xacro.files import ROOT, local_path, path_of
 from checker.package.inheritance import Found
@@ -96,7 +97,8 @@ def scopes_of(
     """
     xacro = _connected(files, links)
     robots = {path: xacro[path] for path in files if files[path].format in ("sdf", "robot")}
-    described = {xacro[path] for path in files if files[path].format == "robot"}
+    robots |= _by_robot(files, robots)
+    described = {robots[path] for path in files if files[path].format == "robot"}
     own = package.model_path
     model = own.path if isinstance(own, Found) else ""
     is_sdf = model in files and files[model].format == "sdf"
@@ -108,6 +110,20 @@ def scopes_of(
     for path, file in files.items():
         values.setdefault(xacro[path], set()).update(file.values)
     return Scopes(robots, xacro, {scope: frozenset(found) for scope, found in values.items()})
+
+
+def _by_robot(files: Mapping[str, FileNames], robots: Mapping[str, str]) -> dict[str, str]:
+    """Return for each description the first of all that give their robot the same name."""
+    first: dict[str, str] = {}
+    for path, file in sorted(files.items()):
+        if file.format == "robot" and file.model and not is_composed(file.model):
+            first.setdefault(file.model, robots[path])
+    joined = {
+        robots[path]: first[file.model]
+        for path, file in files.items()
+        if file.format == "robot" and file.model in first
+    }
+    return {path: joined.get(scope, scope) for path, scope in robots.items()}
 
 
 def _connected(

@@ -26,11 +26,13 @@ class NameIndex(Record, eq=False, dict=True):
     """The names of a package.
 
     Attributes:
+        package: That was read.
         files: Names of each file, those of siblings that the package includes among them.
         links: By path, the paths of the files that it includes; None where one is not known.
         scopes: What the things of each file belong to.
     """
 
+    package: Package
     files: Mapping[str, FileNames]
     links: Mapping[str, tuple[str | None, ...]]
     scopes: Scopes
@@ -118,7 +120,32 @@ class NameIndex(Record, eq=False, dict=True):
             new: The new name of what stands at the mention, which is that of the thing without
                 the models around it; of a topic, without the model's name in front.
         """
-        return renamed(self, mention, new)
+        edits = renamed(self, mention, new)
+        if isinstance(edits, str) or not edits:
+            return edits
+        named = next(self._in_siblings(mention), None)
+        if named is None:
+            return edits
+        path, line = named
+        return f"{path}:{line} in another package names the {mention.kind}, and would not change"
+
+    def _in_siblings(self, mention: Mention) -> Iterator[tuple[str, int]]:
+        """Yield where siblings that include the files of this package mention its thing."""
+        own = {(it.kind, it.name, it.path) for it in self.same(mention) if it.is_definition}
+        folder = f"../{self.package.root.name}/"
+        for sibling in self.package.others:
+            if not _names_package(sibling, self.package):
+                continue
+            index = names_of(sibling)
+            for it in index.mentions:
+                path = it.path.removeprefix(folder)
+                if path == it.path or (it.kind, it.name, path) not in own:
+                    continue
+                for other in index.same(it):
+                    if not other.path.startswith("../"):
+                        source = index.files[other.path].source
+                        shown = f"../{sibling.root.name}/{other.path}"
+                        yield shown, source.position(other.start)[0]
 
     def made(self, mention: Mention) -> Iterator[Mention]:
         """Yield mentions by the names that a composed one may come to."""
@@ -131,6 +158,16 @@ class NameIndex(Record, eq=False, dict=True):
                 continue
             if may_come_to(mention.name, name, values):
                 yield from mentions
+
+
+def _names_package(sibling: Package, package: Package) -> bool:
+    """Whether any file of a package that holds names has the name of another package in it."""
+    wanted = {package.root.name, package.declared_name}
+    files = [it.path for it in sibling.index.files if holds_names(it.path, it.size)]
+    texts = (sibling.read(path) for path in files)
+    return any(
+        name in text.text for text in texts if isinstance(text, SourceText) for name in wanted
+    )
 
 
 def names_of(package: Package, known: NameIndex | None = None) -> NameIndex:
@@ -149,7 +186,7 @@ def names_of(package: Package, known: NameIndex | None = None) -> NameIndex:
     if isinstance(model, Found) and model.is_inherited:
         _take(package, model.path, earlier, files)
     links = _follow(package, earlier, files)
-    return NameIndex(files, links, scopes_of(package, files, links))
+    return NameIndex(package, files, links, scopes_of(package, files, links))
 
 
 def _take(

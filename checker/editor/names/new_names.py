@@ -7,7 +7,7 @@ import re
 
 from checker.editor.names.expressions import EXPRESSION, expressions, is_composed
 from checker.editor.names.mention import NameKind
-from checker.editor.names.sdf_names import RESERVED
+from checker.editor.names.plugin_names import RESERVED
 
 _PART = re.compile(r"[\w.-]+")
 _PART_LIMIT = 200
@@ -36,6 +36,7 @@ _XACRO_WORDS = frozenset(
         *("max", "abs", "round", "range", "load_yaml", "pow", "floor", "ceil", "atan2", "map"),
     )
 )
+_PARTS = frozenset({NameKind.LINK, NameKind.JOINT, NameKind.FRAME})
 _XACRO_TAGS = frozenset(
     (
         *("macro", "property", "arg", "include", "insert_block", "if", "unless", "element"),
@@ -56,9 +57,11 @@ def invalid(kind: NameKind, old: str, new: str) -> str:
     if is_composed(old) or is_composed(new):
         if expressions(old) != expressions(new):
             return f"{shown}: it must keep the expressions of {old!r}"
-        new = EXPRESSION.sub("x", new)
+        old, new = EXPRESSION.sub("x", old), EXPRESSION.sub("x", new)
     if len(new) > _PART_LIMIT:
         return f"{shown}: it is longer than {_PART_LIMIT} characters"
+    if kind in _PARTS and "/" in old:
+        new = new.replace("/", "_")  # a robot that has such names may have another one
     if kind is NameKind.MACRO and new in _XACRO_TAGS:
         return f"{shown}: xacro:{new} is an element of xacro"
     if kind in (NameKind.PROPERTY, NameKind.ARGUMENT):

@@ -21,6 +21,8 @@ from checker.source.text import Located
 from checker.source.xml import Element
 
 _LINE_END = re.compile(r"\r\n|[\r\n\t]")
+RESERVED = frozenset({"", "world", "__model__", "__root__"})
+"""Names of frames that are always there."""
 _LISTS = ("joints", "links", "jointname", "jointnames", "wheelnames")
 """Endings of tags whose text is a list."""
 
@@ -102,7 +104,7 @@ def frame_named(text: Located[str], prefix: str = "") -> Iterator[WrittenName]:
         return
     first = value.rfind("/", 0, len(value)) + 1
     last = value[first:]
-    if last and not is_computed(last) and not last.isspace():
+    if last not in RESERVED and not is_computed(last) and not last.isspace():
         yield WrittenName(FRAMES, prefix + last, start + first, start + len(value), Role.STATES)
 
 

@@ -14,8 +14,7 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.plugin_names import plugin_names, sensor_names, written
-from checker.editor.names.sdf_names import RESERVED
+from checker.editor.names.plugin_names import RESERVED, plugin_names, sensor_names, written
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 

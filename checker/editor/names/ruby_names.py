@@ -10,13 +10,14 @@ from collections.abc import Iterator
 
 from checker.editor.names.mention import WrittenName
 from checker.editor.names.plugin_names import frame_named, is_topic_tag, topic_named
-from checker.editor.names.values import names_in
+from checker.editor.names.values import names_in, words_in
 from checker.source.text import Located, SourceText, Span
 
 _TEXT = re.compile(
     r"""<([A-Za-z_][\w.:-]{0,60})(?:\s[^<>]{0,2000})?>([^<>\n]{1,2000})</"""
-    r"""|(?<![\w])([A-Za-z_][\w-]{0,60})=(["'])([^"'<>\n]{1,500})\4"""
+    r"""|(?<![\w])([A-Za-z_][\w-]{0,60})=\\?(["'])([^"'<>\\\n]{1,500})\\?\4"""
     r"""|(["'])((?:(?!\6)[^\\\n]){0,500})\6"""
+    r"""|%[wWiI][\[({<]([^\])}>]{0,2000})[\])}>]"""
 )
 _COMMENT = re.compile(r"^[ \t]*#(?!\{)[^\n]*", re.MULTILINE)
 _WORDS = re.compile(r"[\s,]+")
@@ -30,8 +31,10 @@ def ruby_names(source: SourceText) -> Iterator[WrittenName]:
             yield from _of_element(source, match)
         elif match[3] is not None:
             yield from names_in(match[5], match.start(5), match[3])
-        else:
+        elif match[7] is not None:
             yield from names_in(match[7], match.start(7))
+        else:
+            yield from words_in(match[8], match.start(8))
 
 
 def _without_xml_comments(text: str) -> str:
@@ -46,7 +49,7 @@ def _without_xml_comments(text: str) -> str:
 
 def ruby_values(source: SourceText) -> frozenset[str]:
     """Return the strings of a Ruby file, which its expressions may come to."""
-    found = (match[7] or match[5] for match in _TEXT.finditer(source.text))
+    found = (match[7] or match[5] or match[8] for match in _TEXT.finditer(source.text))
     return frozenset(word for text in found if text for word in (text, *_WORDS.split(text)))
 
 

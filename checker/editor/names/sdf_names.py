@@ -15,13 +15,11 @@ from checker.editor.names.mention import (
     Role,
     WrittenName,
 )
-from checker.editor.names.plugin_names import plugin_names, sensor_names, written
+from checker.editor.names.plugin_names import RESERVED, plugin_names, sensor_names, written
 from checker.editor.names.values import scoped_names
 from checker.source.text import Located
 from checker.source.xml import Element, XmlDocument
 
-RESERVED = frozenset({"", "world", "__model__", "__root__"})
-"""Names of frames that are always there."""
 _OWN = "::__model__"
 _REFERRING = ("relative_to", "attached_to", "expressed_in", "canonical_link", "placement_frame")
 _TEXTS = {
